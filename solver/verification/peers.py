@@ -10,7 +10,7 @@ import importlib
 import importlib.metadata
 import importlib.util
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -33,6 +33,9 @@ MOTION_S = 10.0
 """Longest duration used of a motion of three components [s]."""
 
 STIFFNESS_PER_M = 1e5
+
+ONE_AXIS, VERTICAL, TWO_AXES = "one axis", "one axis with vertical", "two axes with vertical"
+"""The models that are judged."""
 
 _G = STANDARD_GRAVITY_MPS2
 
@@ -57,21 +60,26 @@ class Peer:
 
 
 def peer_points(
-    records: Sequence[Record], triples: Sequence[Triple], *, quick: bool
+    judges: Mapping[str, Sequence[Peer]],
+    records: Sequence[Record],
+    triples: Sequence[Triple],
+    *,
+    quick: bool,
 ) -> Iterator[PeerPoint]:
-    """Run the installed programs: in one axis on records, then on the strongest part of motions.
+    """Run the installed programs of each model: one axis on records, others on parts of motions.
 
-    Uses the first motions whose vertical component does not lift the block.
+    Uses the strongest parts of the first motions whose vertical does not lift the block.
     """
     kept = [triple for triple in triples if rungs.stays(triple)][:MOTIONS]
-    for model, peers, scenes in (
-        ("one axis", ONE_AXIS, list(_record_scenes(records, quick))),
-        ("one axis with vertical", VERTICAL, list(_motion_scenes(kept, quick, second=False))),
-        ("two axes with vertical", TWO_AXES, list(_motion_scenes(kept, quick, second=True))),
-    ):
+    scenes = {
+        ONE_AXIS: list(_record_scenes(records, quick)),
+        VERTICAL: list(_motion_scenes(kept, quick, second=False)),
+        TWO_AXES: list(_motion_scenes(kept, quick, second=True)),
+    }
+    for model, peers in judges.items():
         for peer in peers:
             if importlib.util.find_spec(peer.module) is not None:
-                yield from (_point(peer, model, *named) for named in scenes)
+                yield from (_point(peer, model, *named) for named in scenes[model])
 
 
 def _record_scenes(records: Sequence[Record], quick: bool) -> Iterator[_Named]:
@@ -250,6 +258,8 @@ _PYSLAMMER = Peer(
     prd_m=_pyslammer,
 )
 
-ONE_AXIS = (_OPENSEES, *_MUJOCOS, _PYSLAMMER)
-VERTICAL = (_OPENSEES,)
-TWO_AXES = _MUJOCOS
+JUDGES = {
+    ONE_AXIS: (_OPENSEES, *_MUJOCOS, _PYSLAMMER),
+    VERTICAL: (_OPENSEES,),
+    TWO_AXES: _MUJOCOS,
+}

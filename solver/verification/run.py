@@ -130,7 +130,7 @@ def verify(
     progress("The paper's design curves (Figs. 10 to 12)")
     curves = tuple(paper_studies.design_curves(record) for record in chosen)
     progress("Other programs, if installed")
-    judged = tuple(peers.peer_points(chosen[:3], triples, quick=quick))
+    judged = tuple(peers.peer_points(peers.JUDGES, chosen[:3], triples, quick=quick))
     return Verification(
         checks=tuple(rows),
         work=work,

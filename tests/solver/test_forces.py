@@ -5,25 +5,15 @@ import math
 import numpy as np
 import pytest
 
+from blocks import block
 from solver.forces import Forces, forces
-from solver.model import Scene, coulomb
 
 RNG = np.random.default_rng(3)
 AX, AY, AZ = RNG.normal(0.0, 3.0, (3, 50))
-EMPTY = np.empty(0)
 
 
-def scene(ax, ay=EMPTY, az=EMPTY, slope=0.1, scale=1.0):
-    return Scene(
-        ax_mps2=ax,
-        ay_mps2=ay,
-        az_mps2=az,
-        dt_s=0.01,
-        slope_rad=slope,
-        friction=coulomb(0.4),
-        scale=scale,
-        g_mps2=9.81,
-    )
+def scene(ax, ay=(), az=(), slope=0.1, scale=1.0):
+    return block(ax, ay, az, slope=slope, scale=scale, g=9.81)
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1, -0.3])

@@ -5,26 +5,22 @@ import math
 import numpy as np
 import pytest
 
-from solver.friction_tests import (
-    LEAST_VELOCITIES,
-    MOST_MU,
-    MOST_RATE_S_PER_M,
-    FrictionRun,
-    Surface,
-    fit_law,
-    governing,
-    series,
-)
+from solver import friction_tests
+from solver.friction_tests import FrictionRun, Surface, fit_law, governing, series
 from solver.model import Friction, coulomb
 
-LAW = Friction(mu_slow=0.40, mu_fast=0.52, rate_s_per_m=20.0, mu_static=0.40)
+
+def law_of(mu_fast, rate, mu_slow=0.40):
+    return Friction(mu_slow=mu_slow, mu_fast=mu_fast, rate_s_per_m=rate, mu_static=mu_slow)
+
+
+LAW = law_of(0.52, 20.0)
 VELOCITIES = (0.002, 0.01, 0.03, 0.06, 0.1, 0.2)
 
 
 def run(mu, *, surface=Surface.DRY, report="R1", velocity=math.nan, static=math.nan):
-    return FrictionRun(
-        report=report, surface=surface, velocity_mps=velocity, mu=mu, mu_static=static
-    )
+    about = {"report": report, "surface": surface, "velocity_mps": velocity}
+    return FrictionRun(mu=mu, mu_static=static, **about)
 
 
 def test_the_law_runs_from_the_low_to_the_high_velocity_coefficient():
@@ -48,14 +44,10 @@ def test_runs_are_averaged_by_report_and_surface():
 
 
 def test_the_smallest_mean_governs_among_the_reports_that_an_array_names():
-    groups = series(
-        [run(0.50), run(0.46, surface=Surface.WET), run(0.40, report="R10"), run(0.1, report="")]
-    )
-    assert governing(groups, "").mean == 0.1
-    assert governing(groups, "ASTM G115, r1, 2025").mean == 0.46
-    assert governing(groups, "R10").mean == 0.40
-    assert governing(groups, "R1 and R10").mean == 0.40
-    assert governing(groups, "R100").mean == 0.1
+    wet, other, none = run(0.46, surface=Surface.WET), run(0.40, report="R10"), run(0.1, report="")
+    groups = series([run(0.50), wet, other, none])
+    wanted = {"": 0.1, "ASTM G115, r1, 2025": 0.46, "R10": 0.4, "R1 and R10": 0.4, "R100": 0.1}
+    assert {named: governing(groups, named).mean for named in wanted} == wanted
 
 
 def test_a_law_is_averaged_at_the_tested_velocities_and_taken_at_its_largest_without_any():
@@ -64,8 +56,7 @@ def test_a_law_is_averaged_at_the_tested_velocities_and_taken_at_its_largest_wit
     assert tested.mean_of(coulomb(0.45)) == 0.45
     (unknown,) = series([run(0.5)])
     assert unknown.mean_of(LAW) == 0.52
-    falling = Friction(mu_slow=0.5, mu_fast=0.3, rate_s_per_m=20.0, mu_static=0.5)
-    assert unknown.mean_of(falling) == 0.5
+    assert unknown.mean_of(law_of(0.3, 20.0, mu_slow=0.5)) == 0.5
 
 
 def test_runs_at_different_velocities_are_no_repeats_of_each_other():
@@ -85,12 +76,11 @@ def test_runs_at_different_velocities_are_no_repeats_of_each_other():
 @pytest.mark.parametrize("mu_fast", [0.52, 0.31])
 @pytest.mark.parametrize("rate", [3.0, 20.0, 400.0])
 def test_runs_on_a_law_give_that_law(mu_fast, rate):
-    law = Friction(mu_slow=0.40, mu_fast=mu_fast, rate_s_per_m=rate, mu_static=0.40)
+    law = law_of(mu_fast, rate)
     fit = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
     assert fit.is_determined
     assert fit.law.rate_s_per_m == pytest.approx(rate, rel=1e-9)
-    assert fit.law.mu_slow == pytest.approx(0.40, abs=1e-11)
-    assert fit.law.mu_fast == pytest.approx(mu_fast, abs=1e-11)
+    assert (fit.law.mu_slow, fit.law.mu_fast) == pytest.approx((0.40, mu_fast), abs=1e-11)
     assert fit.law.mu_static == fit.law.mu_slow
     assert fit.rms < 1e-12
 
@@ -109,18 +99,14 @@ def test_scattered_runs_give_the_law_at_which_the_sum_of_squares_is_stationary()
     for slope in (decay, 1.0 - decay, drop * law.rate_s_per_m * v * decay):
         cosine = residual @ slope / (np.linalg.norm(residual) * np.linalg.norm(slope))
         assert abs(cosine) < 1e-6
-    rates = np.geomspace(0.5, MOST_RATE_S_PER_M, 5000)
-    least = min(_squares(v, mu, rate) for rate in rates)
-    assert v.size * fit.rms**2 <= least * (1.0 + 1e-12)
-
-
-def _squares(v, mu, rate):
-    columns = np.stack([np.exp(-rate * v), np.ones_like(v)], axis=1)
-    return float(np.linalg.lstsq(columns, mu)[1][0])
+    for rate in np.geomspace(0.5, friction_tests.MOST_RATE_S_PER_M, 5000):
+        columns = np.stack([np.exp(-rate * v), np.ones_like(v)], axis=1)
+        squares = np.linalg.lstsq(columns, mu)[1][0]
+        assert v.size * fit.rms**2 <= squares * (1.0 + 1e-12)
 
 
 def test_fewer_than_four_velocities_give_no_law():
-    few = VELOCITIES[: LEAST_VELOCITIES - 1]
+    few = VELOCITIES[: friction_tests.LEAST_VELOCITIES - 1]
     assert fit_law(few * 3, [0.4, 0.42, 0.43] * 3) is None
     assert fit_law((*few, math.nan), [0.4, 0.42, 0.43, 0.44]) is None
     assert fit_law((*few, 0.05), [0.4, 0.42, 0.43, 0.44]) is not None
@@ -140,9 +126,9 @@ def test_runs_that_do_not_show_a_transition_determine_no_law(mus):
 
 
 def test_a_law_beyond_the_range_of_coefficients_is_not_determined():
-    law = Friction(mu_slow=0.4, mu_fast=MOST_MU + 0.2, rate_s_per_m=4.0, mu_static=0.4)
+    law = law_of(friction_tests.MOST_MU + 0.2, 4.0)
     fit = fit_law(VELOCITIES, [law.at(v) for v in VELOCITIES])
-    assert fit.law.mu_fast == pytest.approx(MOST_MU + 0.2)
+    assert fit.law.mu_fast == pytest.approx(law.mu_fast)
     assert not fit.is_determined
 
 

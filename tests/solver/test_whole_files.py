@@ -13,8 +13,12 @@ from solver.files import write_whole
 from solver.model import InputError
 
 
-def test_a_file_is_written_and_replaced(tmp_path):
-    path = tmp_path / "a.csv"
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "a.csv"
+
+
+def test_a_file_is_written_and_replaced(tmp_path, path):
     write_whole(path, b"1")
     write_whole(path, b"2")
     assert path.read_bytes() == b"2"
@@ -25,8 +29,7 @@ def test_a_file_is_written_and_replaced(tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["file", "folder", "dangling link"])
-def test_what_exists_is_not_replaced_unless_asked_for(tmp_path, kind):
-    path = tmp_path / "a.csv"
+def test_what_exists_is_not_replaced_unless_asked_for(tmp_path, path, kind):
     if kind == "file":
         path.write_bytes(b"old")
     elif kind == "folder":
@@ -39,25 +42,20 @@ def test_what_exists_is_not_replaced_unless_asked_for(tmp_path, kind):
     assert [entry.name for entry in tmp_path.iterdir()] == ["a.csv"]
 
 
-def test_a_link_is_replaced_and_not_followed(tmp_path):
+def test_a_link_is_replaced_and_not_followed(tmp_path, path):
     target = tmp_path / "target.csv"
     target.write_bytes(b"old")
-    (tmp_path / "a.csv").symlink_to(target)
-    write_whole(tmp_path / "a.csv", b"new")
-    assert target.read_bytes() == b"old"
-    assert (tmp_path / "a.csv").read_bytes() == b"new"
+    path.symlink_to(target)
+    write_whole(path, b"new")
+    assert (target.read_bytes(), path.read_bytes()) == (b"old", b"new")
 
 
 @pytest.mark.parametrize("replace", [True, False])
-def test_a_full_disk_leaves_the_former_file_or_none(tmp_path, files_up_to, replace):
-    path = tmp_path / "a.csv"
+def test_a_full_disk_leaves_the_former_file_or_none(tmp_path, path, files_up_to, replace):
     if replace:
         path.write_bytes(b"old")
-
-    with (
-        files_up_to(100),
-        pytest.raises(InputError, match=r"a\.csv: cannot be written \(File too large"),
-    ):
+    told = r"a\.csv: cannot be written \(File too large"
+    with files_up_to(100), pytest.raises(InputError, match=told):
         write_whole(path, b"new" * 100, replace=replace)
     assert [entry.read_bytes() for entry in tmp_path.iterdir()] == ([b"old"] if replace else [])
 
@@ -67,12 +65,12 @@ def test_a_name_that_is_too_long_is_an_input_error(tmp_path):
         write_whole(tmp_path / ("x" * 300), b"")
 
 
-def test_a_file_system_without_hard_links_is_written_to(tmp_path, monkeypatch):
-    def refused(source, target):
-        raise PermissionError(1, "Operation not permitted")
+def refused(*_):
+    raise PermissionError(1, "Operation not permitted")
 
+
+def test_a_file_system_without_hard_links_is_written_to(path, monkeypatch):
     monkeypatch.setattr(os, "link", refused)
-    path = tmp_path / "a.csv"
     write_whole(path, b"new", replace=False)
     assert path.read_bytes() == b"new"
     with pytest.raises(InputError, match="already exists"):
@@ -90,12 +88,8 @@ write_whole(Path(sys.argv[1]), b"half")
 
 
 def test_what_a_killed_writer_left_is_swept_up_and_nothing_else(tmp_path):
-    writers = [
-        subprocess.Popen(
-            [sys.executable, "-c", WRITER, tmp_path / "b.csv"], cwd=ROOT, stdout=subprocess.PIPE
-        )
-        for _ in range(2)
-    ]
+    command = [sys.executable, "-c", WRITER, tmp_path / "b.csv"]
+    writers = [subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) for _ in range(2)]
     killed, living = writers
     for writer in writers:
         writer.stdout.readline()
@@ -108,8 +102,7 @@ def test_what_a_killed_writer_left_is_swept_up_and_nothing_else(tmp_path):
     before = set(os.listdir(tmp_path))
     write_whole(tmp_path / "a.csv", b"1")
     left = set(os.listdir(tmp_path))
-    assert len(before - left) == 1
-    assert left - before == {"a.csv"}
+    assert (len(before - left), left - before) == (1, {"a.csv"})
     assert foreign < left
     living.kill()
     living.wait()
@@ -119,7 +112,7 @@ def test_what_a_killed_writer_left_is_swept_up_and_nothing_else(tmp_path):
         writer.stdout.close()
 
 
-def test_a_file_that_is_swept_before_it_is_locked_is_begun_again(tmp_path, monkeypatch):
+def test_a_file_that_is_swept_before_it_is_locked_is_begun_again(tmp_path, path, monkeypatch):
     swept, flock = [], files.fcntl.flock
 
     def late(file, how):
@@ -129,25 +122,21 @@ def test_a_file_that_is_swept_before_it_is_locked_is_begun_again(tmp_path, monke
         flock(file, how)
 
     monkeypatch.setattr(files.fcntl, "flock", late)
-    write_whole(tmp_path / "a.csv", b"1")
+    write_whole(path, b"1")
     assert len(swept) == 1
     assert os.listdir(tmp_path) == ["a.csv"]
 
 
-def test_a_file_system_without_locks_is_written_to_and_not_swept(tmp_path, monkeypatch):
-    def refused(file, how):
-        raise OSError(95, "Operation not supported")
-
+def test_a_file_system_without_locks_is_written_to_and_not_swept(tmp_path, path, monkeypatch):
     monkeypatch.setattr(files.fcntl, "flock", refused)
     left = tmp_path / ".roofslip-0123456789abcdef.part"
     left.touch()
-    write_whole(tmp_path / "a.csv", b"1")
-    assert (tmp_path / "a.csv").read_bytes() == b"1"
+    write_whole(path, b"1")
+    assert path.read_bytes() == b"1"
     assert left.exists()
 
 
-def test_a_replaced_file_keeps_its_permissions(tmp_path):
-    path = tmp_path / "a.csv"
+def test_a_replaced_file_keeps_its_permissions(path):
     path.touch()
     path.chmod(0o640)
     write_whole(path, b"1")

@@ -1,50 +1,15 @@
-"""The kernels with the compiler off: the same bits, and every line run."""
+"""The kernels with the compiler off, to the bit, and at the ends of records."""
 
 import math
-import os
 from itertools import product
 
 import numpy as np
 import pytest
 
+from blocks import SCENES, readonly
 from solver.kernels import one_axis, oscillator
-from uncompiled import assert_every_line_runs
 
 G = 10.0
-
-
-def readonly(values):
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
-
-
-# Horizontal samples, vertical samples, sine of the slope, friction, chosen so that together they
-# reach every line: pulses, reversals, dips to zero, equal samples, no friction, free sliding.
-SCENES = [
-    ([0.0, 4.0, 4.0, -8.0, 0.0, 0.0], [], 0.0, 0.2),
-    ([-4.0, 0.5, -8.0], [], 0.0, 0.2),
-    ([-4.0, 2.0, 2.0, -8.0], [], 0.0, 0.2),
-    ([2.0, 2.0, 2.0, -2.0, -2.0], [], 0.0, 0.2),
-    ([3.0, -3.0, 3.0, 3.0, -9.0, 5.0], [], 0.0, 0.0),
-    ([0.0, 0.0, 0.0, 0.0], [], 0.3, 0.1),
-    ([0.0, -6.0, 6.0, -6.0, 0.0, 0.0], [0.0, 2.0, -3.0, 1.0, 0.0, 0.0], 0.1, 0.4),
-    ([0.0, 0.0, -30.0, 0.0], [], 0.5, 0.4),
-    ([-30.0, 0.0, 0.0], [], 0.5, 0.4),
-    ([0.0, -20.0, 0.0, 12.0, 0.0], [], -0.6, 0.3),
-    # The speed comes down to touch zero at the vertex, within a rounding.
-    ([-4.0, 0.0, -4.0, -4.0], [], 0.0, 0.2),
-    ([0.0, -3.0, 1.0, -3.0, -3.0], [], 0.0, 0.1),
-    # Self-locking: no push can send it up the slope.
-    ([0.0, 8.0, 9.0, 0.0], [], 0.8, 1.5),
-    ([0.0, 8.0, 9.0, 0.0], [], 0.6, 0.75),
-    # The speed dips within an interval and stays above zero.
-    ([-8.0, -1.0, -8.0, 0.0], [], 0.0, 0.2),
-]
-
-
-def cosine(sn):
-    return float(np.sqrt(1.0 - sn * sn))
 
 
 def quiet_then_shaken(n):
@@ -63,22 +28,15 @@ LONG = [
 
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
+    names = "slide_exact", "fill_history", "least_normal", "bounds", "sweep_exact", "sweep_alone"
+    kernels = [getattr(one_axis, name) for name in names]
     exact, fill, normal, bounds, sweep, alone, peaks, oscillations = (
         f if compiled else getattr(f, "py_func", f)
-        for f in (
-            one_axis.slide_exact,
-            one_axis.fill_history,
-            one_axis.least_normal,
-            one_axis.bounds,
-            one_axis.sweep_exact,
-            one_axis.sweep_alone,
-            oscillator.peaks,
-            oscillator.histories,
-        )
+        for f in (*kernels, oscillator.peaks, oscillator.histories)
     )
     numbers = []
     for (horizontal, vertical, sn, mu), scale in product(SCENES + LONG, (1.0, 0.0)):
-        ax, cs = readonly(horizontal), cosine(sn)
+        ax, cs = readonly(horizontal), math.sqrt(1.0 - sn * sn)
         az = readonly(vertical) if len(vertical) else None
         x, z = bounds(ax), bounds(az) if az is not None else None
         run = exact(ax, az, x, z, 0.25, sn, cs, mu, G, scale, None)
@@ -132,10 +90,3 @@ def test_the_last_sample_of_a_record_of_any_length_is_seen(size, vertical):
         least, first = one_axis.least_normal(ax, az, *bounds, 0.25, sn, cs, G, 1.0)
         assert least == pytest.approx(cs - 1.2, rel=1e-12)
         assert first == pytest.approx(0.25 * (size - 2 + cs / 1.2), rel=1e-12)
-
-
-@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
-@pytest.mark.nightly("solver/kernels/one_axis.py", "solver/kernels/oscillator.py")
-def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
-    assert_every_line_runs("solver/kernels/one_axis.py", __file__, tmp_path)
-    assert_every_line_runs("solver/kernels/oscillator.py", __file__, tmp_path / "oscillator")

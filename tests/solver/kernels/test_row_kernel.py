@@ -1,13 +1,12 @@
-"""The row's kernels with the compiler off: the same bits, and every line run."""
+"""The row's kernels with the compiler off, and roots of their polynomials."""
 
 import math
-import os
 
 import numpy as np
 import pytest
 
+from blocks import readonly
 from solver.kernels import row
-from uncompiled import assert_every_line_runs
 
 # Pushes, normal forces, friction and masses of the blocks, stiffness, damping.
 SCENES = [
@@ -17,12 +16,6 @@ SCENES = [
     ([3.0, 3.0, 3.0, 3.0], [10.0] * 4, [5.0, 0.0], [1.0, 1.0], 0.0, 3.0),
     ([3.0, 3.0, 3.0, 3.0], [10.0] * 4, [5.0, 0.0], [1.0, 1.0], 0.0, 0.0),
 ]  # fmt: skip
-
-
-def readonly(values):
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
 
 
 def run_all(follow):
@@ -99,9 +92,3 @@ def test_the_largest_value_of_a_polynomial_is_inside_where_it_turns():
     assert row._largest(turning, 2, 1.0) == pytest.approx(0.25, rel=1e-15)
     assert row._largest(turning, 2, 0.25) == pytest.approx(0.1875, rel=1e-15)
     assert row._largest(-turning, 2, 2.0) == 2.0
-
-
-@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
-@pytest.mark.nightly("solver/kernels/row.py")
-def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
-    assert_every_line_runs("solver/kernels/row.py", __file__, tmp_path)

@@ -1,7 +1,6 @@
 """Every method against closed forms and the exact one: its order, its limits, where it fails."""
 
 import math
-import subprocess
 import sys
 
 import numpy as np
@@ -10,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import solver
+from blocks import trapezoid
 from solver.model import InputError, Status
 from solver.rivals import regularized
 from solver.rivals.methods import METHODS, link_frequency
@@ -19,24 +19,28 @@ from solver.verification import problems
 G = 9.80665
 STEPPED = ("paper", "linear", "adaptive")
 LINKS = ("penalty-explicit", "penalty-implicit")
-SCENES = [(0, 0.2), (0, 0.4), (4, 0.3), (-4, 0.3), (7, 0.5), (2, 0.15)]
-
-
-def trapezoid(peak, dt, plateau_steps, rest_steps):
-    """A pulse with ramps of one interval, then rest."""
-    return np.concatenate([[0.0], np.full(plateau_steps + 1, peak), np.zeros(rest_steps)])
+SCENES = [
+    {"slope_rad": math.radians(degrees), "mu": mu}
+    for degrees, mu in [(0, 0.2), (0, 0.4), (4, 0.3), (-4, 0.3), (7, 0.5), (2, 0.15)]
+]
 
 
 def errors(record, dt, method, *, scenes=SCENES, **parameters):
     """Largest error of the PRD and the residual over the PRD, for each scene."""
     shares = []
-    for degrees, mu in scenes:
-        scene = {"slope_rad": math.radians(degrees), "mu": mu}
+    for scene in scenes:
         exact = slide(record, dt, **scene)
         other = slide(record, dt, **scene, method=method, **parameters)
         off = other.prd_m - exact.prd_m, other.residual_m - exact.residual_m
         shares.append(max(map(abs, off)) / exact.prd_m)
     return np.array(shares)
+
+
+def off_m(record, dt, scene, method, counts):
+    """Errors of the residual over numbers of sub-steps."""
+    runs = (slide(record, dt, **scene, method=method, substeps=p) for p in counts)
+    exact_m = slide(record, dt, **scene).residual_m
+    return np.array([abs(run.residual_m - exact_m) for run in runs])
 
 
 def link_at(radians, dt, substeps):
@@ -58,17 +62,19 @@ def test_a_method_states_its_facts(name):
 
 @pytest.mark.parametrize("name", METHODS)
 def test_a_method_runs_with_its_defaults_and_over_its_sweep(name):
-    pulse = trapezoid(-0.5 * G, 0.02, 5, 20)
-    default = slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name)
-    assert default.prd_m > 0.0
     method = METHODS[name]
+
+    def run(**parameters):
+        pulse = trapezoid(-0.5 * G, 5, 20)
+        return slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **parameters)
+
+    assert run().prd_m > 0.0
     for value in method.sweep:
         some = method.settings(value, 0.02, G)
         assert some.keys() == method.parameters.keys()
         assert some[method.knob] == value
-        result = slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **some)
-        assert result.status is not Status.DIVERGED
-    assert default == slide(pulse, 0.02, slope_rad=0.0, mu=0.3, method=name, **method.parameters)
+        assert run(**some).status is not Status.DIVERGED
+    assert run() == run(**method.parameters)
 
 
 def test_a_sweep_ends_finer_than_it_begins(noise):
@@ -84,11 +90,6 @@ def test_the_mapping_is_public_and_cannot_be_changed():
     assert solver.METHODS is METHODS
     with pytest.raises(TypeError):
         METHODS["euler"] = METHODS["exact"]
-
-
-def test_scipy_is_loaded_only_when_it_is_needed():
-    code = "import sys, solver; sys.exit('scipy.integrate' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 # Closed forms
@@ -108,37 +109,33 @@ FINE = {
 }
 
 
-@pytest.mark.parametrize("name", CEILINGS)
-def test_a_ramped_pulse_on_a_flat_roof_is_met_within_the_ceiling(name):
-    dt, plateau = 0.01, 20
-    expected = problems.pulse_travel(0.4 * G, 0.1 * G, plateau * dt, dt)
-    ax = trapezoid(0.4 * G, dt, plateau, 150)
-    result = slide(ax, dt, slope_rad=0.0, mu=0.1, method=name, **FINE.get(name, {}))
-    assert result.prd_m == pytest.approx(expected, rel=CEILINGS[name])
-    assert result.up_m == pytest.approx(expected, rel=CEILINGS[name])
-    assert result.status is Status.OK
+FLAT, SLOPED = (0, 0.1, 0.4), (5, 0.4, 0.6)
 
 
-@pytest.mark.parametrize("vertical", [-0.3, 0.3])
-@pytest.mark.parametrize("name", [name for name in CEILINGS if METHODS[name].takes_vertical])
-def test_a_ramped_pulse_on_a_slope_with_vertical_shaking_is_met(name, vertical):
-    slope, dt, plateau = math.radians(5), 0.01, 30
-    drive, resist = problems.slope_pulse(slope, 0.4, 0.6, vertical, G)
-    ax, az = (trapezoid(a * G, dt, plateau, 150) for a in (-0.6, vertical))
+@pytest.mark.parametrize(
+    ("name", "scene", "vertical"),
+    [
+        *((name, FLAT, 0.0) for name in CEILINGS),
+        *((n, SLOPED, a) for n in CEILINGS if METHODS[n].takes_vertical for a in (-0.3, 0.3)),
+    ],
+)
+def test_a_ramped_pulse_is_met_within_the_ceiling(name, scene, vertical):
+    (degrees, mu, amplitude), dt, plateau = scene, 0.01, 25
+    slope, az = math.radians(degrees), trapezoid(vertical * G, plateau, 150) if vertical else None
+    drive, resist = problems.slope_pulse(slope, mu, amplitude, vertical, G)
     expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
-    scene = {"slope_rad": slope, "mu": 0.4, "az_mps2": az}
-    result = slide(ax, dt, **scene, method=name, **FINE.get(name, {}))
-    assert result.down_m == pytest.approx(expected, rel=CEILINGS[name])
+    ax, some = trapezoid(-amplitude * G, plateau, 150), {"method": name} | FINE.get(name, {})
+    result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, **some)
+    assert (result.prd_m, result.down_m) == pytest.approx((expected,) * 2, rel=CEILINGS[name])
+    assert result.status is Status.OK
 
 
 @pytest.mark.parametrize("name", ["paper", "linear", "penalty-explicit", "penalty-implicit"])
 def test_the_steady_harmonic_travels_as_far_each_half_cycle(name):
-    dt = 1 / 200
-    t = np.arange(40 * 200 + 1) * dt
-    ax = 0.5 * G * np.sin(2 * np.pi * t)
-    history = slide_history(ax, dt, slope_rad=0, mu=0.2, method=name, **FINE.get(name, {}))
-    last = history.u_m[-201:]
-    assert np.ptp(last) == pytest.approx(problems.harmonic_travel(0.5, 0.2, 1.0, G), rel=0.005)
+    ax = 0.5 * G * np.sin(2 * np.pi * np.arange(40 * 200 + 1) / 200)
+    history = slide_history(ax, 1 / 200, slope_rad=0, mu=0.2, method=name, **FINE.get(name, {}))
+    expected = problems.harmonic_travel(0.5, 0.2, 1.0, G)
+    assert np.ptp(history.u_m[-201:]) == pytest.approx(expected, rel=0.005)
 
 
 @pytest.mark.parametrize(
@@ -158,7 +155,7 @@ def test_a_frozen_normal_force_is_off_by_its_closed_form(degrees, mu, amplitude,
     true = problems.pulse_travel(drive, resist, plateau * dt, dt) * cs
     frozen_drive, frozen_resist = (amplitude * cs + vertical * sn) * G, (mu * cs - sn) * G
     frozen = problems.pulse_travel(frozen_drive, frozen_resist, plateau * dt, dt) * cs
-    ax, az = (trapezoid(a * G, dt, plateau, 3000) for a in (-amplitude, vertical))
+    ax, az = (trapezoid(a * G, plateau, 3000) for a in (-amplitude, vertical))
     result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, method="frozen-normal")
     assert result.down_m == pytest.approx(frozen, rel=1e-12)
     assert result.down_m / true - 1 == pytest.approx(off, abs=0.01)
@@ -181,36 +178,26 @@ def test_the_onset_of_a_slip_is_met_at_the_formal_order(name):
     # Friction is passed at a third of the first interval: a third of a sub-step for all powers of
     # four, so that the error is not changed by where the onset falls.
     ax = np.array([0.0, -0.9, -0.9, -0.9]) * G
-    exact = slide(ax, 0.3, slope_rad=0.0, mu=0.3).residual_m
-    off = [
-        abs(slide(ax, 0.3, slope_rad=0.0, mu=0.3, method=name, substeps=p).residual_m - exact)
-        for p in (64, 256, 1024)
-    ]
-    orders = np.log(np.array(off[:-1]) / off[1:]) / math.log(4)
+    off = off_m(ax, 0.3, {"slope_rad": 0.0, "mu": 0.3}, name, (64, 256, 1024))
+    orders = np.log(off[:-1] / off[1:]) / math.log(4)
     assert orders == pytest.approx([METHODS[name].order] * 2, abs=0.05)
+
+
+T = np.arange(41) * 0.05
+LASTING = -2 * np.sin(3 * T) - T, 0.05
+STEEP = {"slope_rad": math.radians(30), "mu": 0.1}
 
 
 @pytest.mark.parametrize("name", ["paper", "adaptive", *LINKS])
 def test_a_lasting_slip_is_met_at_the_formal_order(name):
-    t = np.arange(41) * 0.05
-    ax = -2 * np.sin(3 * t) - t
-    scene = {"slope_rad": math.radians(30), "mu": 0.1}
-    exact = slide(ax, 0.05, **scene).residual_m
-    off = [
-        abs(slide(ax, 0.05, **scene, method=name, substeps=p).residual_m - exact)
-        for p in (8, 16, 32)
-    ]
-    orders = np.log2(np.array(off[:-1]) / off[1:])
+    off = off_m(*LASTING, STEEP, name, (8, 16, 32))
+    orders = np.log2(off[:-1] / off[1:])
     assert orders == pytest.approx([METHODS[name].order] * 2, abs=0.05)
 
 
 def test_linear_acceleration_follows_a_lasting_slip_to_rounding():
-    t = np.arange(41) * 0.05
-    ax, scene = -2 * np.sin(3 * t) - t, {"slope_rad": math.radians(30), "mu": 0.1}
-    exact, result = (
-        slide(ax, 0.05, **scene, method="exact"),
-        slide(ax, 0.05, **scene, method="linear", substeps=1),
-    )
+    exact = slide(*LASTING, **STEEP)
+    result = slide(*LASTING, **STEEP, method="linear", substeps=1)
     assert result.prd_m == pytest.approx(exact.prd_m, rel=1e-13)
 
 
@@ -233,10 +220,8 @@ def test_errors_in_stick_and_slip_fall_at_first_order_below_a_ceiling(noise, nam
 
 def test_linear_acceleration_is_the_better_one_at_the_same_sub_steps(noise):
     for p in (8, 32, 128):
-        ratios = errors(noise, 0.01, "paper", substeps=p) / errors(
-            noise, 0.01, "linear", substeps=p
-        )
-        assert np.median(ratios) > 5
+        paper, linear = (errors(noise, 0.01, name, substeps=p) for name in ("paper", "linear"))
+        assert np.median(paper / linear) > 5
 
 
 @pytest.mark.parametrize("degrees", [0, 4, -7, 30])
@@ -276,8 +261,10 @@ def test_errors_of_a_link_fall_with_its_stiffness_below_a_ceiling(noise, name):
 def test_real_records_are_met_by_every_stepping_method(real_records):
     ax, dt = real_records["Kobe_Japan_1995_KJM-000"]
     ceilings = {"paper": 0.01, "linear": 0.003, **dict.fromkeys(LINKS, 0.01)}
+    pairs = [(0, 0.3), (-4, 0.1), (4, 0.4)]
+    scenes = [{"slope_rad": math.radians(degrees), "mu": mu} for degrees, mu in pairs]
     for name, ceiling in ceilings.items():
-        assert errors(ax, dt, name, scenes=[(0, 0.3), (-4, 0.1), (4, 0.4)]).max() < ceiling
+        assert errors(ax, dt, name, scenes=scenes).max() < ceiling
 
 
 # Links
@@ -293,10 +280,9 @@ def test_the_limits_of_the_papers_link_are_two_and_0_64_milliseconds():
 def test_the_explicit_link_is_sound_below_its_limit_and_diverged_beyond(noise, stiffness):
     limit = 2 / link_frequency(stiffness, G)
     some = {"method": "penalty-explicit", "stiffness_per_m": stiffness, "substeps": 5}
-    for degrees, mu in SCENES:
-        scene = {"slope_rad": math.radians(degrees), "mu": mu} | some
-        assert slide(noise, 5 * 0.95 * limit, **scene).status is not Status.DIVERGED
-        assert slide(noise, 5 * 1.05 * limit, **scene).status is Status.DIVERGED
+    for scene in SCENES:
+        assert slide(noise, 5 * 0.95 * limit, **scene, **some).status is not Status.DIVERGED
+        assert slide(noise, 5 * 1.05 * limit, **scene, **some).status is Status.DIVERGED
 
 
 def test_a_diverged_run_gives_no_number(noise):
@@ -305,12 +291,10 @@ def test_a_diverged_run_gives_no_number(noise):
     result = history.result
     assert result.status is Status.DIVERGED
     assert "no displacement" in result.status.sentence
-    values = (result.prd_m, result.residual_m, result.down_m, result.up_m, result.t_prd_s)
-    assert all(map(math.isnan, values))
-    assert math.isnan(result.end_speed_mps)
+    lengths = result.prd_m, result.residual_m, result.down_m, result.up_m
+    assert np.isnan([*lengths, result.t_prd_s, result.end_speed_mps]).all()
     assert not math.isnan(result.n_min_g)
-    assert np.isnan(history.u_m).all()
-    assert np.isnan(history.v_mps).all()
+    assert np.isnan([history.u_m, history.v_mps]).all()
 
 
 def test_a_ratchet_on_a_steep_roof_is_told_from_slip(noise):
@@ -318,41 +302,25 @@ def test_a_ratchet_on_a_steep_roof_is_told_from_slip(noise):
     record, scene = 0.02 * noise, {"slope_rad": math.radians(30), "mu": 0.8}
     assert slide(record, 0.01, **scene).prd_m == 0.0
     for radians in (2.1, 3.0, 40.0):
-        some = link_at(radians, 0.01, 4)
-        result = slide(record, 0.01, **scene, method="penalty-explicit", **some)
-        assert result.status is Status.DIVERGED
+        some = {"method": "penalty-explicit"} | link_at(radians, 0.01, 4)
+        assert slide(record, 0.01, **scene, **some).status is Status.DIVERGED
 
 
 @pytest.mark.parametrize("name", LINKS)
 def test_numbers_beyond_the_finite_are_diverged(name):
-    pulse = trapezoid(-4.0, 0.01, 5, 20)
+    pulse = trapezoid(-4.0, 5, 20)
     result = slide(pulse, 0.01, slope_rad=0.0, mu=0.2, method=name, stiffness_per_m=1e308)
     assert result.status is Status.DIVERGED
 
 
-@pytest.mark.parametrize("radians", [0.4, 1.0, 1.6])
+@pytest.mark.parametrize("radians", [0.4, 1.0, 1.6, 3.1])
 @pytest.mark.parametrize("substeps", [1, 8])
 def test_the_implicit_link_converges_up_to_1_6_radians_a_step(noise, radians, substeps):
-    for degrees, mu in SCENES:
-        scene = {"slope_rad": math.radians(degrees), "mu": mu}
-        some = link_at(radians, 0.01, substeps)
-        result = slide(noise, 0.01, **scene, method="penalty-implicit", **some)
-        assert result.status is not Status.DIVERGED
-
-
-def test_the_implicit_link_goes_to_and_fro_between_stick_and_slip_beyond_3_1_radians(noise):
-    statuses = [
-        slide(
-            noise,
-            0.01,
-            slope_rad=math.radians(degrees),
-            mu=mu,
-            method="penalty-implicit",
-            **link_at(3.1, 0.01, 8),
-        ).status
-        for degrees, mu in SCENES
-    ]
-    assert statuses == [Status.DIVERGED] * len(SCENES)
+    """At 3.1 it goes to and fro between stick and slip."""
+    some = {"method": "penalty-implicit"} | link_at(radians, 0.01, substeps)
+    for scene in SCENES:
+        diverges = slide(noise, 0.01, **scene, **some).status is Status.DIVERGED
+        assert diverges == (radians > 2.0)
 
 
 @pytest.mark.parametrize("name", LINKS)
@@ -362,53 +330,37 @@ def test_a_link_in_balance_with_gravity_stays_where_it_is(name):
     assert (result.status, result.n_stops) == (Status.OK, 0)
 
 
-def test_a_block_that_slides_freely_needs_no_link():
+@pytest.mark.parametrize("name", LINKS)
+def test_a_block_that_slides_freely_needs_no_link(name):
     slope = math.radians(7)
     expected = problems.free_slide_travel(slope, 0.1, 2.0, G) * math.cos(slope)
-    for name in LINKS:
-        result = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, method=name)
-        assert result.down_m == pytest.approx(expected, rel=1e-10)
-        assert result.status is Status.SLIDING_AT_END
+    result = slide(np.zeros(201), 0.01, slope_rad=slope, mu=0.1, method=name)
+    assert result.down_m == pytest.approx(expected, rel=1e-10)
+    assert result.status is Status.SLIDING_AT_END
 
 
 # Regularized friction
 
 
 def test_regularized_friction_creeps_where_the_block_should_stick():
-    slope, mu, velocity = math.radians(4), 0.3, 0.001
-    scene = {"slope_rad": slope, "mu": mu}
-    still = np.zeros(400)
-    assert slide(still, 0.01, **scene).prd_m == 0.0
+    slope, mu, velocity, still = math.radians(4), 0.3, 0.001, np.zeros(400)
+    assert slide(still, 0.01, slope_rad=slope, mu=mu).prd_m == 0.0
     creep = velocity * math.atanh(math.tan(slope) / mu) * 3.99 * math.cos(slope)
+    some = {"method": "regularized", "velocity_mps": velocity}
     for tolerance in (1e-4, 1e-6):
-        some = {"velocity_mps": velocity, "tolerance": tolerance}
-        result = slide(still, 0.01, **scene, method="regularized", **some)
+        result = slide(still, 0.01, slope_rad=slope, mu=mu, tolerance=tolerance, **some)
         assert result.down_m == pytest.approx(creep, rel=0.01)
         assert result.status is Status.OK
 
 
-def test_no_tolerance_mends_what_a_large_velocity_spoils(noise):
-    record, scenes = noise[500:1100], SCENES[:4:3]
-
-    def off(v, tolerance):
-        some = {"velocity_mps": v, "tolerance": tolerance}
-        return errors(record, 0.01, "regularized", scenes=scenes, **some).max()
-
-    loose, tight, slow = off(0.02, 1e-3), off(0.02, 1e-6), off(0.002, 1e-4)
-    assert tight > 0.5 * loose
-    assert slow < 0.25 * tight
-
-
 def test_a_tighter_tolerance_comes_closer_to_its_own_limit():
-    t = np.arange(201) * 0.01
-    ax = 4.0 * np.sin(2 * np.pi * t)
+    ax = 4.0 * np.sin(2 * np.pi * (np.arange(201) * 0.01))
     scene = {"slope_rad": 0.0, "mu": 0.2, "method": "regularized", "velocity_mps": 0.05}
-    limit = slide(ax, 0.01, **scene, tolerance=1e-11).residual_m
-    off = [
-        abs(slide(ax, 0.01, **scene, tolerance=e).residual_m - limit) for e in (1e-3, 1e-5, 1e-7)
-    ]
-    assert off[1] < 0.5 * off[0]
-    assert off[2] < 0.5 * off[1]
+    limit, *found = (
+        slide(ax, 0.01, **scene, tolerance=e).residual_m for e in (1e-11, 1e-3, 1e-5, 1e-7)
+    )
+    off = np.abs(np.subtract(found, limit))
+    assert (off[1:] < 0.5 * off[:-1]).all()
 
 
 def test_a_stalled_run_is_given_up(monkeypatch, noise):
@@ -434,27 +386,29 @@ def test_a_history_ends_where_the_result_says_and_follows_the_exact_one(noise, n
     history = slide_history(record, 0.01, **scene, method=name, **some)
     assert history.result == slide(record, 0.01, **scene, method=name, **some)
     assert history.u_m[-1] == pytest.approx(history.result.residual_m, rel=1e-9)
-    assert np.abs(history.u_m - exact.u_m).max() < 0.05 * exact.result.prd_m
+    near = 0.05 * exact.result.prd_m
+    assert np.abs(history.u_m - exact.u_m).max() < near
+    sides, wanted = ((r.down_m, r.up_m) for r in (history.result, exact.result))
+    assert min(wanted) > 2.0 * near
+    assert sides == pytest.approx(wanted, abs=near)
     assert bool(history.events) is (name == "exact")
 
 
 @pytest.mark.parametrize("name", METHODS)
 def test_uplift_gives_no_number_by_any_method(name):
-    ax = [0.0, 0.0, -40.0, 0.0]
-    result = slide(ax, 0.1, slope_rad=math.radians(30), mu=0.5, g_mps2=10.0, method=name)
+    result = slide([0.0, 0.0, -40.0, 0.0], 0.1, slope_rad=0.5, mu=0.5, g_mps2=10.0, method=name)
     assert result.status is Status.UPLIFT
     assert math.isnan(result.prd_m)
 
 
 @pytest.mark.parametrize("name", METHODS)
 def test_vertical_shaking_is_taken_or_refused_as_the_method_says(noise, name):
-    record, vertical = noise[600:900], 0.3 * noise[900:1200]
-    scene = {"slope_rad": 0.03, "mu": 0.3, "az_mps2": vertical}
+    about = {"slope_rad": 0.03, "mu": 0.3, "az_mps2": 0.3 * noise[900:1200], "method": name}
     if METHODS[name].takes_vertical:
-        assert slide(record, 0.01, **scene, method=name).prd_m > 0.0
+        assert slide(noise[600:900], 0.01, **about).prd_m > 0.0
     else:
         with pytest.raises(InputError, match=f"'{name}' takes horizontal shaking only"):
-            slide(record, 0.01, **scene, method=name)
+            slide(noise[600:900], 0.01, **about)
 
 
 @pytest.mark.parametrize(
@@ -462,11 +416,7 @@ def test_vertical_shaking_is_taken_or_refused_as_the_method_says(noise, name):
     [
         ("exact", {"substeps": 4}, "'exact' has no parameter 'substeps'; it has none"),
         ("paper", {"step": 4}, "'paper' has no parameter 'step'; it has substeps"),
-        (
-            "penalty-explicit",
-            {"stiffness": 1e4},
-            "has no parameter 'stiffness'; it has stiffness_per_m, substeps",
-        ),
+        ("penalty-explicit", {"stiffness": 1e4}, "'stiffness'; it has stiffness_per_m, substeps"),
         ("linear", {"substeps": 1.5}, "substeps is 1.5; give a whole number of 1 or more"),
         ("linear", {"substeps": math.inf}, "substeps is inf; give a whole number"),
         ("linear", {"substeps": "8"}, "substeps is '8'; give a whole number"),

@@ -8,48 +8,27 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from solver.model import InputError, Scene, Status, coulomb
+from blocks import block, readonly, shaking
+from solver.model import InputError, Status, coulomb
 from solver.sliding import one_axis
-from solver.sliding import row as rows
 from solver.sliding.row import BlockRow, row_history, slide_row
 
 G = 10.0
-EMPTY = np.empty(0)
 HELD = 50.0
 """A coefficient of friction that nothing overcomes."""
 
 
-def readonly(values):
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
-
-
-def shaking(seed, peak_g, seconds=10.0, dt=0.01):
-    """Noise of periods from 0.2 to 3 s, from rest to rest."""
-    rng = np.random.default_rng(seed)
-    n = round(seconds / dt)
-    freq = np.fft.rfftfreq(n, dt)
-    wave = np.fft.irfft(((freq > 0.3) & (freq < 5.0)) * np.exp(2j * np.pi * rng.random(freq.size)))
-    wave = wave[:n] * np.sin(np.pi * np.arange(n) / n)
-    return readonly(wave * peak_g * G / np.abs(wave).max())
-
-
-def scene(ax, az=EMPTY, *, dt=0.01, slope=0.05):
-    return Scene(
-        ax_mps2=readonly(ax),
-        ay_mps2=EMPTY,
-        az_mps2=readonly(az),
-        dt_s=dt,
-        slope_rad=slope,
-        friction=coulomb(0.9),
-        scale=1.0,
-        g_mps2=G,
-    )
+def scene(ax, az=(), *, dt=0.01, slope=0.05, mu=0.9):
+    return block(ax, az=az, dt=dt, slope=slope, friction=mu, g=G)
 
 
 def shaken(seed, slope=0.05):
-    return scene(shaking(seed, 1.0), shaking(seed + 50, 0.3), slope=slope)
+    return scene(shaking(seed, G), shaking(seed + 50, 0.3 * G), slope=slope)
+
+
+def alone(shaken, mu):
+    """The motion of one block, by the exact solver."""
+    return one_axis.run(replace(shaken, friction=coulomb(mu)))
 
 
 def constant(a, seconds, dt=0.01):
@@ -64,9 +43,8 @@ def constant(a, seconds, dt=0.01):
 @pytest.mark.parametrize("slope", [0.0, 0.05, -0.1])
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.5])
 def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
-    block = shaken(seed, slope)
-    result = slide_row(block, BlockRow(mus=(mu,), stiffness_per_s2=1e3))
-    exact = one_axis.run(replace(block, friction=coulomb(mu)))
+    run = shaken(seed, slope)
+    result, exact = slide_row(run, BlockRow(mus=(mu,), stiffness_per_s2=1e3)), alone(run, mu)
     assert result.prd_m[0] == pytest.approx(exact.prd_m, rel=1e-9)
     assert result.residual_m[0] == pytest.approx(exact.residual_m, rel=1e-9, abs=1e-9 * exact.prd_m)
     assert (result.down_m[0], result.up_m[0]) == pytest.approx((exact.down_m, exact.up_m), rel=1e-9)
@@ -76,27 +54,17 @@ def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
     assert result.stretch_m == result.link_force == 0.0
 
 
-def test_a_row_of_one_block_is_the_block_on_real_records(real_records):
-    for record, dt in real_records.values():
-        block = scene(record * (G / np.abs(record).max()), dt=dt)
-        result = slide_row(block, BlockRow(mus=(0.4,), stiffness_per_s2=1.0))
-        assert result.prd_m[0] == pytest.approx(result.rigid.prd_m, rel=1e-12)
-
-
 # Rigid limits
 
 
 @pytest.mark.parametrize("stiffness", [0.0, 1.0, 1e3, 1e6])
 @pytest.mark.parametrize("shares", [(), (0.1, 0.2, 0.3, 0.4)])
 def test_blocks_of_equal_friction_move_as_one_whatever_their_links(stiffness, shares):
-    block = shaken(1)
-    result = slide_row(
-        block,
-        BlockRow(mus=(0.4,) * 4, stiffness_per_s2=stiffness, damping_per_s=2.0, shares=shares),
-    )
+    row = BlockRow(mus=(0.4,) * 4, stiffness_per_s2=stiffness, damping_per_s=2.0, shares=shares)
+    result = slide_row(shaken(1), row)
     assert result.prd_m == pytest.approx((result.rigid.prd_m,) * 4, rel=1e-9)
     assert result.stretch_m == result.link_force == 0.0
-    assert result.rigid.prd_m == one_axis.run(replace(block, friction=coulomb(0.4))).prd_m
+    assert result.rigid.prd_m == alone(shaken(1), 0.4).prd_m
 
 
 @pytest.mark.parametrize("shares", [(), (0.5, 0.2, 0.3)])
@@ -107,13 +75,13 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
     Links ring with the speed F / sqrt(k) when a block stops or slips, F the friction that they
     share out; over a second of sliding that is the envelope.
     """
-    mus, block = (0.25, 0.55, 0.4), shaken(seed)
+    mus, run = (0.25, 0.55, 0.4), shaken(seed)
     offs, stretches, shared = [], [], G * (0.55 - 0.4)
     for stiffness in (1e2, 1e4, 1e6, 1e8):
         links = BlockRow(
             mus=mus, stiffness_per_s2=stiffness, damping_per_s=0.2 * stiffness**0.5, shares=shares
         )
-        result = slide_row(block, links)
+        result = slide_row(run, links)
         away = max(abs(prd - result.rigid.prd_m) for prd in result.prd_m)
         assert away <= 1.0 * shared / math.sqrt(stiffness)
         assert abs(result.flexibility_m) <= away
@@ -122,15 +90,13 @@ def test_stiff_links_make_the_rigid_array_of_mean_friction(seed, shares):
     assert offs[3] < 1e-2 * offs[0]
     assert max(stretches[i + 1] / stretches[i] for i in (1, 2)) < 0.02
     mean = sum(m * w for m, w in zip(mus, shares or (1 / 3,) * 3, strict=True))
-    rigid = one_axis.run(replace(block, friction=coulomb(mean)))
-    assert result.rigid.prd_m == pytest.approx(rigid.prd_m, rel=1e-12)
+    assert result.rigid.prd_m == pytest.approx(alone(run, mean).prd_m, rel=1e-12)
 
 
 def test_without_links_each_block_goes_by_itself():
-    block, mus = shaken(4), (0.2, 0.5, 0.35)
-    result = slide_row(block, BlockRow(mus=mus, stiffness_per_s2=0.0))
-    alone = [one_axis.run(replace(block, friction=coulomb(mu))).prd_m for mu in mus]
-    assert result.prd_m == pytest.approx(alone, rel=1e-9)
+    mus = (0.2, 0.5, 0.35)
+    result = slide_row(shaken(4), BlockRow(mus=mus, stiffness_per_s2=0.0))
+    assert result.prd_m == pytest.approx([alone(shaken(4), mu).prd_m for mu in mus], rel=1e-9)
     assert result.stretch_m > 0.0
     assert result.link_force == 0.0
 
@@ -143,18 +109,16 @@ def test_a_block_without_friction_on_a_held_one_swings_about_its_weight_by_the_s
     a = 2.0
     result = slide_row(constant(a, 3.0), BlockRow(mus=(HELD, 0.0), stiffness_per_s2=k))
     assert result.prd_m == pytest.approx((0.0, 2.0 * a / k), rel=1e-12)
-    assert result.residual_m[1] == pytest.approx(
-        a / k * (1.0 - math.cos(3.0 * math.sqrt(k))), rel=1e-9
-    )
+    swung = 1.0 - math.cos(3.0 * math.sqrt(k))
+    assert result.residual_m[1] == pytest.approx(a / k * swung, rel=1e-9)
     assert result.stretch_m == pytest.approx(2.0 * a / k, rel=1e-12)
     assert result.link_force == pytest.approx(2.0 * a / G, rel=1e-12)
 
 
 def test_a_dashpot_alone_lets_a_block_reach_a_steady_speed():
     a, c, t = 2.0, 3.0, 2.0
-    result = slide_row(
-        constant(a, t), BlockRow(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
-    )  # fmt: skip
+    row = BlockRow(mus=(HELD, 0.0), stiffness_per_s2=0.0, damping_per_s=c)
+    result = slide_row(constant(a, t), row)
     way = a / c * (t - (1.0 - math.exp(-c * t)) / c)
     assert result.residual_m == pytest.approx((0.0, way), rel=1e-12)
     assert result.link_force == pytest.approx(a / G * (1.0 - math.exp(-c * t)), rel=1e-12)
@@ -176,18 +140,17 @@ def test_friction_ends_a_swing_after_as_many_reversals_as_the_closed_form_has(a,
 
 def test_a_block_too_steep_to_rest_by_itself_comes_to_rest_on_its_link():
     slope, mu, k = 0.3, 0.1, 50.0
-    block = scene(np.zeros(1001), slope=slope)
-    result = slide_row(block, BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
+    still = scene(np.zeros(1001), slope=slope)
+    result = slide_row(still, BlockRow(mus=(HELD, mu), stiffness_per_s2=k))
     a, hold = G * math.sin(slope), mu * G * math.cos(slope)
     assert result.status is Status.OK
     assert result.prd_m[1] == pytest.approx(math.cos(slope) * 2.0 * (a - hold) / k, rel=1e-12)
-    assert one_axis.run(replace(block, friction=coulomb(mu))).status is Status.SLIDING_AT_END
+    assert alone(still, mu).status is Status.SLIDING_AT_END
 
 
 def test_a_block_without_friction_that_nothing_pushes_rests():
-    result = slide_row(
-        scene(np.zeros(100), slope=0.0), BlockRow(mus=(0.0, 0.4), stiffness_per_s2=10.0)
-    )
+    still = scene(np.zeros(100), slope=0.0)
+    result = slide_row(still, BlockRow(mus=(0.0, 0.4), stiffness_per_s2=10.0))
     assert (result.status, result.prd_m, result.n_stops) == (Status.OK, (0.0, 0.0), 0)
     pushed = scene([0.0, 0.0, -1.0, 1.0, 0.0, 0.0], dt=0.1, slope=0.0)
     result = slide_row(pushed, BlockRow(mus=(0.0, HELD, 0.0), stiffness_per_s2=10.0))
@@ -203,10 +166,10 @@ MIXED = BlockRow(mus=(0.3, 0.5, 0.3, 0.2), stiffness_per_s2=2e3, damping_per_s=5
 
 
 def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
-    block = shaken(5)
-    mirrored = replace(block, ax_mps2=readonly(-block.ax_mps2), slope_rad=-block.slope_rad)
+    run = shaken(5)
+    mirrored = replace(run, ax_mps2=readonly(-run.ax_mps2), slope_rad=-run.slope_rad)
     other = replace(MIXED, mus=MIXED.mus[::-1], shares=MIXED.shares[::-1])
-    result, seen = slide_row(block, MIXED), slide_row(mirrored, other)
+    result, seen = slide_row(run, MIXED), slide_row(mirrored, other)
     assert seen.prd_m == result.prd_m[::-1]
     assert seen.residual_m == tuple(-u for u in result.residual_m[::-1])
     assert (seen.down_m, seen.up_m) == (result.up_m[::-1], result.down_m[::-1])
@@ -216,9 +179,8 @@ def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
 @pytest.mark.nightly("solver/kernels/row.py")
 def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
     """Every event of one end is one of the other at the same time."""
-    block = scene(shaking(6, 1.0), slope=0.0)
     row = BlockRow(mus=(0.3, 0.3, 0.6, 0.6, 0.3, 0.3), stiffness_per_s2=1e3)
-    history = row_history(block, row)
+    history = row_history(scene(shaking(6, G), slope=0.0), row)
     np.testing.assert_allclose(history, history[::-1], rtol=0.0, atol=1e-11)
 
 
@@ -237,15 +199,11 @@ def test_work_is_what_friction_dampers_speed_and_springs_have(seed, damping, k):
 @pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
 @pytest.mark.parametrize("seed", range(4))
 def test_samples_put_between_samples_change_no_more_than_the_bound(seed, k):
-    block, row = shaken(seed), replace(MIXED, stiffness_per_s2=k)
-    at = np.arange(3 * block.ax_mps2.size - 2) / 3.0
-    finer = replace(
-        block,
-        ax_mps2=readonly(np.interp(at, np.arange(block.ax_mps2.size), block.ax_mps2)),
-        az_mps2=readonly(np.interp(at, np.arange(block.ax_mps2.size), block.az_mps2)),
-        dt_s=block.dt_s / 3.0,
-    )
-    result, again = slide_row(block, row), slide_row(finer, row)
+    run, row = shaken(seed), replace(MIXED, stiffness_per_s2=k)
+    samples = np.arange(run.ax_mps2.size)
+    at = np.arange(3 * samples.size - 2) / 3.0
+    ax, az = (np.interp(at, samples, a) for a in (run.ax_mps2, run.az_mps2))
+    result, again = slide_row(run, row), slide_row(scene(ax, az, dt=run.dt_s / 3.0), row)
     assert result.error_m < 1e-8 * max(result.prd_m)
     changes = np.subtract(again.prd_m + again.residual_m, result.prd_m + result.residual_m)
     assert np.abs(changes).max() <= result.error_m + again.error_m
@@ -256,21 +214,20 @@ def test_samples_put_between_samples_change_no_more_than_the_bound(seed, k):
 # SciPy, written apart: horizontal record, springs by place, events by SciPy
 
 
-def by_scipy(block, row):
+def by_scipy(run, row):
     """Places of the blocks at the samples, by an adaptive solver stopped at every event."""
-    n, dt = len(row.mus), block.dt_s
+    n, dt = len(row.mus), run.dt_s
     mus, mass = np.array(row.mus), np.array(row.weights) * n
-    grid = np.arange(block.ax_mps2.size) * dt
-    vertical = block.az_mps2 if block.az_mps2.size else np.zeros(grid.size)
-    sn, cs = math.sin(block.slope_rad), math.cos(block.slope_rad)
+    grid = np.arange(run.ax_mps2.size) * dt
+    sn, cs = math.sin(run.slope_rad), math.cos(run.slope_rad)
 
     def normal(t):
-        return (G + np.interp(t, grid, vertical)) * cs + np.interp(t, grid, block.ax_mps2) * sn
+        return (G + np.interp(t, grid, run.az_mps2)) * cs + np.interp(t, grid, run.ax_mps2) * sn
 
     def pull(t, y):
         s, w = y[:n], y[n:]
         tension = row.stiffness_per_s2 * np.diff(s) + row.damping_per_s * np.diff(w)
-        drive = (G + np.interp(t, grid, vertical)) * sn - np.interp(t, grid, block.ax_mps2) * cs
+        drive = (G + np.interp(t, grid, run.az_mps2)) * sn - np.interp(t, grid, run.ax_mps2) * cs
         return drive + (np.append(tension, 0.0) - np.append(0.0, tension)) / mass
 
     def rate(t, y, sigma):
@@ -293,14 +250,14 @@ def by_scipy(block, row):
     for start, end in itertools.pairwise(grid):
         t = start
         while t < end:
-            run = solve_ivp(
+            found = solve_ivp(
                 rate, (t, end), y, "DOP853", events=events, args=(sigma,), rtol=1e-12,
                 atol=1e-14, max_step=dt / 8,
             )  # fmt: skip
-            t, y = run.t[-1], run.y[:, -1]
-            if run.status != 1:
+            t, y = found.t[-1], found.y[:, -1]
+            if found.status != 1:
                 break
-            for number in (k for k, times in enumerate(run.t_events) if times.size):
+            for number in (k for k, times in enumerate(found.t_events) if times.size):
                 i, side = number // 4, 1.0 if number % 4 < 2 else -1.0
                 if number % 2:
                     sigma[i] = side
@@ -324,22 +281,20 @@ def by_scipy(block, row):
 @pytest.mark.nightly("solver/kernels/row.py", "solver/sliding/row.py")
 def test_an_adaptive_solver_stopped_at_every_event_gives_the_same_motion(mus, shares, k, c, seed):
     rng = np.random.default_rng(seed)
-    ax = np.concatenate([[0.0], rng.normal(0.0, 6.0, 24), [0.0, 0.0]])
-    az = np.concatenate([[0.0], rng.normal(0.0, 1.5, 24), [0.0, 0.0]])
-    block = scene(ax, az, dt=0.1, slope=0.08)
+    ax, az = (np.pad(rng.normal(0.0, peak, 24), (1, 2)) for peak in (6.0, 1.5))
+    run = scene(ax, az, dt=0.1, slope=0.08)
     row = BlockRow(mus=mus, stiffness_per_s2=k, damping_per_s=c, shares=shares)
-    history = row_history(block, row)
-    assert slide_row(block, row).n_stops >= 10
-    np.testing.assert_allclose(history, by_scipy(block, row), rtol=0.0, atol=1e-11)
+    assert slide_row(run, row).n_stops >= 10
+    np.testing.assert_allclose(row_history(run, row), by_scipy(run, row), rtol=0.0, atol=1e-11)
 
 
 # Results and refusals
 
 
 def test_a_history_ends_where_the_result_does_and_never_leaves_its_peaks():
-    block, result = shaken(7), slide_row(shaken(7), MIXED)
-    history = row_history(block, MIXED)
-    assert history.shape == (4, block.ax_mps2.size)
+    run, result = shaken(7), slide_row(shaken(7), MIXED)
+    history = row_history(run, MIXED)
+    assert history.shape == (4, run.ax_mps2.size)
     np.testing.assert_allclose(history[:, -1], result.residual_m, rtol=0.0, atol=1e-15)
     assert (history.max(axis=1) <= np.array(result.down_m) + 1e-15).all()
     assert (-history.min(axis=1) <= np.array(result.up_m) + 1e-15).all()
@@ -347,16 +302,17 @@ def test_a_history_ends_where_the_result_does_and_never_leaves_its_peaks():
 
 
 def test_where_the_row_lifts_off_it_gives_no_number():
-    block = scene(shaking(1, 1.0), 6.0 * shaking(2, 0.5))
-    result = slide_row(block, MIXED)
+    lifting = scene(shaking(1, G), shaking(2, 3.0 * G))
+    result = slide_row(lifting, MIXED)
     assert result.status is result.rigid.status is Status.UPLIFT
     assert np.isnan([*result.prd_m, result.stretch_m, result.link_force, result.error_m]).all()
-    assert np.isnan(row_history(block, MIXED)).all()
+    assert np.isnan(row_history(lifting, MIXED)).all()
 
 
-def test_a_row_that_is_given_up_gives_no_number(monkeypatch):
-    monkeypatch.setattr(rows, "_MOST_EVENTS", 0)
-    result = slide_row(shaken(1), MIXED)
+def test_a_row_that_is_given_up_gives_no_number():
+    """Some 32,000 reversals within one interval of 100 s."""
+    row = BlockRow(mus=(HELD, 1e-7), stiffness_per_s2=1e6)
+    result = slide_row(constant(2.0, 100.0, dt=100.0), row)
     assert result.status is Status.DIVERGED
     assert np.isnan(result.prd_m).all()
     assert result.rigid.status is Status.OK
@@ -369,9 +325,10 @@ def test_every_fault_of_a_row_is_named():
     assert [line.split()[0] for line in caught.value.problems] == [
         "mus", "stiffness_per_s2", "damping_per_s", "shares",
     ]  # fmt: skip
-    with pytest.raises(InputError, match="mus is empty"):
-        slide_row(shaken(1), BlockRow(mus=(), stiffness_per_s2=1.0))
-    with pytest.raises(InputError, match="with a sum of 1"):
-        slide_row(shaken(1), replace(MIXED, shares=(0.2, 0.2, 0.2, 0.2)))
-    with pytest.raises(InputError, match="softer links"):
-        slide_row(shaken(1), replace(MIXED, stiffness_per_s2=1e16))
+    for change, said in (
+        ({"mus": (), "shares": ()}, "mus is empty"),
+        ({"shares": (0.2, 0.2, 0.2, 0.2)}, "with a sum of 1"),
+        ({"stiffness_per_s2": 1e16}, "softer links"),
+    ):
+        with pytest.raises(InputError, match=said):
+            slide_row(shaken(1), replace(MIXED, **change))

@@ -1,6 +1,7 @@
 """Sweeps give what single runs give, to the last bit."""
 
 import math
+from itertools import product
 
 import numba
 import numpy as np
@@ -13,20 +14,16 @@ from solver.sliding.sweep import STATUSES, order_alike, sweep
 SLOPES = [-0.5, -0.05, 0.0, 0.07]
 FRICTIONS = [0.0, 0.02, 0.3]
 SCALES = [0.0, 0.7, 2.0]
+ALL = {"slopes_rad": SLOPES, "mus": FRICTIONS, "scales": SCALES}
 
 
 @pytest.mark.parametrize("with_vertical", [False, True])
 def test_a_sweep_is_every_single_run(noise, with_vertical):
     az = 0.3 * noise[::-1] if with_vertical else None
-    swept = sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES, az_mps2=az)
+    swept = sweep(noise, 0.01, **ALL, az_mps2=az)
     assert swept.prd_m.shape == swept.status.shape == (4, 3, 3)
     seen = set()
-    for (i, slope), (j, mu), (k, scale) in (
-        (a, b, c)
-        for a in enumerate(SLOPES)
-        for b in enumerate(FRICTIONS)
-        for c in enumerate(SCALES)
-    ):
+    for (i, slope), (j, mu), (k, scale) in product(*map(enumerate, ALL.values())):
         result = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale, az_mps2=az)
         np.testing.assert_array_equal(swept.prd_m[i, j, k], result.prd_m)
         np.testing.assert_array_equal(swept.residual_m[i, j, k], result.residual_m)
@@ -48,7 +45,7 @@ def test_the_number_of_threads_changes_nothing(noise):
     try:
         for threads in (1, before):
             numba.set_num_threads(threads)
-            prds_m.append(sweep(noise, 0.01, slopes_rad=SLOPES, mus=FRICTIONS, scales=SCALES).prd_m)
+            prds_m.append(sweep(noise, 0.01, **ALL).prd_m)
     finally:
         numba.set_num_threads(before)
     np.testing.assert_array_equal(*prds_m)
@@ -69,7 +66,7 @@ def test_every_value_at_fault_is_named():
 
 
 def test_scenes_that_yield_alike_are_neighbors():
-    scenes = np.array([(s, m, k) for s in SLOPES for m in FRICTIONS for k in SCALES])
+    scenes = np.array(list(product(*ALL.values())))
     order = order_alike(scenes)
     assert sorted(order) == list(range(len(scenes)))
     down = [(s, m, k) for s, m, k in scenes[order] if s * k > 0.0]

@@ -1,42 +1,45 @@
 """Tipping, against closed forms: pulses of known demand over supports of known slenderness."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from solver.model import Friction, InputError, Scene, coulomb
+from blocks import block
+from solver.model import Friction, InputError
 from solver.sliding.tipping import Supports, tipping
 
 G = 10.0
-EMPTY = np.empty(0)
 
 
-def scene(ax_g, *, slope=0.0, mu=0.5, ay_g=EMPTY, az_g=EMPTY):
-    return Scene(
-        ax_mps2=G * np.array(ax_g),
-        ay_mps2=G * np.array(ay_g),
-        az_mps2=G * np.array(az_g),
-        dt_s=0.01,
-        slope_rad=slope,
-        friction=coulomb(mu),
-        scale=1.0,
-        g_mps2=G,
-    )
+def scene(ax_g, *, slope=0.0, mu=0.5, ay_g=(), az_g=()):
+    records = (G * np.array(a) for a in (ax_g, ay_g, az_g))
+    return block(*records, slope=slope, friction=mu, g=G)
 
 
 STOCKY = Supports(height_m=0.5, spacing_m=2.0)
 SLENDER = Supports(height_m=1.0, spacing_m=0.5)
 
 
-def test_a_block_that_friction_holds_tips_by_its_demand():
-    tips = tipping(scene([0.0, 0.3, -0.1, 0.0]), SLENDER)
+def friction(mu_fast, rate, mu_static):
+    return Friction(mu_slow=0.2, mu_fast=mu_fast, rate_s_per_m=rate, mu_static=mu_static)
+
+
+@pytest.mark.parametrize(
+    ("ax_g", "mu", "at_rest", "sliding", "governs"),
+    [
+        ([0.0, 0.3, -0.1, 0.0], 0.5, 1.2, 0.0, "at rest"),  # held by friction: by its demand
+        ([0.0, 1.0, 0.0], friction(0.2, 0.0, 0.3), 1.2, 0.8, "at rest"),
+        ([0.0, 1.0, 0.0], friction(0.4, 20.0, 0.2), 0.8, 1.6, "sliding"),
+        ([0.0, 1.0, 0.0], friction(0.4, 0.0, 0.2), 0.8, 0.8, "at rest"),  # grows at no speed
+    ],
+)
+def test_the_larger_of_rest_and_sliding_governs(ax_g, mu, at_rest, sliding, governs):
+    tips = tipping(scene(ax_g, mu=mu), SLENDER)
     assert tips.capacity == 0.25
-    assert tips.demand == pytest.approx(0.3, rel=1e-15)
-    assert tips.at_rest_ratio == pytest.approx(1.2, rel=1e-15)
-    assert tips.sliding_ratio == 0.0
-    assert (tips.governs, tips.is_ok) == ("at rest", False)
+    assert tips.demand == pytest.approx(max(ax_g), rel=1e-15)
+    assert (tips.at_rest_ratio, tips.sliding_ratio) == (at_rest, sliding)
+    assert (tips.governs, tips.is_ok) == (governs, at_rest < 1.0 and sliding < 1.0)
 
 
 @pytest.mark.parametrize("peak_g", [0.6, 2.0, 50.0])
@@ -48,25 +51,8 @@ def test_a_block_that_slides_cannot_be_given_more_than_friction(peak_g):
 
 
 def test_a_block_slides_before_it_tips_just_where_friction_is_below_its_slenderness():
-    shaken = scene([0.0, 5.0, 0.0])
     for mu, ok in ((0.2499, True), (0.25, True), (0.2501, False)):
-        assert tipping(replace(shaken, friction=coulomb(mu)), SLENDER).is_ok == ok
-
-
-def test_static_friction_governs_at_the_moment_it_slips():
-    law = Friction(mu_slow=0.2, mu_fast=0.2, rate_s_per_m=0.0, mu_static=0.3)
-    tips = tipping(replace(scene([0.0, 1.0, 0.0]), friction=law), SLENDER)
-    assert (tips.at_rest_ratio, tips.sliding_ratio) == (1.2, 0.8)
-    assert (tips.governs, tips.is_ok) == ("at rest", False)
-
-
-def test_friction_that_grows_with_speed_governs_while_it_slides():
-    law = Friction(mu_slow=0.2, mu_fast=0.4, rate_s_per_m=20.0, mu_static=0.2)
-    tips = tipping(replace(scene([0.0, 1.0, 0.0]), friction=law), SLENDER)
-    assert (tips.at_rest_ratio, tips.sliding_ratio) == (0.8, 1.6)
-    assert tips.governs == "sliding"
-    same = replace(law, rate_s_per_m=0.0)
-    assert tipping(replace(scene([0.0, 1.0, 0.0]), friction=same), SLENDER).sliding_ratio == 0.8
+        assert tipping(scene([0.0, 5.0, 0.0], mu=mu), SLENDER).is_ok == ok
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1, 0.3, -0.2])
@@ -78,7 +64,6 @@ def test_on_a_slope_at_rest_it_tips_when_its_weight_leaves_its_supports(slope):
 
 
 def test_shaking_on_a_slope_is_gravity_turned():
-    """Horizontal a and gravity g are gravity turned by atan(a / g)."""
     tips = tipping(scene([0.0, -0.4, 0.0], slope=0.1, mu=2.0), STOCKY)
     assert tips.demand == pytest.approx(math.tan(0.1 + math.atan(0.4)), rel=1e-14)
 

@@ -5,66 +5,48 @@ import math
 import numpy as np
 import pytest
 
-from solver.model import Scene, Status, coulomb
+from blocks import block
+from solver.model import Status
 from solver.sliding import one_axis
 from solver.sliding.uplift import uplift
 
 G = 10.0
 
 
-def scene(az_g, *, ax_g=None, slope=0.0, dt=0.1):
+def scene(az_g, *, ax_g=None, slope=0.0):
     ax = np.zeros(len(az_g)) if ax_g is None else G * np.array(ax_g)
-    az = G * np.array(az_g, dtype=np.float64)
-    for record in (ax, az):
-        record.setflags(write=False)
-    return Scene(
-        ax_mps2=ax,
-        ay_mps2=np.empty(0),
-        az_mps2=az,
-        dt_s=dt,
-        slope_rad=slope,
-        friction=coulomb(0.5),
-        scale=1.0,
-        g_mps2=G,
-    )
+    return block(ax, az=G * np.array(az_g), dt=0.1, slope=slope, friction=0.5, g=G)
 
 
-def test_a_triangle_below_zero_is_seen_with_its_times_and_depth():
-    lift = uplift(scene([0.0, 0.0, -3.0, 0.0, 0.0]))
-    assert lift.lifts
-    assert lift.n_min_g == -2.0
-    assert lift.t_min_s == 0.2
-    assert lift.t_first_s == pytest.approx(0.1 + 0.1 / 3.0, rel=1e-15)
-    assert lift.duration_s == pytest.approx(0.4 / 3.0, rel=1e-15)
-    assert lift.times == 1
-
-
-def test_two_dips_and_one_that_lasts_are_added():
-    lift = uplift(scene([0.0, -2.0, 0.0, -2.0, -2.0, 0.0]))
-    assert lift.times == 2
-    assert lift.duration_s == pytest.approx(0.05 * 4 + 0.1, rel=1e-14)
-    assert lift.t_min_s == 0.1
-
-
-def test_a_record_that_begins_below_zero_lifts_at_once():
-    lift = uplift(scene([-2.0, 0.0, -1.5]))
-    assert (lift.t_first_s, lift.times) == (0.0, 2)
-    assert lift.duration_s == pytest.approx(0.05 + 0.1 / 3.0, rel=1e-14)
+@pytest.mark.parametrize(
+    ("az_g", "n_min_g", "t_min_s", "t_first_s", "duration_s", "times"),
+    [
+        ([0.0, 0.0, -3.0, 0.0, 0.0], -2.0, 0.2, 0.4 / 3.0, 0.4 / 3.0, 1),
+        ([0.0, -2.0, 0.0, -2.0, -2.0, 0.0], -1.0, 0.1, 0.05, 0.3, 2),  # two dips, one that lasts
+        ([0.0, -1.0, -2.0, 0.0], -1.0, 0.2, 0.1, 0.15, 1),  # from zero itself
+        ([-2.0, 0.0, -1.5], -1.0, 0.0, 0.0, 0.05 + 0.1 / 3.0, 2),  # begins below zero
+    ],
+)
+def test_dips_below_zero_are_seen_with_their_times_and_depth(
+    az_g, n_min_g, t_min_s, t_first_s, duration_s, times
+):
+    lift = uplift(scene(az_g))
+    assert (lift.lifts, lift.n_min_g, lift.t_min_s, lift.times) == (True, n_min_g, t_min_s, times)
+    assert lift.t_first_s == pytest.approx(t_first_s, rel=1e-15)
+    assert lift.duration_s == pytest.approx(duration_s, rel=1e-14)
 
 
 @pytest.mark.parametrize("az_g", [[0.0, 0.5, -0.99], [0.0, -1.0, 0.0], [-1.0, -1.0, -1.0]])
 def test_a_normal_force_of_zero_or_more_is_no_uplift(az_g):
     lift = uplift(scene(az_g))
-    assert not lift.lifts
-    assert (lift.duration_s, lift.times) == (0.0, 0)
+    assert (lift.lifts, lift.duration_s, lift.times) == (False, 0.0, 0)
     assert math.isnan(lift.t_first_s)
     assert lift.n_min_g == pytest.approx(1.0 + min(az_g), abs=1e-15)
 
 
 def test_without_a_vertical_record_a_steep_roof_can_lift():
     """N = g cos(theta) + ax sin(theta)."""
-    block = scene([0.0, 0.0, 0.0], ax_g=[0.0, -2.0, 0.0], slope=math.radians(45.0))
-    lift = uplift(block)
+    lift = uplift(scene([0.0] * 3, ax_g=[0.0, -2.0, 0.0], slope=math.radians(45.0)))
     assert lift.n_min_g == pytest.approx(-math.sqrt(0.5), rel=1e-15)
     assert lift.duration_s == pytest.approx(0.1, rel=1e-14)
 
@@ -72,14 +54,13 @@ def test_without_a_vertical_record_a_steep_roof_can_lift():
 @pytest.mark.parametrize("seed", range(5))
 def test_it_agrees_with_what_the_solver_refuses_and_with_a_fine_grid(seed):
     rng = np.random.default_rng(seed)
-    block = scene(rng.normal(0.0, 0.6, 60), ax_g=rng.normal(0.0, 0.6, 60), slope=0.2)
-    lift, refused = uplift(block), one_axis.run(block)
+    shaken = scene(rng.normal(0.0, 0.6, 60), ax_g=rng.normal(0.0, 0.6, 60), slope=0.2)
+    lift, refused = uplift(shaken), one_axis.run(shaken)
     assert refused.status is Status.UPLIFT
     assert lift.n_min_g == pytest.approx(refused.n_min_g, rel=1e-13)
     assert lift.t_first_s == pytest.approx(refused.t_uplift_s, rel=1e-13)
-    fine = np.linspace(0.0, 5.9, 590_001)
-    at = np.arange(60) * 0.1
-    ax, az = np.interp(fine, at, block.ax_mps2), np.interp(fine, at, block.az_mps2)
+    fine, at = np.linspace(0.0, 5.9, 590_001), np.arange(60) * 0.1
+    ax, az = (np.interp(fine, at, a) for a in (shaken.ax_mps2, shaken.az_mps2))
     below = (G + az) * math.cos(0.2) + ax * math.sin(0.2) < 0.0
     assert lift.duration_s == pytest.approx(below.mean() * 5.9, abs=1e-3)
     assert lift.times == np.count_nonzero(below[1:] & ~below[:-1]) + below[0]

@@ -12,10 +12,8 @@ NONE = math.nan
 
 def test_mean_percentile_and_largest_of_known_values():
     found = statistics(np.arange(101.0)[None, ::-1])
-    assert found.mean_m[0] == 50.0
+    assert (found.mean_m[0], found.largest_m[0], found.without_value[0]) == (50.0, 100.0, 0)
     assert found.p84_m[0] == pytest.approx(84.0, rel=1e-14)
-    assert found.largest_m[0] == 100.0
-    assert found.without_value[0] == 0
 
 
 def test_the_percentile_is_that_of_numpy():
@@ -25,10 +23,8 @@ def test_the_percentile_is_that_of_numpy():
 
 def test_a_motion_without_a_value_is_larger_than_all_others():
     found = statistics(np.array([[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, NONE]]))
-    assert math.isnan(found.mean_m[0])
-    assert math.isnan(found.largest_m[0])
     # The place 0.84 x 6 = 5.04 lies between the sixth value and the one that is missing.
-    assert math.isnan(found.p84_m[0])
+    assert np.isnan([found.mean_m[0], found.largest_m[0], found.p84_m[0]]).all()
     assert found.without_value[0] == 1
 
 
@@ -37,27 +33,31 @@ def test_the_percentile_does_not_depend_on_a_missing_value_above_it():
     assert statistics(values).p84_m[0] == pytest.approx(1 + 0.84 * 19, rel=1e-14)
 
 
-def test_least_friction_lies_between_the_runs():
-    mus, prd = np.array([0.3, 0.4, 0.5]), np.array([0.9, 0.5, 0.1])
-    assert least_friction(mus, prd, 0.3) == pytest.approx(0.45, rel=1e-14)
-    assert least_friction(mus, prd, 1.0) == 0.3
-    assert math.isnan(least_friction(mus, prd, 0.05))
+@pytest.mark.parametrize(
+    ("prds_m", "limit_m", "expected"),
+    [
+        ((0.9, 0.5, 0.1), 0.3, 0.45),  # between two runs
+        ((0.9, 0.5, 0.1), 1.0, 0.3),
+        ((0.9, 0.5, 0.1), 0.05, NONE),
+        ((0.2, 0.4, 0.2), 0.3, 0.45),  # above every coefficient that exceeds the limit
+        ((NONE, 0.2, 0.1), 0.3, 0.4),  # a run without a value exceeds every limit
+        ((0.1, 0.2, NONE), 0.3, NONE),
+    ],
+)
+def test_least_friction_is_above_what_exceeds_the_limit(prds_m, limit_m, expected):
+    found = least_friction(np.array([0.3, 0.4, 0.5]), np.array(prds_m), limit_m)
+    assert found == pytest.approx(expected, rel=1e-14, nan_ok=True)
 
 
-def test_least_friction_is_above_every_coefficient_that_exceeds_the_limit():
-    mus, prd = np.array([0.3, 0.4, 0.5, 0.6]), np.array([0.2, 0.1, 0.4, 0.2])
-    assert least_friction(mus, prd, 0.3) == pytest.approx(0.55, rel=1e-14)
-
-
-def test_a_run_without_a_value_exceeds_every_limit():
-    mus = np.array([0.3, 0.4, 0.5])
-    assert least_friction(mus, np.array([NONE, 0.2, 0.1]), 0.3) == 0.4
-    assert math.isnan(least_friction(mus, np.array([0.1, 0.2, NONE]), 0.3))
-
-
-def test_largest_slope_is_below_every_slope_that_exceeds_the_limit():
-    slopes = np.array([0.0, 2.0, 4.0, 6.0])
-    assert largest_slope(slopes, np.array([0.1, 0.2, 0.4, 0.3]), 0.3) == pytest.approx(3.0)
-    assert largest_slope(slopes, np.array([0.1, 0.2, 0.3, 0.3]), 0.3) == 6.0
-    assert largest_slope(slopes, np.array([0.1, 0.2, NONE, 0.3]), 0.3) == 2.0
-    assert math.isnan(largest_slope(slopes, np.array([0.4, 0.2, 0.2, 0.2]), 0.3))
+@pytest.mark.parametrize(
+    ("prds_m", "expected"),
+    [
+        ((0.1, 0.2, 0.4, 0.3), 3.0),
+        ((0.1, 0.2, 0.3, 0.3), 6.0),
+        ((0.1, 0.2, NONE, 0.3), 2.0),
+        ((0.4, 0.2, 0.2, 0.2), NONE),
+    ],
+)
+def test_largest_slope_is_below_every_slope_that_exceeds_the_limit(prds_m, expected):
+    found = largest_slope(np.array([0.0, 2.0, 4.0, 6.0]), np.array(prds_m), 0.3)
+    assert found == pytest.approx(expected, rel=1e-14, nan_ok=True)

@@ -19,21 +19,26 @@ from solver.studies.fragility import (
 LEVELS = np.geomspace(0.25, 4.0, 20)
 
 
-def drawn(rng, motions, beta, end=math.inf, theta=1.0):
-    """Capacities of a lognormal, censored at an intensity."""
-    capacity = theta * np.exp(beta * rng.standard_normal(motions))
+def known(capacity, end=math.inf):
+    """Capacities that are censored at an intensity."""
     return Capacities(
         intensity=np.minimum(capacity, end),
         is_censored=capacity > end,
-        end=np.full(motions, min(end, 1e9)),
-        falls=np.zeros(motions, dtype=bool),
-        searched=np.zeros(motions, dtype=int),
+        end=np.full(capacity.size, min(end, 1e9)),
+        falls=np.zeros(capacity.size, dtype=bool),
+        searched=np.zeros(capacity.size, dtype=int),
     )
 
 
-def fitted(found, levels=LEVELS, seed=1):
-    exceeds = levels > found.intensity[:, None]
-    return fragility(levels, exceeds, np.ones_like(exceeds), found, seed=seed)
+def drawn(rng, motions, beta, end=math.inf, theta=1.0):
+    """Capacities of a lognormal, of a generator or a seed."""
+    rng = np.random.default_rng(rng)
+    return known(theta * np.exp(beta * rng.standard_normal(motions)), end)
+
+
+def fitted(found, seed=1):
+    exceeds = found.intensity[:, None] < LEVELS
+    return fragility(LEVELS, exceeds, np.ones_like(exceeds), found, seed=seed)
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -43,19 +48,17 @@ def test_the_likelihood_of_censored_capacities_is_largest_as_another_optimizer_f
 
     def less(p):
         z = (np.log(found.intensity) - p[0]) / math.exp(p[1])
-        known = norm.logpdf(z) - p[1]
-        return -np.sum(np.where(found.is_censored, norm.logsf(z), known))
+        return -np.sum(np.where(found.is_censored, norm.logsf(z), norm.logpdf(z) - p[1]))
 
-    best = minimize(
-        less, (0.0, -1.0), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-12}
-    )
+    finely = {"xatol": 1e-9, "fatol": 1e-12}
+    best = minimize(less, (0.0, -1.0), method="Nelder-Mead", options=finely)
     one = fit_lognormal(found)
     assert (math.log(one.theta), math.log(one.beta)) == pytest.approx(best.x, abs=1e-6)
 
 
 def test_uncensored_capacities_have_their_geometric_mean_and_the_deviation_of_fema_p58():
     """Method A of Porter et al. 2007: the divisor of the squares is n - 1."""
-    found = drawn(np.random.default_rng(4), 9, 0.2)
+    found = drawn(4, 9, 0.2)
     one, logs = fit_lognormal(found), np.log(found.intensity)
     assert one.theta == pytest.approx(math.exp(logs.mean()), rel=1e-12)
     assert one.beta == pytest.approx(logs.std(ddof=1), rel=1e-12)
@@ -63,30 +66,19 @@ def test_uncensored_capacities_have_their_geometric_mean_and_the_deviation_of_fe
 
 def test_the_exact_intervals_of_seven_capacities():
     """Tables: t(0.95, 6) = 1.9432, chi-square(0.05, 6) = 1.6354 and (0.95, 6) = 12.5916."""
-    found = fitted(drawn(np.random.default_rng(4), 7, 0.2))
+    found = fitted(drawn(4, 7, 0.2))
     logs = np.log(found.capacities.intensity)
     far = 1.9432 * logs.std(ddof=1) / math.sqrt(7)
-    assert np.log(found.theta_range) == pytest.approx(
-        logs.mean() + far * np.array([-1, 1]), abs=1e-5
-    )
+    wanted = logs.mean() - far, logs.mean() + far
+    assert np.log(found.theta_range) == pytest.approx(wanted, abs=1e-5)
     sums = ((logs - logs.mean()) ** 2).sum()
-    assert found.beta_range == pytest.approx(
-        (math.sqrt(sums / 12.5916), math.sqrt(sums / 1.6354)), rel=1e-4
-    )
+    wanted = math.sqrt(sums / 12.5916), math.sqrt(sums / 1.6354)
+    assert found.beta_range == pytest.approx(wanted, rel=1e-4)
 
 
 @pytest.mark.parametrize("values", [[1.0, 1.0, 1.0], [0.0, 1.0, 2.0], [1.0]], ids=str)
 def test_capacities_that_determine_no_lognormal_give_none(values):
-    zeros = np.zeros(len(values), dtype=bool)
-    found = fitted(
-        Capacities(
-            intensity=np.array(values),
-            is_censored=zeros,
-            end=np.array(values),
-            falls=zeros,
-            searched=zeros,
-        )
-    )
+    found = fitted(known(np.array(values)))
     assert not found.fitted.is_known
     assert all(map(math.isnan, (found.fitted.beta, *found.theta_range, *found.beta_range)))
 
@@ -97,12 +89,8 @@ def held(motions, beta, end, sets):
     for seed in range(sets):
         one = fitted(drawn(rng, motions, beta, end), seed=seed)
         if one.fitted.is_known:
-            inside.append(
-                [
-                    one.theta_range[0] <= 1.0 <= one.theta_range[1],
-                    one.beta_range[0] <= beta <= one.beta_range[1],
-                ]
-            )
+            (low, high), (least, most) = one.theta_range, one.beta_range
+            inside.append([low <= 1.0 <= high, least <= beta <= most])
     return np.mean(inside, axis=0)
 
 
@@ -123,35 +111,31 @@ def test_the_intervals_of_censored_capacities_hold_it_about_as_often(motions, be
 
 
 def test_the_same_seed_gives_the_same_interval():
-    found = drawn(np.random.default_rng(1), 20, 0.4, 1.3)
+    found = drawn(1, 20, 0.4, 1.3)
     one, two = (fitted(found, seed=5) for _ in range(2))
-    assert one.theta_range == two.theta_range
-    assert one.beta_range == two.beta_range
+    assert (one.theta_range, one.beta_range) == (two.theta_range, two.beta_range)
 
 
 def test_scaling_the_intensity_scales_the_median_alone():
-    one = fitted(drawn(np.random.default_rng(2), 20, 0.4, 1.3))
-    two = fitted(drawn(np.random.default_rng(2), 20, 0.4, 3.9, theta=3.0))
+    one, two = (fitted(drawn(2, 20, 0.4, 1.3 * theta, theta)) for theta in (1.0, 3.0))
     assert two.fitted.theta == pytest.approx(3.0 * one.fitted.theta, rel=1e-9)
     assert two.fitted.beta == pytest.approx(one.fitted.beta, rel=1e-9)
     assert np.array(two.theta_range) == pytest.approx(3.0 * np.array(one.theta_range), rel=1e-6)
 
 
 def test_a_censored_run_is_in_no_count_and_is_stated():
-    found = drawn(np.random.default_rng(3), 45, 0.4)
+    found = drawn(3, 45, 0.4)
     exceeds = found.intensity[:, None] <= LEVELS
     counts = np.ones_like(exceeds)
     counts[4, -1] = counts[9, -1] = False
     one = fragility(LEVELS, exceeds, counts, found, seed=1)
-    assert one.censored == 2
-    assert one.counted[-1] == 43
+    assert (one.censored, one.counted[0], one.counted[-1]) == (2, 45, 43)
     assert one.exceeded[-1] <= 43
-    assert one.counted[0] == 45
 
 
 def test_the_p_value_is_that_of_another_simulation():
     for seed in (1, 2, 3):
-        found = fitted(drawn(np.random.default_rng(seed), 12, 0.3))
+        found = fitted(drawn(seed, 12, 0.3))
         logs = np.log(found.capacities.intensity)
         other = goodness_of_fit(norm, logs, statistic="ks", n_mc_samples=4000, rng=seed)
         assert float(lilliefors(logs)) == pytest.approx(other.statistic, rel=1e-9)
@@ -185,13 +169,5 @@ def test_the_critical_value_is_where_the_p_value_reaches_5_percent():
 
 def test_a_set_of_two_groups_is_no_lognormal_and_a_censored_one_has_no_p_value():
     groups = np.concatenate([np.linspace(0.5, 0.51, 10), np.linspace(2.0, 2.02, 10)])
-    found = drawn(np.random.default_rng(1), 20, 0.3)
-    two = Capacities(
-        intensity=groups,
-        is_censored=found.is_censored,
-        end=found.end,
-        falls=found.falls,
-        searched=found.searched,
-    )
-    assert fitted(two).p_value < 0.001
-    assert math.isnan(fitted(drawn(np.random.default_rng(1), 20, 0.3, 1.0)).p_value)
+    assert fitted(known(groups)).p_value < 0.001
+    assert math.isnan(fitted(drawn(1, 20, 0.3, 1.0)).p_value)

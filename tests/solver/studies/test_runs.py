@@ -16,7 +16,11 @@ from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
 from solver.verification.scenes import own_records, scale_to
-from studied import campaign, motion
+from studied import INTENSITIES, MUS, SLOPES, campaign, motion
+
+
+def run_all(c):
+    return run_part(Runner(c), slice(0, len(c.cases)))
 
 
 def solution(c, row, column):
@@ -34,9 +38,8 @@ def assert_rows_agree(c):
         for row in range(part.stop - part.start):
             for column in range(len(c.columns)):
                 one = solution(c, part.start + row, column)
-                wanted = np.array([getattr(one.result, name) for name in LENGTHS])
-                got = rows.lengths[:, row, column]
-                assert np.array_equal(wanted, got, equal_nan=True), (part, row, column)
+                wanted = [getattr(one.result, name) for name in LENGTHS]
+                np.testing.assert_array_equal(rows.lengths[:, row, column], wanted)
                 assert STATUSES[rows.status[row, column]] is one.result.status
                 assert rows.rung[row, column] == one.rung
         yield rows
@@ -69,9 +72,7 @@ def test_rows_are_solutions_where_rounding_decides_whether_the_block_slips():
 
 def test_rows_are_solutions_at_the_edge_of_uplift():
     c = campaign("x", 1)
-    one = c.motions[0][0]
-    slope = 0.4
-    peak = float(max(one.ax_mps2.max(), -one.ax_mps2.min()))
+    slope, peak = 0.4, float(np.abs(c.motions[0][0].ax_mps2).max())
     lifts = 9.80665 * math.cos(slope) / (peak * math.sin(slope))
     scales = [lifts * (1.0 + step * 2.0**-52) for step in range(-4, 5)]
     list(assert_rows_agree(replace(c, cases=grid(1, [slope], [0.5], scales))))
@@ -79,16 +80,10 @@ def test_rows_are_solutions_at_the_edge_of_uplift():
 
 def test_a_part_without_vertical_agrees_with_a_sweep():
     c = campaign("x", 1)
-    rows = run_part(Runner(c), slice(0, len(c.cases)))
+    rows = run_all(c)
     one = c.motions[0][0]
-    swept = sweep(
-        one.ax_mps2,
-        one.dt_s,
-        slopes_rad=np.unique(c.cases.slope_rad),
-        mus=np.unique(c.cases.mu),
-        scales=np.unique(c.cases.intensity),
-    )
-    assert np.array_equal(rows.lengths[0, :, 0], swept.prd_m.ravel(), equal_nan=True)
+    swept = sweep(one.ax_mps2, one.dt_s, slopes_rad=SLOPES, mus=MUS, scales=INTENSITIES)
+    np.testing.assert_array_equal(rows.lengths[0, :, 0], swept.prd_m.ravel())
 
 
 @pytest.mark.nightly("solver/studies/runs.py")
@@ -99,7 +94,7 @@ def test_curves_are_those_of_the_paper_procedure():
     one = replace(motion(0), dt_s=record.dt_s, ax_mps2=record.a_mps2, scale=scale_to(record, 1.0))
     slopes, ppas = SLOPES_DEG[::7], PPAS_G[3::6]
     c = Campaign(motions=((one,),), cases=grid(1, np.radians(slopes), PAPER_MUS, ppas))
-    prd = run_part(Runner(c), slice(0, len(c.cases))).lengths[0].max(axis=1)
+    prd = run_all(c).lengths[0].max(axis=1)
     prd = prd.reshape(slopes.size, PAPER_MUS.size, ppas.size)
     assert prd == pytest.approx(study.prd_m[::7, :, 3::6], rel=1e-12, abs=1e-15)
     wanted = 0.1 * float(prd[1, :, -1].max())
@@ -110,5 +105,5 @@ def test_curves_are_those_of_the_paper_procedure():
 
 def test_no_slip_has_no_displacement():
     c = campaign("xz", 1)
-    rows = run_part(Runner(c), slice(0, len(c.cases)))
+    rows = run_all(c)
     assert (rows.lengths[:, rows.rung == Rung.NO_SLIP] == 0.0).all()

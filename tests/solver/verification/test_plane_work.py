@@ -2,13 +2,10 @@
 
 import sys
 
-import numba
 import pytest
 
 from solver.verification import plane_scipy, plane_work
 from solver.verification.triples import own_triples
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="timings of compiled kernels")
 
 
 @pytest.fixture(scope="module")
@@ -38,16 +35,11 @@ def test_scipy_takes_part_where_it_is_installed(points):
     assert len(scipy_points) == (6 if plane_scipy.is_installed() else 0)
 
 
-def test_without_scipy_the_rest_is_there(monkeypatch):
+def test_without_scipy_the_rest_is_there_and_the_series_rest_where_they_should(monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy", None)
     _, points = plane_work.work(own_triples(True)[0], quick=True)
-    every = (*points, *plane_work.stops())
-    assert not any("SciPy" in point.method for point in every)
-
-
-def test_the_series_alone_rest_where_they_should(monkeypatch):
-    monkeypatch.setitem(sys.modules, "scipy", None)
     stops = list(plane_work.stops())
+    assert not any("SciPy" in point.method for point in (*points, *stops))
     ours = of(stops, plane_work.OURS)
     assert all(point.end_speed_mps == 0.0 and point.error_m < 1e-9 for point in ours)
     assert all(point.end_speed_mps > 1e-6 for point in of(stops, plane_work.CHATTERING))

@@ -2,15 +2,12 @@
 
 from dataclasses import replace
 
-import numba
 import pytest
 
 from solver.sliding import two_axes
 from solver.verification import rungs
 from solver.verification.checks import SECTIONS
 from solver.verification.triples import own_triples, readonly
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +26,6 @@ def test_each_rung_is_chosen_once(rows):
 
 
 def test_every_tolerance_is_met_against_scipy(rows):
-    pytest.importorskip("scipy")
     met = [row for row in rows if row.problem.startswith("Tolerance of")]
     assert [row.tolerance for row in met] == [1e-4, 1e-6, 1e-8, 1e-10]
     assert all(0.0 < row.computed <= row.tolerance for row in met)

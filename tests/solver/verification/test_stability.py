@@ -1,13 +1,10 @@
 """Maps show failure where theory has it, and conditioning shows where no method can help."""
 
-import numba
 import numpy as np
 import pytest
 
 from solver.verification import stability
 from solver.verification.scenes import near_fault_pulse
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="thousands of runs")
 
 
 @pytest.fixture(scope="module")
@@ -20,8 +17,11 @@ def maps(record):
     return {m.title: m for m in stability.maps(record, quick=True)}
 
 
+@pytest.fixture
 def links(maps):
-    return [m for title, m in maps.items() if title.startswith("Link")]
+    found = [m for title, m in maps.items() if title.startswith("Link")]
+    assert len(found) == 2
+    return found
 
 
 def test_every_map_has_a_cell_for_each_pair_and_marks_those_that_failed(maps):
@@ -33,20 +33,18 @@ def test_every_map_has_a_cell_for_each_pair_and_marks_those_that_failed(maps):
         assert m.note.startswith("near-fault-pulse")
 
 
-def test_a_link_fails_above_its_limit_and_is_sound_well_below(maps):
-    assert len(links(maps)) == 2
-    for m in links(maps):
+def test_a_link_fails_above_its_limit_and_is_sound_well_below(links):
+    for m in links:
         above = m.y[:, None] > 1.05 * m.limit
         below = m.y[:, None] < 0.8 * m.limit
         # Not all: a block that slips in one long go hardly strains its link.
         assert m.failed[above].mean() > 0.8
+        assert below.any()
         assert not m.failed[below].any()
-        assert m.failed.any()
-        assert not m.failed.all()
 
 
-def test_a_soft_link_is_far_off_whatever_its_sub_step_and_a_stiff_one_is_not(maps):
-    for m in links(maps):
+def test_a_soft_link_is_far_off_whatever_its_sub_step_and_a_stiff_one_is_not(links):
+    for m in links:
         fine = int(m.y.argmin())
         assert m.error_percent[fine, 0] > 1.0
         assert np.nanmin(m.error_percent[fine]) < 0.01
@@ -63,13 +61,15 @@ def test_the_stepped_methods_are_better_with_smaller_sub_steps_on_both_sides_of_
 
 def test_no_tolerance_mends_what_a_large_velocity_spoils(maps):
     m = next(m for title, m in maps.items() if "tanh" in title)
-    assert (m.error_percent[:, -1] > 10.0).all()
-    assert m.error_percent[-1, 0] < m.error_percent[-1, -1]
+    off = m.error_percent
+    assert (off[:, -1] > 10.0).all()
+    assert (off[-1, 1:] > 0.5 * off[1, 1:]).all()
+    assert off[-1, 0] < 0.25 * off[-1, 1]
 
 
-def test_a_map_is_the_same_every_time(record):
-    chart, other = (stability.link_map(record, "penalty-explicit", quick=True) for _ in range(2))
-    np.testing.assert_array_equal(chart.error_percent, other.error_percent)
+def test_a_map_is_the_same_every_time(record, maps):
+    again = stability.link_map(record, "penalty-explicit", quick=True)
+    np.testing.assert_array_equal(again.error_percent, maps[again.title].error_percent)
 
 
 def test_at_the_critical_friction_the_ninth_digit_shows_and_elsewhere_it_does_not(record):

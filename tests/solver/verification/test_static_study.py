@@ -1,6 +1,5 @@
 """Static above kinetic friction: it fades with the difference, and jumps where it must."""
 
-import numba
 import numpy as np
 import pytest
 
@@ -9,8 +8,6 @@ from solver.sliding import one_axis, two_axes
 from solver.verification import rung_study, static_study
 from solver.verification.study import MODEL_CASES, TIGHT
 from solver.verification.triples import own_triples
-
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
 
 
 @pytest.fixture(scope="module")
@@ -30,15 +27,12 @@ def test_each_scene_that_slides_is_in_every_row(evidence):
 def test_the_change_falls_with_the_square_of_the_difference(evidence):
     wider, narrower = evidence.differences[-2:]
     step = wider.excess / narrower.excess
-    for former, later in (
-        (wider.one_axis, narrower.one_axis),
-        (wider.two_axes, narrower.two_axes),
-    ):
-        # Each run is within its tolerance, and so is what it is compared with.
-        rounding = step**2 * 2.0 * TIGHT
-        assert step**2 * np.median(later) == pytest.approx(
-            np.median(former), rel=0.02, abs=rounding
-        )
+    # Each run is within its tolerance, and so is what it is compared with.
+    rounding = step**2 * 2.0 * TIGHT
+    for axes in ("one_axis", "two_axes"):
+        former, later = getattr(wider, axes), getattr(narrower, axes)
+        expected = pytest.approx(np.median(former), rel=0.02, abs=rounding)
+        assert step**2 * np.median(later) == expected
         assert later[-1] < 0.1 * former[-1]
 
 
@@ -55,8 +49,7 @@ def test_a_push_between_kinetic_and_static_holds_in_one_axis_alone(evidence):
     scene = static_study.pushed_scene(0.0, static_study.JUMPING)
     history = two_axes.run_history(scene)
     braking = (static_study.PUSHED_BACK_G + 0.4) * STANDARD_GRAVITY_MPS2
-    at = 6
-    stops = history.u_m[at] + history.v_mps[at] ** 2 / (2.0 * braking)
+    stops = history.u_m[6] + history.v_mps[6] ** 2 / (2.0 * braking)
     assert alone.end_m == pytest.approx(stops, rel=1e-9)
     assert faint.end_m == pytest.approx(alone.end_m, rel=1e-9)
     assert all(point.end_m > 50.0 * alone.end_m for point in pushed)

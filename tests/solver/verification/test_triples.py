@@ -2,7 +2,6 @@
 
 import shutil
 
-import numba
 import numpy as np
 import pytest
 
@@ -10,30 +9,27 @@ from places import RECORDS, SAMPLES
 from solver.verification.scenes import own_records
 from solver.verification.triples import own_triples, recorded_triples
 
-pytestmark = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="made motions take minutes")
+(TRIPLE,) = own_triples(True)
 
 
 def test_the_own_motions_are_those_of_the_records():
-    (triple,) = own_triples(True)
-    assert triple.x_mps2 is own_records(True)[0].a_mps2
-    assert not triple.is_recorded
-    assert not np.array_equal(triple.x_mps2, triple.y_mps2)
+    assert TRIPLE.x_mps2 is own_records(True)[0].a_mps2
+    assert not TRIPLE.is_recorded
+    assert not np.array_equal(TRIPLE.x_mps2, TRIPLE.y_mps2)
 
 
 def test_a_scene_has_the_larger_horizontal_peak_and_one_factor_for_all():
-    (triple,) = own_triples(True)
-    scale = triple.scale_to(0.5)
-    peaks = [np.abs(a).max() * scale for a in (triple.x_mps2, triple.y_mps2)]
+    scale = TRIPLE.scale_to(0.5)
+    peaks = [np.abs(a).max() * scale for a in (TRIPLE.x_mps2, TRIPLE.y_mps2)]
     assert max(peaks) == pytest.approx(0.5 * 9.80665)
 
 
 def test_a_part_is_the_strongest_and_sampled_alike():
-    (triple,) = own_triples(True)
-    part = triple.cut(101)
+    part = TRIPLE.cut(101)
     assert part.x_mps2.size == part.y_mps2.size == part.z_mps2.size == 101
     assert not part.x_mps2.flags.writeable
     energy = np.sum(part.x_mps2**2 + part.y_mps2**2)
-    assert energy >= np.sum((triple.x_mps2**2 + triple.y_mps2**2)[:101])
+    assert energy >= np.sum((TRIPLE.x_mps2**2 + TRIPLE.y_mps2**2)[:101])
 
 
 def test_files_of_three_components_are_found_and_what_is_not_one_is_passed_over(tmp_path):

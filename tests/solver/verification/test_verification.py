@@ -3,7 +3,6 @@
 import dataclasses
 import math
 
-import numba
 import numpy as np
 import pytest
 
@@ -11,14 +10,10 @@ import oracle
 import verified
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
-from solver.verification import checks, crosschecks, paper_studies, plane_scipy, reference
+from solver.verification import checks, crosschecks, paper_studies, plane_scipy, reference, study
 from solver.verification.evidence import DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
-from solver.verification.scenes import near_fault_pulse, own_records, scale_to, shortened
-
-pytestmark = pytest.mark.skipif(
-    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
-)
+from solver.verification.scenes import Case, near_fault_pulse, own_records, scale_to, shortened
 
 
 @pytest.fixture(scope="module")
@@ -37,18 +32,9 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.passed
     assert verification.quick
     assert verification.records == ("motion-01-x", "near-fault-pulse")
-    for name in (
-        "checks",
-        "work",
-        "maps",
-        "convergence",
-        "links",
-        "curves",
-        "conditioning",
-        "roofs",
-        "rungs",
-    ):
-        assert len(getattr(verification, name)) > 0, name
+    v = verification
+    parts = v.checks, v.work, v.maps, v.convergence, v.links, v.curves, v.conditioning, v.roofs
+    assert all(len(part) > 0 for part in (*parts, v.rungs))
     assert len(verification.convergence) == len(verification.curves) == 2
     assert [(link.record, link.slope_deg) for link in verification.links] == [
         (record, slope) for record in verification.records for slope in (0.0, 4.0)
@@ -56,7 +42,7 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
 
 
 @pytest.mark.nightly("solver/verification/")
-def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(verification):
+def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_alike(verification):
     rows = verification.checks
     assert {row.section for row in rows} == {
         "Closed forms",
@@ -71,13 +57,12 @@ def test_every_section_of_the_checks_has_rows_with_a_source_and_a_tolerance(veri
     assert all(row.source and row.unit and row.tolerance <= 0.025 for row in rows)
     digits = [row for row in rows if row.section == "Decimal arithmetic, 50 digits"]
     assert max(row.error for row in digits) <= 1e-12
-    assert len({(row.problem, row.quantity) for row in digits}) == len(digits)
+    names = [(row.section, row.problem, row.quantity) for row in rows]
+    assert len(set(names)) == len(names)
 
 
 @pytest.mark.nightly("solver/verification/")
-def test_every_check_that_a_feature_names_ran_and_passed_and_every_check_belongs_to_one(
-    verification,
-):
+def test_every_check_that_a_feature_names_ran_and_every_check_belongs_to_one(verification):
     ran = {row.id for row in verification.checks}
     named = {id for feature in FEATURES for id in feature.checks}
     extra = {id for feature in FEATURES for id in feature.extra}
@@ -88,25 +73,15 @@ def test_every_check_that_a_feature_names_ran_and_passed_and_every_check_belongs
         assert status.is_verified == bool(status.feature.checks), status
 
 
-@pytest.mark.nightly("solver/verification/")
-def test_no_two_rows_are_alike(verification):
-    names = [(row.section, row.problem, row.quantity) for row in verification.checks]
-    assert len(set(names)) == len(names)
-
-
 def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypatch, pulse):
     def wrong(*args, **kwargs):
         right = slide(*args, **kwargs)
-        factor = 1.0 + 1e-6
-        return dataclasses.replace(
-            right,
-            prd_m=factor * right.prd_m,
-            residual_m=factor * right.residual_m,
-            down_m=factor * right.down_m,
-        )
+        names = "prd_m", "residual_m", "down_m"
+        off = {name: (1.0 + 1e-6) * getattr(right, name) for name in names}
+        return dataclasses.replace(right, **off)
 
-    monkeypatch.setattr(checks, "slide", wrong)
-    monkeypatch.setattr(crosschecks, "slide", wrong)
+    for module in (checks, crosschecks):
+        monkeypatch.setattr(module, "slide", wrong)
     closed = [row for row in checks.closed_forms() if row.tolerance == checks.ROUNDING]
     assert closed
     assert not any(row.passed for row in closed)
@@ -134,12 +109,10 @@ def test_an_error_is_absolute_where_nothing_is_expected():
 def test_fifty_decimal_digits_agree_with_forty_binary_ones(pulse, degrees, mu, with_vertical):
     ax = shortened(pulse, 4.0).a_mps2
     az = 0.3 * ax[::-1] if with_vertical else None
-    scene = {"slope_rad": math.radians(degrees), "mu": mu, "az": az, "scale": 0.7}
-    exact = oracle.slide(ax, 0.01, **scene, g=9.81)
-    scene["az_mps2"] = scene.pop("az")
-    decimal = reference.slide(ax.tolist(), 0.01, **scene, g_mps2=9.81)
-    assert decimal.prd_m == float(exact.prd)
-    assert decimal.residual_m == float(exact.residual)
+    scene = {"slope_rad": math.radians(degrees), "mu": mu, "scale": 0.7}
+    exact = oracle.slide(ax, 0.01, **scene, az=az, g=9.81)
+    decimal = reference.slide(ax.tolist(), 0.01, **scene, az_mps2=az, g_mps2=9.81)
+    assert (decimal.prd_m, decimal.residual_m) == (float(exact.prd), float(exact.residual))
 
 
 def test_records_of_the_project_are_the_same_every_time_and_read_only():
@@ -161,24 +134,20 @@ def test_errors_in_percent_have_a_floor_of_a_millimetre():
 
 @pytest.mark.nightly("solver/verification/")
 def test_the_papers_method_converges_at_first_order_under_an_envelope(verification):
-    for study in verification.convergence:
-        assert study.scenarios == 60
-        assert study.substeps == (1, 2, 4, 8, 16, 32, 64, 128, 256)
-        error = study.largest_error_exact_percent
+    for found in verification.convergence:
+        assert found.scenarios == 60
+        assert found.substeps == (1, 2, 4, 8, 16, 32, 64, 128, 256)
+        error = found.largest_error_exact_percent
         # Not smoothly: an event falls differently on each grid.
         assert (error[3:] < 0.5 * error[:-3]).all()
         assert 16 < error[0] / error[6] < 1000
-        assert study.largest_error_p256_percent[-1] == 0.0
-        assert study.largest_error_p256_percent[:4] == pytest.approx(error[:4], rel=0.1)
-        assert (study.largest_error_of_prd_percent <= error * (1.0 + 1e-12)).all()
-        assert len(study.worst_cases) == len(study.substeps)
-        assert (study.longest_seconds > 0.0).all()
-
-
-@pytest.mark.nightly("solver/verification/")
-def test_a_single_pulse_has_errors_like_the_papers_own(verification):
-    pulse = verification.convergence[1]
-    assert 0.01 < pulse.largest_error_exact_percent[6] < 1.0  # 0.48 % in the paper
+        assert found.largest_error_p256_percent[-1] == 0.0
+        assert found.largest_error_p256_percent[:4] == pytest.approx(error[:4], rel=0.1)
+        assert (found.largest_error_of_prd_percent <= error * (1.0 + 1e-12)).all()
+        assert len(found.worst_cases) == len(found.substeps)
+        assert (found.longest_seconds > 0.0).all()
+    of_a_pulse = verification.convergence[1].largest_error_exact_percent
+    assert 0.01 < of_a_pulse[6] < 1.0  # 0.48 % in the paper
 
 
 @pytest.mark.nightly("solver/verification/")
@@ -198,27 +167,18 @@ def test_design_curves_are_the_papers_6960_runs(verification):
     curves = verification.curves[0]
     assert curves.runs == 6960
     assert curves.prd_m.shape == (15, 15, 16)
-    record = own_records(True)[0]
-    scale = scale_to(record, curves.ppas_g[15])
-    both = [
-        slide(record.a_mps2, record.dt_s, slope_rad=math.radians(s), mu=curves.mus[2], scale=scale)
-        for s in (-4.0, 4.0)
-    ]
-    assert curves.prd_m[8, 2, 15] == pytest.approx(max(run.prd_m for run in both), rel=1e-9)
+    cases = [Case(slope_deg, curves.mus[2], curves.ppas_g[15]) for slope_deg in (-4.0, 4.0)]
+    both_m = [study.run(own_records(True)[0], case).prd_m for case in cases]
+    assert curves.prd_m[8, 2, 15] == pytest.approx(max(both_m), rel=1e-9)
 
 
 def test_the_least_friction_is_read_off_between_the_runs():
     mus = np.array([0.2, 0.4, 0.6, 0.8])
     prd = np.array([4.0, 1.0, 2.0, 0.0])[None, :, None] * np.array([0.0, 1.0])
     curves = DesignCurves(
-        record="r",
-        runs=1,
-        seconds=0.0,
-        slopes_deg=np.array([0.0, 2.0]),
-        mus=mus,
-        ppas_g=np.array([0.0, 1.0]),
-        prd_m=np.concatenate([prd, 3.0 * prd]),
-    )
+        record="r", runs=1, seconds=0.0, mus=mus, prd_m=np.concatenate([prd, 3.0 * prd]),
+        slopes_deg=np.array([0.0, 2.0]), ppas_g=np.array([0.0, 1.0]),
+    )  # fmt: skip
     assert curves.prd(1.0, 0.5) == pytest.approx([4.0, 1.0, 2.0, 0.0])
     # From 0.4 to 0.5 it is within 1.5 too, but not from there on.
     assert curves.least_mu(0.0, 1.0, 1.5) == pytest.approx(0.65)
@@ -237,6 +197,4 @@ def test_studies_of_the_paper_give_the_same_every_time(pulse):
 def test_a_link_that_never_comes_through_leaves_holes_and_no_error(pulse, monkeypatch):
     monkeypatch.setattr(paper_studies, "LINK_PER_M", 1e9)
     link = paper_studies.link_comparison(pulse, 4.0)
-    assert np.isnan(link.prd_link_m).all()
-    assert math.isnan(link.worst_percent)
-    assert math.isnan(link.mean_percent)
+    assert np.isnan([*link.prd_link_m, link.worst_percent, link.mean_percent]).all()

@@ -5,67 +5,59 @@ import math
 import numpy as np
 import pytest
 
+from blocks import readonly
 from solver.model import Heading, coulomb
 from solver.sliding import one_axis
 from solver.sliding.checked import slide
 from solver.verification import study
 from solver.verification.scenes import Case, near_fault_pulse, scale_to, shortened
-from solver.verification.triples import Triple, readonly
+from solver.verification.triples import Triple
 
-
-@pytest.fixture
-def triple():
-    x, y, z = (readonly(np.array(a)) for a in ([0, 6, -6, 0], [0, 1, 2, 0], [0, 1, -1, 0]))
-    return Triple(name="made", is_recorded=False, dt_s=0.1, x_mps2=x, y_mps2=y, z_mps2=z)
+X, Y, Z = map(readonly, ([0, 6, -6, 0], [0, 1, 2, 0], [0, 1, -1, 0]))
+MADE = Triple(name="made", is_recorded=False, dt_s=0.1, x_mps2=X, y_mps2=Y, z_mps2=Z)
 
 
 def test_a_grid_has_every_combination_once_the_ppa_fastest():
-    cases = study.grid((0.0, 2.0), (0.3,), (0.5, 1.0))
-    assert cases == tuple(
-        Case(*values)
-        for values in ((0.0, 0.3, 0.5), (0.0, 0.3, 1.0), (2.0, 0.3, 0.5), (2.0, 0.3, 1.0))
-    )
+    wanted = (0.0, 0.3, 0.5), (0.0, 0.3, 1.0), (2.0, 0.3, 0.5), (2.0, 0.3, 1.0)
+    found = study.grid((0.0, 2.0), (0.3,), (0.5, 1.0))
+    assert found == tuple(Case(*values) for values in wanted)
 
 
-def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case(triple):
-    turned = triple.turned(Heading(swapped=True, sign=-1))
-    scenes = study.scenes_of([triple, turned], study.MODEL_CASES)
+def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case():
+    turned = MADE.turned(Heading(swapped=True, sign=-1))
+    scenes = study.scenes_of([MADE, turned], study.MODEL_CASES)
     assert [scene.friction.mu_slow for scene in scenes] == [0.3, 0.4, 0.5] * 2
-    assert scenes[0].ax_mps2.tolist() == triple.x_mps2.tolist()
-    assert scenes[3].ax_mps2.tolist() == (-triple.y_mps2).tolist()
-    assert scenes[3].ay_mps2.tolist() == triple.x_mps2.tolist()
+    assert scenes[0].ax_mps2.tolist() == X.tolist()
+    assert scenes[3].ax_mps2.tolist() == (-Y).tolist()
+    assert scenes[3].ay_mps2.tolist() == X.tolist()
     assert scenes[2].scale == scenes[5].scale == pytest.approx(1.5 * 9.80665 / 6.0)
 
 
-def test_a_second_component_fades_and_is_gone_at_zero(triple):
-    (scene,) = study.scenes_of([triple], study.MODEL_CASES[:1])
+def test_a_second_component_fades_and_is_gone_at_zero():
+    (scene,) = study.scenes_of([MADE], study.MODEL_CASES[:1])
     assert study.faded(scene, 0.5).ay_mps2.tolist() == [0.0, 0.5, 1.0, 0.0]
     assert study.faded(scene, 0.0).ay_mps2.size == 0
 
 
 def test_in_two_axes_each_scene_takes_the_law_of_its_own_friction():
     push = np.array([0.0, 5.0, -5.0, 0.0])
-    scenes = [study.flat_scene(push, 0.0 * push, 0.1, coulomb(mu)) for mu in (0.1, 0.2)]
-    halved = study.plane_prds(scenes, lambda mu: coulomb(0.5 * mu), study.TIGHT)
-    by_hand = [study.flat_scene(push, 0.0 * push, 0.1, coulomb(mu)) for mu in (0.05, 0.1)]
-    assert halved == pytest.approx([one_axis.run(scene).prd_m for scene in by_hand], rel=1e-9)
+    half, whole, double = (
+        study.flat_scene(push, 0.0 * push, 0.1, coulomb(mu)) for mu in (0.05, 0.1, 0.2)
+    )
+    halved = study.plane_prds([whole, double], lambda mu: coulomb(0.5 * mu), study.TIGHT)
+    by_hand = [one_axis.run(scene).prd_m for scene in (half, whole)]
+    assert halved == pytest.approx(by_hand, rel=1e-9)
     assert halved[0] > halved[1] > 0.0
 
 
 def test_a_run_and_its_history_are_those_of_a_slide():
     record, case = shortened(near_fault_pulse(), 2.0), Case(4.0, 0.2, 0.5)
-    direct = slide(
-        record.a_mps2,
-        record.dt_s,
-        slope_rad=math.radians(4.0),
-        mu=0.2,
-        scale=scale_to(record, 0.5),
-        method="paper",
-        substeps=4,
-    )
+    by = {"method": "paper", "substeps": 4}
+    place = {"slope_rad": math.radians(4.0), "mu": 0.2, "scale": scale_to(record, 0.5)}
+    direct = slide(record.a_mps2, record.dt_s, **place, **by)
     assert direct.prd_m > 0.0
-    assert study.run(record, case, "paper", substeps=4).prd_m == direct.prd_m
-    assert study.history(record, case, "paper", substeps=4).u_m[-1] == direct.residual_m
+    assert study.run(record, case, **by).prd_m == direct.prd_m
+    assert study.history(record, case, **by).u_m[-1] == direct.residual_m
     assert study.run(record, case).prd_m == study.run(record, case, "exact").prd_m
 
 
