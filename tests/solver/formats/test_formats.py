@@ -3,10 +3,7 @@
 Oracle: the wave that the samples were made of, typed again here; units by their definition.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pytest
@@ -169,14 +166,14 @@ HELD = {
 }
 
 
-def problems_of(path: Any, **how: Any) -> tuple[str, ...]:
+def problems_of(path, **how):
     with pytest.raises(InputError) as caught:
         read_motion_file(path, **how)
     return caught.value.problems
 
 
 @pytest.mark.parametrize("name", HELD)
-def test_a_file_gives_its_channels_step_samples_and_notes(name: str) -> None:
+def test_a_file_gives_its_channels_step_samples_and_notes(name):
     held, motion_file = HELD[name], read_motion_file(SAMPLES / name)
     assert motion_file.format == held.format
     assert motion_file.notes == held.notes
@@ -186,7 +183,7 @@ def test_a_file_gives_its_channels_step_samples_and_notes(name: str) -> None:
         assert record.a_mps2 == pytest.approx(held.channels[record.name], **held.error)
 
 
-def test_the_first_channel_of_some_files_is_known_better() -> None:
+def test_the_first_channel_of_some_files_is_known_better():
     for name, error in (("cosmos.v1c", {"abs": 0.51e-5 * G}), ("csmip-old.v2", EXACT)):
         record = read_motion_file(SAMPLES / name).channels[0]
         assert record.a_mps2 == pytest.approx(HELD[name].channels[record.name], **error)
@@ -213,9 +210,7 @@ READ_OTHERWISE = [
 
 
 @pytest.mark.parametrize(("name", "changes", "factor", "more"), READ_OTHERWISE)
-def test_what_is_written_otherwise_holds_the_same(
-    altered: Any, name: str, changes: list[tuple[str, str]], factor: float, more: tuple[str, ...]
-) -> None:
+def test_what_is_written_otherwise_holds_the_same(altered, name, changes, factor, more):
     held, motion_file = HELD[name], read_motion_file(altered(name, *changes))
     assert motion_file.notes == held.notes + more
     for record in motion_file.channels:
@@ -223,13 +218,13 @@ def test_what_is_written_otherwise_holds_the_same(
         assert record.a_mps2 == pytest.approx(expected, **held.error)
 
 
-def test_readings_in_another_unit_than_one_are_scaled(altered: Any) -> None:
+def test_readings_in_another_unit_than_one_are_scaled(altered):
     path = altered("geonet.v1a", ("units of 1.00 mm/s/s", "units of 0.80 mm/s/s"))
     expected = 0.8 * HELD["geonet.v1a"].channels["Component N28W"]
     assert read_motion_file(path).channel("1").a_mps2 == pytest.approx(expected, abs=1.01e-4)
 
 
-def test_a_sensor_at_the_surface_needs_no_note(altered: Any) -> None:
+def test_a_sensor_at_the_surface_needs_no_note(altered):
     motion_file = read_motion_file(
         altered("kiknet.ew1", ("Dir.              2", "Dir.              6"))
     )
@@ -322,9 +317,7 @@ FAULTS = [
 
 
 @pytest.mark.parametrize(("name", "changes", "expected"), FAULTS)
-def test_a_fault_is_told_with_its_line(
-    altered: Any, name: str, changes: list[tuple[str, str]], expected: str
-) -> None:
+def test_a_fault_is_told_with_its_line(altered, name, changes, expected):
     (problem,) = problems_of(altered(name, *changes))
     assert problem.startswith(f"{name}{expected}")
     if "CORRECTED ACC" in changes[0][0]:
@@ -340,7 +333,7 @@ def test_a_fault_is_told_with_its_line(
         ("none", "found no number of accelerations; give the whole"),
     ],
 )
-def test_the_counts_of_geonet_must_hold(altered: Any, count: str, told: str) -> None:
+def test_the_counts_of_geonet_must_hold(altered, count, told):
     text = (SAMPLES / "geonet.v1a").read_text()
     line = next(line for line in text.splitlines() if line.startswith("      21"))
     changed = line[:24] + count.rjust(8) + line[32:]
@@ -357,9 +350,7 @@ def test_the_counts_of_geonet_must_hold(altered: Any, count: str, told: str) -> 
          (".0121x", ".0060y")),
     ],
 )  # fmt: skip
-def test_faults_of_all_channels_are_told_together_with_their_lines(
-    altered: Any, name: str, changes: list[tuple[str, str]], found: tuple[str, ...]
-) -> None:
+def test_faults_of_all_channels_are_told_together_with_their_lines(altered, name, changes, found):
     path = altered(name, *changes)
     lines = path.read_text().splitlines()
     assert problems_of(path) == tuple(
@@ -381,9 +372,7 @@ STATED = [
 
 
 @pytest.mark.parametrize(("name", "units", "written", "other", "step", "other_s"), STATED)
-def test_what_the_caller_says_must_agree(
-    name: str, units: str, written: str, other: str, step: str, other_s: float
-) -> None:
+def test_what_the_caller_says_must_agree(name, units, written, other, step, other_s):
     path, held = SAMPLES / name, HELD[name]
     agreed = read_motion_file(path, units=units, dt_s=float(step))
     assert [record.dt_s for record in agreed.channels] == [held.dt_s] * len(held.channels)
@@ -398,14 +387,14 @@ def test_what_the_caller_says_must_agree(
 # Steps that a heading rounds or lacks
 
 
-def test_a_step_within_the_rounding_of_the_heading_is_taken(altered: Any) -> None:
+def test_a_step_within_the_rounding_of_the_heading_is_taken(altered):
     path = altered("csmip-new.v2", ("  .0078125", "  .0000000"))
     assert read_motion_file(path).channel().dt_s == 0.008
     assert read_motion_file(path, dt_s=1 / 128).channel().dt_s == 1 / 128
     assert "but dt is 0.0086 s" in problems_of(path, dt_s=0.0086)[0]
 
 
-def test_a_step_that_no_heading_has_may_be_given(altered: Any) -> None:
+def test_a_step_that_no_heading_has_may_be_given(altered):
     unknown = ("    -999.000000", "    -999.000000")
     steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
     path = altered("cosmos.v2c", *steps)
@@ -420,7 +409,7 @@ def test_a_step_that_no_heading_has_may_be_given(altered: Any) -> None:
 # Files that are cut, and those of something else
 
 
-def test_a_file_cut_behind_its_accelerations_says_so(file: Any) -> None:
+def test_a_file_cut_behind_its_accelerations_says_so(file):
     text = (SAMPLES / "csmip-new.v2").read_text()
     motion_file = read_motion_file(file(text[: text.index("points of displ")]))
     assert motion_file.channel().a_mps2 == pytest.approx(1.5 * WAVE / 100, rel=1e-14)
@@ -429,7 +418,7 @@ def test_a_file_cut_behind_its_accelerations_says_so(file: Any) -> None:
     )
 
 
-def test_a_cut_file_of_three_components_is_told(file: Any) -> None:
+def test_a_cut_file_of_three_components_is_told(file):
     lines = (SAMPLES / "geonet.v2a").read_text().splitlines()
     cut = read_motion_file(file("\n".join(lines[:-4])))
     assert cut.notes == (
@@ -463,7 +452,7 @@ ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz
          ":3: found velocity; give the file of acceleration"),
     ],
 )  # fmt: skip
-def test_what_is_no_record_is_refused(file: Any, content: str, expected: str) -> None:
+def test_what_is_no_record_is_refused(file, content, expected):
     assert problems_of(file(content)) == (f"roof.csv{expected}",)
 
 
@@ -481,7 +470,7 @@ def test_what_is_no_record_is_refused(file: Any, content: str, expected: str) ->
         "3, .01 NPTS, DT",
     ],
 )
-def test_count_and_step_are_found_however_they_are_set(file: Any, line: str) -> None:
+def test_count_and_step_are_found_however_they_are_set(file, line):
     record = read_motion_file(file(f"{PEER_HEADING}{line}\n .1E+00 -.2D+00\n3.\n\n")).channel()
     assert record.dt_s == 0.01
     assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 3.0 * G]
@@ -503,24 +492,22 @@ def test_count_and_step_are_found_however_they_are_set(file: Any, line: str) -> 
         ("NPTS= 0, DT= .01 SEC", "", "4: states 0 values; give at least 2"),
     ],
 )
-def test_faults_of_a_short_file_are_told_with_their_line(
-    file: Any, line: str, values: str, expected: str
-) -> None:
+def test_faults_of_a_short_file_are_told_with_their_line(file, line, values, expected):
     (problem,) = problems_of(file(f"{PEER_HEADING}{line}\n{values}\n"))
     assert problem.startswith(f"roof.csv:{expected}")
 
 
-def test_a_step_that_the_heading_lacks_may_be_given(file: Any) -> None:
+def test_a_step_that_the_heading_lacks_may_be_given(file):
     path = file(f"{PEER_HEADING}NPTS= 3, DT= SEC\n1 2 3\n")
     assert read_motion_file(path, dt_s=0.02).channel().dt_s == 0.02
 
 
-def test_a_file_named_as_text_is_known_by_its_content(file: Any) -> None:
+def test_a_file_named_as_text_is_known_by_its_content(file):
     content = (SAMPLES / "peer-nga.at2").read_text()
     assert read_motion_file(file(content, "a.txt")).format == "PEER AT2"
 
 
-def test_units_are_asked_for_only_where_the_heading_has_none(file: Any) -> None:
+def test_units_are_asked_for_only_where_the_heading_has_none(file):
     bare = "SOMETHING\nELSE\n\nNPTS= 2, DT= .01 SEC\n1 2\n"
     assert problems_of(file(bare))[0].startswith("roof.csv: found no unit of acceleration; give")
     record = read_motion_file(file(bare), units="gal").channel()

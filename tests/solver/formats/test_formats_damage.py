@@ -1,15 +1,9 @@
 """Damaged files: what a heading states is compared with what follows. Oracle: the whole file."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 from places import DATA, ROOT
-from solver.formats import MotionFile, read_motion_file
+from solver.formats import read_motion_file
 from solver.model import InputError
 
 SAMPLES = DATA / "motions"
@@ -20,17 +14,17 @@ SILENT = {"columns.csv", "one.txt", "remark.csv", "uneven.txt", "README.md"}
 NAMES = sorted(path.name for path in SAMPLES.iterdir() if path.name not in SILENT)
 
 
-def values_of(motion_file: MotionFile) -> list[tuple[float, bytes]]:
+def values_of(motion_file):
     return [(record.dt_s, record.a_mps2.tobytes()) for record in motion_file.channels]
 
 
-def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
+def problems_of(path, **how):
     with pytest.raises(InputError) as caught:
         read_motion_file(path, **how)
     return caught.value.problems
 
 
-def damages(lines: Sequence[bytes], at: int) -> Iterator[tuple[str, list[bytes]]]:
+def damages(lines, at):
     """Files that have lost something at one line, with a word for what."""
     half = lines[at][: len(lines[at]) // 2]
     yield "a line lost", [*lines[:at], *lines[at + 1 :]]
@@ -38,7 +32,7 @@ def damages(lines: Sequence[bytes], at: int) -> Iterator[tuple[str, list[bytes]]
     yield "half a line lost", [*lines[:at], half + b"\n", *lines[at + 1 :]]
 
 
-def unnoticed(path: Path, whole: Path, at_lines: Sequence[int]) -> list[tuple[int, str]]:
+def unnoticed(path, whole, at_lines):
     """Damages that are read as another record without an error or a note."""
     lines = whole.read_bytes().splitlines(keepends=True)
     intact, missed = read_motion_file(whole), []
@@ -56,7 +50,7 @@ def unnoticed(path: Path, whole: Path, at_lines: Sequence[int]) -> list[tuple[in
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.nightly("solver/formats/")
-def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path: Path, name: str) -> None:
+def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path, name):
     count = len((SAMPLES / name).read_bytes().splitlines())
     assert unnoticed(tmp_path / name, SAMPLES / name, range(count)) == []
 
@@ -70,7 +64,7 @@ REAL = [
 
 
 @pytest.mark.parametrize("name", REAL)
-def test_no_damage_of_a_real_record_changes_it_without_a_word(tmp_path: Path, name: str) -> None:
+def test_no_damage_of_a_real_record_changes_it_without_a_word(tmp_path, name):
     whole = RECORDS / name
     if not whole.is_file():
         pytest.skip("the real records are not here")
@@ -89,18 +83,14 @@ def test_no_damage_of_a_real_record_changes_it_without_a_word(tmp_path: Path, na
         ("geonet.v1a", 58, "geonet.v1a:30: found the heading of component 2, the last one, where"),
     ],
 )
-def test_a_file_cut_after_its_first_channel_is_refused(
-    file: Any, name: str, kept: int, expected: str
-) -> None:
+def test_a_file_cut_after_its_first_channel_is_refused(file, name, kept, expected):
     lines = (SAMPLES / name).read_bytes().splitlines(keepends=True)
     (problem,) = problems_of(file(b"".join(lines[:kept]), name))
     assert problem.startswith(expected)
 
 
 @pytest.mark.parametrize("name", ["csmip-old.v2", "renadic.v1", "csmip-even.raw"])
-def test_a_file_cut_between_two_channels_says_how_many_the_recorder_had(
-    file: Any, name: str
-) -> None:
+def test_a_file_cut_between_two_channels_says_how_many_the_recorder_had(file, name):
     content = (SAMPLES / name).read_bytes()
     end = content.index(b"\n", content.upper().index(b"END OF DATA FOR CHANNEL")) + 1
     motion_file = read_motion_file(file(content[:end], name))
@@ -108,7 +98,7 @@ def test_a_file_cut_between_two_channels_says_how_many_the_recorder_had(
     assert " channels of the recorder, the file has 1: the others are" in motion_file.notes[0]
 
 
-def test_a_heading_of_volume_2_without_one_line_is_refused(file: Any) -> None:
+def test_a_heading_of_volume_2_without_one_line_is_refused(file):
     # The step of the real heading was not found there, and 0.008 s was taken for 1/128 s.
     lines = (SAMPLES / "csmip-new.v2").read_bytes().splitlines(keepends=True)
     assert problems_of(file(b"".join([*lines[:8], *lines[9:]]), "roof.v2")) == (
@@ -117,7 +107,7 @@ def test_a_heading_of_volume_2_without_one_line_is_refused(file: Any) -> None:
     )
 
 
-def test_a_line_cut_within_a_number_is_refused(altered: Any) -> None:
+def test_a_line_cut_within_a_number_is_refused(altered):
     # 2.5 of 2.500000e+00 is a number, and so is 9.8 of 9.800000e+01.
     path = altered("cosmos.v2c", ("   9.800000e+01", "   9.800000"))
     assert problems_of(path) == (
@@ -128,9 +118,7 @@ def test_a_line_cut_within_a_number_is_refused(altered: Any) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.nightly("solver/formats/")
-def test_no_cut_within_the_last_value_changes_a_record_without_a_word(
-    tmp_path: Path, name: str
-) -> None:
+def test_no_cut_within_the_last_value_changes_a_record_without_a_word(tmp_path, name):
     whole, path = (SAMPLES / name).read_bytes(), tmp_path / name
     intact, missed = read_motion_file(SAMPLES / name), []
     for lost in range(1, 40):
@@ -145,15 +133,15 @@ def test_no_cut_within_the_last_value_changes_a_record_without_a_word(
 
 
 def test_a_last_value_with_fewer_digits_than_all_others_is_refused_with_its_line(
-    altered: Any,
-) -> None:
+    altered,
+):
     assert problems_of(altered("peer-nga.at2", ("-.3125000E-01", "-.3125"))) == (
         "peer-nga.at2:6: found '-.3125' at the end, with fewer digits than all other values; give"
         " the whole file",
     )
 
 
-def test_values_of_unlike_digits_may_end_with_few(altered: Any) -> None:
+def test_values_of_unlike_digits_may_end_with_few(altered):
     path = altered("peer-nga.at2", (".2500000E+00", ".25"), ("-.3125000E-01", "-.0625"))
     assert read_motion_file(path).channels[0].a_mps2.size == 7
 
@@ -162,9 +150,9 @@ TEXTS = sorted(SILENT - {"README.md"})
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_a_text_that_is_cut_within_a_line_says_so(tmp_path: Path, name: str) -> None:
+def test_a_text_that_is_cut_within_a_line_says_so(tmp_path, name):
     whole, path = (SAMPLES / name).read_bytes(), tmp_path / name
-    how: dict[str, Any] = {"units": "g", "dt_s": 0.01} if name == "one.txt" else {}
+    how = {"units": "g", "dt_s": 0.01} if name == "one.txt" else {}
     intact, tried = read_motion_file(SAMPLES / name, **how), 0
     for lost in range(2, 40):
         left = whole[:-lost]
@@ -179,7 +167,7 @@ def test_a_text_that_is_cut_within_a_line_says_so(tmp_path: Path, name: str) -> 
     assert tried > 0
 
 
-def test_a_text_whose_last_value_is_cut_short_is_refused(file: Any) -> None:
+def test_a_text_whose_last_value_is_cut_short_is_refused(file):
     text = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
     assert read_motion_file(file(text), units="g").notes == ()
     assert problems_of(file(text[:-3]), units="g") == (
@@ -191,23 +179,21 @@ def test_a_text_whose_last_value_is_cut_short_is_refused(file: Any) -> None:
 
 
 @pytest.mark.parametrize("lines", [1, 60])
-def test_a_comment_that_ends_a_text_without_a_line_end_is_no_cut_value(
-    file: Any, lines: int
-) -> None:
+def test_a_comment_that_ends_a_text_without_a_line_end_is_no_cut_value(file, lines):
     rows = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
     text = rows[:-3] + "\n" + "\n".join(["# end"] * lines)
     (note,) = read_motion_file(file(text), units="g").notes
     assert note.startswith("the last line has no line end")
 
 
-def test_a_block_of_a_heading_states_its_lines(file: Any) -> None:
+def test_a_block_of_a_heading_states_its_lines(file):
     lines = (SAMPLES / "cosmos.v2c").read_bytes().splitlines(keepends=True)
     assert problems_of(file(b"".join([*lines[:30], *lines[31:]]), "roof.v2c")) == (
         "roof.v2c:25: states 20 lines of real numbers, found 19; give the whole file",
     )
 
 
-def test_a_duration_that_the_values_do_not_have_is_refused(altered: Any) -> None:
+def test_a_duration_that_the_values_do_not_have_is_refused(altered):
     path = altered("geonet.v1a", ("Duration   0.10 sec", "Duration   0.90 sec"))
     assert problems_of(path) == (
         "geonet.v1a:10: the heading states 0.9 s, the record lasts 0.105 s; give dt with more"
@@ -222,7 +208,7 @@ ROWS = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.1}\n" for i in range(20))
 
 
 @pytest.mark.parametrize("words", ["number of points: 20", "No. of samples 20, gal"])
-def test_a_text_that_states_its_samples_is_held_to_it(file: Any, words: str) -> None:
+def test_a_text_that_states_its_samples_is_held_to_it(file, words):
     text = f"# {words}\ntime_s,acc_g\n{ROWS}"
     assert len(read_motion_file(file(text)).channel().a_mps2) == 20
     cut = "".join(text.splitlines(keepends=True)[:-3])
@@ -233,7 +219,7 @@ def test_a_text_that_states_its_samples_is_held_to_it(file: Any, words: str) -> 
     assert problem == "roof.csv:1: states 20 samples, found 21; correct the count"
 
 
-def test_times_are_compared_with_the_step_that_a_text_states(file: Any) -> None:
+def test_times_are_compared_with_the_step_that_a_text_states(file):
     assert read_motion_file(file(f"# dt = 0.01 s\ntime_s,acc_g\n{ROWS}")).channel().dt_s == 0.01
     (problem,) = problems_of(file(f"# dt = 0.02 s\ntime_s,acc_g\n{ROWS}"))
     assert problem == (

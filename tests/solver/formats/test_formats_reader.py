@@ -1,13 +1,9 @@
 """All formats: the real records of the manifest, detection, and what strangers may send."""
 
-from __future__ import annotations
-
 import csv
 import math
 import subprocess
 import sys
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,9 +12,8 @@ from hypothesis import strategies as st
 from test_formats import HELD
 
 from places import DATA, ROOT
-from solver.formats import MotionFile, read_motion_file, read_record
+from solver.formats import read_motion_file, read_record
 from solver.model import InputError
-from solver.records.record import Record
 
 G = 9.80665
 RECORDS = ROOT.parent / "shared" / "records"
@@ -29,7 +24,7 @@ TEXTS = ("columns.csv", "one.txt", "remark.csv", "uneven.txt")
 FORMATS = dict.fromkeys(TEXTS, "text") | {name: held.format for name, held in HELD.items()}
 
 
-def manifest() -> list[Any]:
+def manifest():
     """Rows of the folder of real records, none where the folder is not present."""
     path = RECORDS / "MANIFEST.csv"
     if not path.is_file():
@@ -38,15 +33,15 @@ def manifest() -> list[Any]:
     return [pytest.param(row, id=f"{row['file']}-{row['component'][:16]}") for row in rows]
 
 
-def channel_of(row: dict[str, str]) -> Record:
+def channel_of(row):
     plain = row["format"] == "plain column"
-    how: dict[str, Any] = {"units": "g", "dt_s": float(row["dt_s"])} if plain else {}
+    how = {"units": "g", "dt_s": float(row["dt_s"])} if plain else {}
     motion_file = read_motion_file(RECORDS / row["file"], **how)
     return motion_file.channel(row["component"] if len(motion_file.channels) > 1 else "")
 
 
 @pytest.mark.parametrize("row", manifest())
-def test_real_records_have_the_step_count_and_peak_of_the_manifest(row: dict[str, str]) -> None:
+def test_real_records_have_the_step_count_and_peak_of_the_manifest(row):
     record = channel_of(row)
     a, count = record.a_mps2, int(row["npts"])
     assert record.dt_s == float(row["dt_s"])
@@ -61,20 +56,20 @@ def test_real_records_have_the_step_count_and_peak_of_the_manifest(row: dict[str
 
 
 @pytest.mark.parametrize("name", sorted(FORMATS))
-def test_the_content_tells_the_format_whatever_the_name(file: Any, name: str) -> None:
+def test_the_content_tells_the_format_whatever_the_name(file, name):
     path = file((SAMPLES / name).read_bytes(), "motion.dat")
-    how: dict[str, Any] = BARE if name == "one.txt" else {}
+    how = BARE if name == "one.txt" else {}
     assert read_motion_file(path, **how).format == FORMATS[name]
 
 
-def test_every_sample_is_listed() -> None:
+def test_every_sample_is_listed():
     assert sorted(path.name for path in SAMPLES.iterdir() if path.suffix != ".md") == sorted(
         FORMATS
     )
 
 
 @pytest.mark.parametrize("name", sorted(FORMATS))
-def test_notes_are_short_and_arrays_are_read_only(name: str) -> None:
+def test_notes_are_short_and_arrays_are_read_only(name):
     motion_file = read_motion_file(SAMPLES / name, **(BARE if name == "one.txt" else {}))
     assert motion_file.name == name
     assert all(0 < len(note) < 200 for note in motion_file.notes)
@@ -84,21 +79,21 @@ def test_notes_are_short_and_arrays_are_read_only(name: str) -> None:
         assert record.a_mps2.ndim == 1
 
 
-def test_a_record_is_one_channel_of_a_file() -> None:
+def test_a_record_is_one_channel_of_a_file():
     record = read_record(SAMPLES / "renadic.v1", channel="chan 2: v (sta chn: 2)")
     (_, expected, _) = read_motion_file(SAMPLES / "renadic.v1").channels
     assert record.name == expected.name
     assert np.array_equal(record.a_mps2, expected.a_mps2)
 
 
-def outcome(path: Path, **how: Any) -> MotionFile | InputError:
+def outcome(path, **how):
     try:
         return read_motion_file(path, **how)
     except InputError as error:
         return error
 
 
-def read_or_refuse(path: Path, **how: Any) -> None:
+def read_or_refuse(path, **how):
     """Read a file that may be at fault: a record of finite numbers, or an error for the user."""
     read = outcome(path, **how)
     if isinstance(read, InputError):
@@ -119,7 +114,7 @@ hostile = settings(max_examples=60, suppress_health_check=[HealthCheck.function_
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @given(data=st.data())
 @pytest.mark.nightly("solver/formats/")
-def test_a_file_cut_anywhere_is_read_or_refused(tmp_path: Path, name: str, data: Any) -> None:
+def test_a_file_cut_anywhere_is_read_or_refused(tmp_path, name, data):
     content = (SAMPLES / name).read_bytes()
     path = tmp_path / name
     path.write_bytes(content[: data.draw(st.integers(0, len(content)))])
@@ -131,7 +126,7 @@ def test_a_file_cut_anywhere_is_read_or_refused(tmp_path: Path, name: str, data:
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @given(data=st.data())
 @pytest.mark.by_day(5)
-def test_a_file_changed_anywhere_is_read_or_refused(tmp_path: Path, name: str, data: Any) -> None:
+def test_a_file_changed_anywhere_is_read_or_refused(tmp_path, name, data):
     content = bytearray((SAMPLES / name).read_bytes())
     inserts = [b"-", b"*", b"9", b"e", b" ", b".", b"\n", b",", b"nan", b"9e99", b"9" * 9, b"#"]
     for _ in range(data.draw(st.integers(1, 4))):
@@ -149,9 +144,7 @@ def test_a_file_changed_anywhere_is_read_or_refused(tmp_path: Path, name: str, d
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @given(data=st.data())
 @pytest.mark.by_day(5)
-def test_lines_lost_doubled_or_swapped_are_read_or_refused(
-    tmp_path: Path, name: str, data: Any
-) -> None:
+def test_lines_lost_doubled_or_swapped_are_read_or_refused(tmp_path, name, data):
     lines = (SAMPLES / name).read_bytes().split(b"\n")
     index = st.integers(0, len(lines) - 1)
     first, second = data.draw(index), data.draw(index)
@@ -170,9 +163,7 @@ def test_lines_lost_doubled_or_swapped_are_read_or_refused(
 @pytest.mark.parametrize(
     ("faulty", "count"), [(slice(10, 11), 5), (slice(-1, None), 5), (slice(4, None), 11)]
 )
-def test_a_record_of_60_mb_with_faults_is_refused_within_400_mb(
-    file: Any, faulty: slice, count: int
-) -> None:
+def test_a_record_of_60_mb_with_faults_is_refused_within_400_mb(file, faulty, count):
     rows = ["PEER NGA", "Event", "ACCELERATION TIME SERIES IN UNITS OF G"]
     rows += ["NPTS= 3750000, DT= .0050 SEC"]
     rows += [

@@ -1,7 +1,5 @@
 """Rows on motions. Oracles: a spectrum by complex modes, closed forms of energy and correlation."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -11,17 +9,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modal import psa_g
-from solver.model import Floats, Motion
-from solver.records.acceptance import Acceptance, acceptance
-from solver.records.acceptance_row import AcceptanceRow, Consequence
+from solver.model import Motion
+from solver.records.acceptance import acceptance
+from solver.records.acceptance_row import Consequence
 from solver.records.record import read_only
-from solver.records.spectrum_acceptance import POINTS_HZ, SpectrumAt
+from solver.records.spectrum_acceptance import POINTS_HZ
 
 G = 9.80665
 DT_S, N = 0.02, 301
 
 
-def motion(name: str = "M1", seed: int = 1, **changes: object) -> Motion:
+def motion(name="M1", seed=1, **changes):
     draw = np.random.default_rng(seed)
     x, y, z = (read_only(draw.standard_normal(N)) for _ in range(3))
     made = Motion(
@@ -34,53 +32,53 @@ def motion(name: str = "M1", seed: int = 1, **changes: object) -> Motion:
         scale=1.0,
         signs=(1,),
     )
-    return replace(made, **changes)  # type: ignore[arg-type]
+    return replace(made, **changes)
 
 
-def modal_g(a_mps2: Floats) -> Floats:
+def modal_g(a_mps2):
     """5 % damped spectrum at the points, by another method."""
     return psa_g(a_mps2, DT_S, POINTS_HZ)
 
 
-def below(spectrum_g: Floats, ratios: dict[int, float], usual: float = 1.2) -> SpectrumAt:
+def below(spectrum_g, ratios, usual=1.2):
     """Target that a spectrum is `usual` times, but other ratios at some of the points."""
     ratio = np.array([ratios.get(k, usual) for k in range(len(POINTS_HZ))])
 
-    def at(freq_hz: Floats) -> Floats:
+    def at(freq_hz):
         assert np.array_equal(freq_hz, POINTS_HZ)
         return spectrum_g / ratio
 
     return at
 
 
-def nothing(freq_hz: Floats) -> Floats:
+def nothing(freq_hz):
     return np.full(freq_hz.shape, math.nan)
 
 
-def only(found: Acceptance, words: str) -> AcceptanceRow:
+def only(found, words):
     (row,) = (row for row in found.rows if words in row.title)
     return row
 
 
 @pytest.fixture(scope="module")
-def alone() -> Motion:
+def alone():
     return motion(ay_mps2=np.empty(0), az_mps2=np.empty(0))
 
 
 @pytest.fixture(scope="module")
-def spectrum_g(alone: Motion) -> Floats:
+def spectrum_g(alone):
     return modal_g(alone.ax_mps2)
 
 
 class TestSpectrum:
-    def test_the_points_lie_at_most_1_24_octave_apart_from_end_to_end(self) -> None:
+    def test_the_points_lie_at_most_1_24_octave_apart_from_end_to_end(self):
         assert POINTS_HZ[[0, 92, -1]] == pytest.approx([0.1, 1.3, 33.3], rel=1e-12)
         assert len(POINTS_HZ) == 93 + 117 - 1
         assert (
             1 / 25 < np.diff(np.log2(POINTS_HZ)).min() < np.diff(np.log2(POINTS_HZ)).max() < 1 / 24
         )
 
-    def test_each_row_finds_its_worst_point(self, alone: Motion, spectrum_g: Floats) -> None:
+    def test_each_row_finds_its_worst_point(self, alone, spectrum_g):
         # 92 is 1.3 Hz, which is a point of both bands; 158 is the last point below 8.3 Hz. Of the
         # others 156, 160, 176 and 200 are of the set of 92, 1/6 octave or a multiple of it apart.
         ratios = {2: 0.93, 100: 0.95, 156: 0.97, 160: 0.91, 176: 0.99, 200: 0.98}
@@ -108,17 +106,15 @@ class TestSpectrum:
         assert {row.consequence for row in spectral} == {Consequence.NG}
 
     @pytest.mark.parametrize(("ratio", "ok"), [(0.899, False), (0.901, True)])
-    def test_a_single_point_may_fall_to_nine_tenths(
-        self, alone: Motion, spectrum_g: Floats, ratio: float, ok: bool
-    ) -> None:
+    def test_a_single_point_may_fall_to_nine_tenths(self, alone, spectrum_g, ratio, ok):
         found = acceptance([alone], [math.nan], below(spectrum_g, {121: ratio}), nothing)
         assert only(found, "1.3 to 33.3 Hz, each").satisfied is ok
         assert only(found, "Neighboring").satisfied
         assert only(found, ", 1.3 to 8.3 Hz").found == 1.0
 
     def test_points_a_sixth_of_an_octave_apart_count_wherever_the_first_lies(
-        self, alone: Motion, spectrum_g: Floats
-    ) -> None:
+        self, alone, spectrum_g
+    ):
         # Two octaves above 1.3 Hz, and 1/6 octave farther: between the points of 1/6 octave.
         for first in (93, 94, 95):
             target = below(spectrum_g, {first: 0.99, first + 4: 0.99, first + 20: 0.99})
@@ -126,14 +122,12 @@ class TestSpectrum:
             assert only(found, "Neighboring").found == 2.0
             assert only(found, ", 1.3 to 8.3 Hz").found == 3.0
 
-    def test_a_narrow_dip_is_one_point_of_a_sixth_of_an_octave(
-        self, alone: Motion, spectrum_g: Floats
-    ) -> None:
+    def test_a_narrow_dip_is_one_point_of_a_sixth_of_an_octave(self, alone, spectrum_g):
         target = below(spectrum_g, dict.fromkeys((120, 121, 122, 123), 0.95))
         found = acceptance([alone], [math.nan], target, nothing)
         assert only(found, "Neighboring").found == only(found, ", 1.3 to 8.3 Hz").found == 1.0
 
-    def test_one_motion_may_be_low_where_the_mean_is_not(self) -> None:
+    def test_one_motion_may_be_low_where_the_mean_is_not(self):
         one, other = (motion(f"M{k}", k, ay_mps2=np.empty(0), az_mps2=np.empty(0)) for k in (1, 2))
         # The other motion is scaled up, so that the mean at the point is (0.95 + r) / 2 or more.
         target = below(modal_g(one.ax_mps2), {40: 0.95})
@@ -148,18 +142,16 @@ class TestSpectrum:
         assert mean.satisfied
         assert mean.worst.startswith("mean of x")
 
-    def test_the_vertical_has_a_target_of_its_own(self, spectrum_g: Floats) -> None:
+    def test_the_vertical_has_a_target_of_its_own(self, spectrum_g):
         upward = motion(az_mps2=motion().ax_mps2, ay_mps2=np.empty(0))
         target = below(spectrum_g, {})
         found = acceptance([upward], [math.nan], target, below(spectrum_g, {121: 0.5}))
         assert only(found, "1.3 to 33.3 Hz, each").worst == f"M1 z, {POINTS_HZ[121]:.3g} Hz"
 
-    def test_points_without_a_target_are_not_compared_and_the_row_says_so(
-        self, alone: Motion, spectrum_g: Floats
-    ) -> None:
+    def test_points_without_a_target_are_not_compared_and_the_row_says_so(self, alone, spectrum_g):
         full = below(spectrum_g, {4: 0.5, 32: 0.93})
 
-        def shorter(freq_hz: Floats) -> Floats:
+        def shorter(freq_hz):
             return np.where(freq_hz >= 0.2, full(freq_hz), math.nan)
 
         found = acceptance([alone], [math.nan], shorter, nothing)
@@ -171,10 +163,10 @@ class TestSpectrum:
 
     @settings(max_examples=8)
     @given(st.floats(0.1, 10.0))
-    def test_ratios_are_proportional_to_the_scale(self, scale: float) -> None:
+    def test_ratios_are_proportional_to_the_scale(self, scale):
         lone = motion(ay_mps2=np.empty(0), az_mps2=np.empty(0))
 
-        def flat(freq_hz: Floats) -> Floats:
+        def flat(freq_hz):
             return np.ones(freq_hz.shape)
 
         one = acceptance([lone], [20.0], flat, nothing)
@@ -188,7 +180,7 @@ class TestSpectrum:
 
 
 class TestMotions:
-    def test_three_motions_are_enough_and_two_are_not(self) -> None:
+    def test_three_motions_are_enough_and_two_are_not(self):
         several = [motion(f"M{k}", k) for k in (1, 2, 3)]
         for count, ok in ((2, False), (3, True)):
             found = acceptance(several[:count], [math.nan] * count, nothing, nothing)
@@ -196,7 +188,7 @@ class TestMotions:
             assert (row.found, row.limit, row.satisfied) == (count, 3.0, ok)
             assert row.consequence is Consequence.NG
 
-    def test_a_motion_that_lacks_components_is_named_with_them(self) -> None:
+    def test_a_motion_that_lacks_components_is_named_with_them(self):
         full = motion("M1")
         for changes, words, count in (
             ({}, "", 3),
@@ -209,7 +201,7 @@ class TestMotions:
 
 
 class TestStrongMotion:
-    def test_of_records_the_significant_duration_counts_and_a_miss_is_a_condition(self) -> None:
+    def test_of_records_the_significant_duration_counts_and_a_miss_is_a_condition(self):
         # A constant acceleration has nine tenths of its energy in nine tenths of its duration.
         steady = read_only(np.full(N, 2.0))
         record = motion(ax_mps2=steady, ay_mps2=steady, az_mps2=steady, dt_s=0.1)
@@ -227,9 +219,7 @@ class TestStrongMotion:
         assert short.missed[-1] is row
 
     @pytest.mark.parametrize(("hold_s", "ok"), [(20.0, True), (19.9, False)])
-    def test_of_generated_motions_the_hold_of_the_envelope_counts(
-        self, hold_s: float, ok: bool
-    ) -> None:
+    def test_of_generated_motions_the_hold_of_the_envelope_counts(self, hold_s, ok):
         both = [motion("M1"), motion("M2", 2)]
         found = acceptance(both, [30.0, hold_s], nothing, nothing)
         row = only(found, "generated motions: hold")
@@ -240,9 +230,7 @@ class TestStrongMotion:
 
 class TestCorrelation:
     @pytest.mark.parametrize(("share", "ok"), [(0.29, True), (-0.29, True), (-0.31, False)])
-    def test_components_of_generated_motions_must_not_correlate(
-        self, share: float, ok: bool
-    ) -> None:
+    def test_components_of_generated_motions_must_not_correlate(self, share, ok):
         # Waves of whole cycles over the N samples are orthogonal and of zero mean.
         turns = 2.0 * np.pi * np.arange(N) / N
         one, other, third = (np.sin(k * turns) for k in (5, 7, 11))
@@ -256,13 +244,13 @@ class TestCorrelation:
         assert row.found == pytest.approx(abs(share), rel=1e-12)
         assert (row.worst, row.satisfied, row.consequence) == ("M1 x-z", ok, Consequence.NG)
 
-    def test_correlations_of_records_are_measured_but_not_limited(self) -> None:
+    def test_correlations_of_records_are_measured_but_not_limited(self):
         same = motion().ax_mps2
         found = acceptance([motion(ay_mps2=same)], [math.nan], nothing, nothing)
         assert found.motions[0].correlations["x-y"] == pytest.approx(1.0, rel=1e-12)
         assert not any("Correlation" in row.title for row in found.rows)
 
-    def test_a_component_of_zeros_correlates_with_nothing(self) -> None:
+    def test_a_component_of_zeros_correlates_with_nothing(self):
         silent = motion(ay_mps2=np.zeros(N))
         found = acceptance([silent], [20.0], nothing, nothing)
         assert found.motions[0].correlations["x-y"] == 0.0
