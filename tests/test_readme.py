@@ -10,6 +10,7 @@ import shlex
 import shutil
 from contextlib import ExitStack
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -166,19 +167,18 @@ def test_progress_is_plain_lines_when_piped(reported):
 
 def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
     document = json.loads((reported.out / "results.json").read_text())
+
+    @cache
+    def record(motion, letter):
+        path = reported.project / "records" / f"{motion}-{letter}.csv"
+        return 9.80665 * np.loadtxt(path, delimiter=",", skiprows=2, usecols=1)
+
     runs = [(array, run) for array in document["arrays"] for run in array["runs"]]
     assert len(runs) == 3 * 7 * 4
     for array, run_ in runs:
-        columns = [
-            np.loadtxt(
-                reported.project / "records" / f"{run_['motion']}-{letter}.csv",
-                delimiter=",",
-                skiprows=2,
-            )
-            for letter in ("xyz" if run_["along"] == "record" else "yxz")
-        ]
-        ax, ay, az = (9.80665 * column[:, 1] for column in columns)
-        ax *= run_["polarity"]
+        letters = "xyz" if run_["along"] == "record" else "yxz"
+        ax, ay, az = (record(run_["motion"], letter) for letter in letters)
+        ax = run_["polarity"] * ax
         about = {"slope_rad": array["slope_rad"], "mu": array["mu"], "az_mps2": az}
         if array["id"] in ("A1", "A2"):
             outcome = slide(ax, 0.005, ay_mps2=ay, **about)

@@ -191,10 +191,10 @@ def test_a_slope_equal_to_the_limit_passes(rules, slope_rad, ok):
 
 
 def test_a_limit_is_met_but_for_rounding_whatever_its_size():
-    mus = (0.4 * part for part in (1 - 1e-15, 1 - 4e-9))
+    mus = (0.4 * part for part in (1 - 1e-15, 1 - 1.6e-9))
     friction = [prescriptive_checks(PV1, slope_rad=0.0, mu=mu)[1].ok for mu in mus]
     high = PV1.overridden({"low_profile_in": (120.0, "a test")})
-    heights_m = (120 * INCH * part for part in (1 + 6e-10, 1 + 4e-9))
+    heights_m = (120 * INCH * part for part in (1 + 6e-10, 1 + 1.6e-9))
     height = [checked(high, height_m=h, spacing_m=9.0, base_m=9.0)[0].ok for h in heights_m]
     assert friction == height == [True, False]
 
