@@ -102,18 +102,11 @@ class TestSuite:
             assert psa_over(record, wanted, freq_hz).min() >= 1.0
 
     def test_suites_satisfy_every_row_of_the_acceptance(self, suites):
+        about = {"source": "", "dt_s": suites[0].x.dt_s, "scale": 1.0, "signs": (1, -1)}
+        names = ("ax_mps2", "ay_mps2", "az_mps2")
         motions = [
-            Motion(
-                id=f"M{k}",
-                source="",
-                dt_s=one.x.dt_s,
-                ax_mps2=one.x.a_mps2,
-                ay_mps2=one.y.a_mps2,
-                az_mps2=one.z.a_mps2,
-                scale=1.0,
-                signs=(1, -1),
-            )
-            for k, one in enumerate(suites)
+            Motion(id=f"M{k}", **about, **dict(zip(names, sides, strict=True)))
+            for k, sides in enumerate([r.a_mps2 for r in one.components] for one in suites)
         ]
         holds = [one.hold_s for one in suites]
         across, upward = (partial(target_sa_g, wanted) for wanted in (HORIZONTAL, VERTICAL))
