@@ -117,8 +117,7 @@ def site(**changes):
 
 def steep(**changes):
     """The project with roofs too steep for the prescriptive route of PV1-2012."""
-    arrays = [array("A1", 4.0), array("A2", 4.0, x=120), array("A3", 4.0, mu=0.55, y=90)]
-    return project(arrays=arrays, **changes)
+    return project(arrays=[row | {"slope_value": 4.0} for row in SECTIONS["arrays"]], **changes)
 
 
 def unpermitted(**changes):
