@@ -71,7 +71,6 @@ def components(suites):
 
 @pytest.mark.nightly("solver/synthesis/", "solver/records/")
 class TestSuite:
-    @pytest.mark.nightly("solver/synthesis/", "solver/records/")
     def test_every_component_keeps_to_its_target(self, components):
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
