@@ -28,7 +28,7 @@ SIZES = {
         "m_s2",
         "mps2",
     ),
-    0.01: ("gal", "Gals", "CM/SEC/SEC", "cm/sec2"),
+    0.01: ("gal", "Gals", "CM/SEC/SEC", "cm/sec2", "cm_s2", "cmps2"),
     0.001: ("mm/s/s",),
     0.3048: ("ft/s2",),
     0.0254: ("in/s2",),
