@@ -14,13 +14,13 @@ Row = dict[str, object]
 
 HEAD: Row = {
     "name": "Alameda Warehouse",
-    "number": "007",
-    "client": "Harbor Logistics",
-    "address": "1200 Alameda St",
-    "prepared_by": "RG",
-    "checked_by": "MT",
+    "number": "24-117",
+    "client": "Harbor Logistics LLC",
+    "address": "1200 Alameda St, Los Angeles, CA",
+    "prepared_by": "Engineer of record",
+    "checked_by": "",
     "date": dt.date(2026, 3, 5),
-    "revision": "1",
+    "revision": "0",
 }
 SITE: Row = {
     "rule_set": "SEAOC PV1-2012",

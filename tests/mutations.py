@@ -17,7 +17,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from places import DATA
+from places import SAMPLES
 from report.cli.check import checked
 from report.sheet.cells import LARGEST, Found, read_cell
 from report.sheet.fields import entries
@@ -29,7 +29,6 @@ from sheets import make
 from solver import InputError, slide
 from solver.formats import read_motion_file
 
-SAMPLES = DATA / "motions"
 LIMIT_S = 10.0
 """Of processor time: other processes may be at work."""
 LONGEST = 2500
@@ -67,8 +66,6 @@ ODD = [
     dt.time(1, 2), dt.timedelta(days=400), math.nan, math.inf,
 ]  # fmt: skip
 """What openpyxl returns for cells of other kinds."""
-
-KINDS = ("record", "cell", "argument", "part", "book")
 
 
 def trouble(kind, seed):
@@ -113,7 +110,13 @@ def _record(rng):
     path = Path(_folder().name) / sample.name
     path.write_bytes(_mutated(sample.read_bytes(), rng, PIECES))
     how = {"units": "gal", "dt_s": 0.005} if rng.random() < 0.5 else {}
-    for record in read_motion_file(path, **how).channels:
+    try:
+        channels = read_motion_file(path, **how).channels
+    except InputError as error:
+        if all(path.name in problem or "more" in problem for problem in error.problems):
+            raise
+        return f"problems do not name the file: {error.problems}"
+    for record in channels:
         a = record.a_mps2
         if len(a) < 2 or not np.isfinite(a).all() or not 0.0 < record.dt_s < math.inf:
             return "a record that is none was read"

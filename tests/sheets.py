@@ -61,6 +61,7 @@ def project(**changes: object) -> ProjectInput:
 
 
 SECTIONS = {
+    "project": inputs.HEAD | {"number": "007", "checked_by": "MT", "revision": "1"},
     "revisions": [
         {"revision": "0", "date": dt.date(2026, 1, 5), "description": "Draft", "by": "RG"},
         {"revision": "1", "date": dt.date(2026, 3, 5), "description": "Permit"},

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import datetime as dt
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -36,15 +35,13 @@ def motions(count=7, *, seconds=30.0, peak_g=1.7, vertical_peak_g=0.4, seed=11):
     """Seeded noise with the envelope of a shake-table test, in three components."""
     rng, other = np.random.default_rng(seed), np.random.default_rng(seed + 1000)
     return tuple(
-        Motion(
-            id=f"M{k}",
-            source=f"Seeded noise, number {k}",
+        motion(
+            f"M{k}",
+            _noise(rng, seconds, peak_g * G),
+            ay=_noise(other, seconds, peak_g * G),
+            az=_noise(rng, seconds, vertical_peak_g * G),
             dt_s=DT_S,
-            ax_mps2=_noise(rng, seconds, peak_g * G),
-            ay_mps2=_noise(other, seconds, peak_g * G),
-            az_mps2=_noise(rng, seconds, vertical_peak_g * G),
-            scale=1.0,
-            signs=(1, -1),
+            source=f"Seeded noise, number {k}",
         )
         for k in range(1, count + 1)
     )
@@ -53,18 +50,10 @@ def motions(count=7, *, seconds=30.0, peak_g=1.7, vertical_peak_g=0.4, seed=11):
 NO_RECORD = np.empty(0)
 
 
-def motion(name, ax, az=NO_RECORD, *, ay=NO_RECORD, dt_s=0.01, signs=(1, -1)):
+def motion(name, ax, az=NO_RECORD, *, ay=NO_RECORD, dt_s=0.01, signs=(1, -1), source=""):
     """One motion of given accelerations, as recorded."""
-    return Motion(
-        id=name,
-        source="",
-        dt_s=dt_s,
-        ax_mps2=ax,
-        ay_mps2=ay,
-        az_mps2=az,
-        scale=1.0,
-        signs=signs,
-    )
+    sides = {"ax_mps2": ax, "ay_mps2": ay, "az_mps2": az}
+    return Motion(id=name, source=source, dt_s=dt_s, **sides, scale=1.0, signs=signs)
 
 
 def _noise(rng, seconds, peak):
@@ -93,21 +82,12 @@ def project(**changes) -> ProjectInput:
 
 
 SECTIONS = {
-    "project": inputs.HEAD
-    | {
-        "number": "24-117",
-        "client": "Harbor Logistics LLC",
-        "address": "1200 Alameda St, Los Angeles, CA",
-        "prepared_by": "Engineer of record",
-        "checked_by": "",
-        "revision": "0",
-    },
     "revisions": [
         {
-            "revision": "0",
-            "date": dt.date(2026, 3, 5),
+            "revision": inputs.HEAD["revision"],
+            "date": inputs.HEAD["date"],
             "description": "Issued for permit",
-            "by": "Engineer of record",
+            "by": inputs.HEAD["prepared_by"],
         }
     ],
     "site": inputs.SITE | {"s_s_g": 1.97, "f_a": 1.2, "f_v": 1.7},
@@ -137,8 +117,7 @@ def site(**changes):
 
 def steep(**changes):
     """The project with roofs too steep for the prescriptive route of PV1-2012."""
-    arrays = [array("A1", 4.0), array("A2", 4.0, x=120), array("A3", 4.0, mu=0.55, y=90)]
-    return project(arrays=arrays, **changes)
+    return project(arrays=[row | {"slope_value": 4.0} for row in SECTIONS["arrays"]], **changes)
 
 
 def unpermitted(**changes):
@@ -191,10 +170,9 @@ class Made(Sheet):
 
 def book(data=None, shaking=None):
     """What the reader and the preparation of motions give."""
-    data = data or project()
     shaking = shaking or motions()
     return Book(
-        sheet(data),
+        sheet(data or project()),
         Shaking(
             motions=shaking,
             prepared=tuple(prepared(motion) for motion in shaking),
@@ -216,27 +194,24 @@ def book(data=None, shaking=None):
                     others_g=float(np.abs(values).max() / G),
                 )
                 for motion in shaking
-                for component, values in (
-                    ("horizontal", motion.ax_mps2),
-                    ("transverse", motion.ay_mps2),
-                    ("vertical", motion.az_mps2),
-                )
-                if len(values)
+                for component, values in components(motion).items()
             ),
         ),
     )
+
+
+def components(motion):
+    """The components that a motion has, by name."""
+    given = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
+    every = zip(("horizontal", "transverse", "vertical"), given, strict=True)
+    return {name: values for name, values in every if len(values)}
 
 
 def prepared(given, **changes):
     """What became of a roof motion that was run as recorded."""
     scaled = {
         name: Record(name=given.id, dt_s=given.dt_s, a_mps2=values * given.scale)
-        for name, values in (
-            ("horizontal", given.ax_mps2),
-            ("transverse", given.ay_mps2),
-            ("vertical", given.az_mps2),
-        )
-        if len(values)
+        for name, values in components(given).items()
     }
     usual = {
         "motion_id": given.id,

@@ -8,10 +8,11 @@ import sys
 import tarfile
 import tomllib
 import zipfile
+from itertools import chain
 
 import pytest
 
-from places import ROOT
+from places import ROOT, TESTS
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 TOP_LEVEL = {
@@ -34,42 +35,28 @@ def tracked():
 
 def test_no_benchmark_hides_a_module_of_the_tests():
     """A script finds what is beside it first."""
-    tests, bench = ROOT / "tests", ROOT / "tests" / "bench"
-    assert not {file.name for file in tests.glob("*.py")} & {
-        file.name for file in bench.glob("*.py")
-    }
+    tests, bench = ({file.name for file in TESTS.glob(glob)} for glob in ("*.py", "bench/*.py"))
+    assert tests.isdisjoint(bench)
 
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
     """The wheel and the sdist, built offline."""
     folder = tmp_path_factory.mktemp("dist")
-    subprocess.run(
-        [sys.executable, "-m", "hatchling", "build", "-d", str(folder)],
-        cwd=ROOT,
-        check=True,
-        capture_output=True,
-        timeout=60,
-    )
+    command = [sys.executable, "-m", "hatchling", "build", "-d", str(folder)]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True, timeout=60)
     return folder
 
 
-def test_the_wheel_holds_two_packages_and_their_templates(built):
+def test_the_wheel_holds_two_packages_their_templates_the_page_and_its_example(built):
     with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
-        names = wheel.namelist()
+        names = set(wheel.namelist())
     tops = {name.split("/")[0] for name in names}
     assert {top for top in tops if not top.endswith(".dist-info")} == {"solver", "report"}
     assert any(re.fullmatch(r"report/templates/.*\.html", name) for name in names)
     assert any(re.fullmatch(r"report/templates/fonts/.*OFL.*", name) for name in names)
-    assert {"report/web/static/index.html", "report/web/static/app.js"} <= set(names)
-
-
-def test_the_wheel_holds_the_page_and_its_example(built):
-    with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
-        names = wheel.namelist()
-    assert "report/web/static/index.html" in names
-    assert "report/web/example/input.xlsx" in names
-    assert "report/web/example/records/RM7-z.csv" in names
+    web = ("static/index.html", "static/app.js", "example/input.xlsx", "example/records/RM7-z.csv")
+    assert {f"report/web/{name}" for name in web} <= names
 
 
 def test_the_sdist_holds_no_projects_but_the_example(built):
@@ -88,12 +75,10 @@ def test_every_dependency_is_locked_with_hashes_and_without_addresses():
     lock = (ROOT / "requirements.lock").read_text()
     locked = {m.lower() for m in re.findall(r"^([\w.-]+)==", lock, re.MULTILINE)}
     groups = PROJECT["dependency-groups"]
-    extras = [
-        name for names in PROJECT["project"]["optional-dependencies"].values() for name in names
-    ]
-    named = [name for name in groups["dev"] + groups["build"] + extras if isinstance(name, str)]
-    asked = named + PROJECT["project"]["dependencies"]
-    assert {name.partition("[")[0].lower() for name in asked} <= locked
+    extras = PROJECT["project"]["optional-dependencies"].values()
+    asked = [*PROJECT["project"]["dependencies"], *groups["dev"], *groups["build"], *chain(*extras)]
+    named = [name for name in asked if isinstance(name, str)]
+    assert {name.partition("[")[0].lower() for name in named} <= locked
     for entry in re.split(r"^(?=[\w.-]+==)", lock, flags=re.MULTILINE)[1:]:
         assert "--hash=sha256:" in entry, entry.splitlines()[0]
     assert "://" not in lock

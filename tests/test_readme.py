@@ -10,6 +10,7 @@ import shlex
 import shutil
 from contextlib import ExitStack
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -108,12 +109,9 @@ def commanded(folder):
 
 
 def few_cases(book):
-    for label, known, fewer in (
-        ("Slopes", "0 to 7 by 1", "0, 2, 4"),
-        ("Intensities", "0.1 to 2 by 0.1", "0.2 to 2 by 0.2"),
-    ):
-        assert cell(book, f"Study/{label}").value == known
-        cell(book, f"Study/{label}").value = fewer
+    slopes, intensities = (cell(book, f"Study/{label}") for label in ("Slopes", "Intensities"))
+    assert (slopes.value, intensities.value) == ("0 to 7 by 1", "0.1 to 2 by 0.1")
+    slopes.value, intensities.value = "0, 2, 4", "0.2 to 2 by 0.2"
 
 
 @pytest.mark.nightly
@@ -140,22 +138,18 @@ def test_a_report_leaves_four_files_and_their_hashes(reported):
     assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
 
 
-def test_report_prints_each_array_and_where_the_files_are(reported):
-    lines = reported.stdout.splitlines()
-    assert lines[0].split("  ")[0] == "array"
-    assert [line.split()[0] for line in lines[1:4]] == ["A1", "A2", "A3"]
-    assert all("81.6 in (2072 mm)" in line for line in lines[1:4])
-    assert all("  Condition: " in line for line in lines[1:4])
+def test_report_prints_where_the_files_are(reported):
     for name in ("calc-package.pdf", "results.xlsx", "results.json"):
-        assert f"projects/example/out/{name}" in lines
+        assert f"projects/example/out/{name}" in reported.stdout.splitlines()
         assert (reported.out / name).stat().st_size > 1000
 
 
 def test_the_readme_shows_what_the_example_prints(reported):
     lines = reported.stdout.splitlines()
-    shown = [*lines[:4], next(line for line in lines if line.startswith("verdict: "))]
-    printed = "\n".join(shown)
-    assert f"```\n{printed}\n```" in README
+    verdict = next(line for line in lines if line.startswith("verdict: "))
+    shown = "\n".join([*lines[:4], verdict])
+    assert f"```\n{shown}\n```" in README
+    assert shown.count("81.6 in (2072 mm)") == shown.count("  OK with conditions: ") == 3
 
 
 def test_progress_is_plain_lines_when_piped(reported):
@@ -166,19 +160,18 @@ def test_progress_is_plain_lines_when_piped(reported):
 
 def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
     document = json.loads((reported.out / "results.json").read_text())
+
+    @cache
+    def record(motion, letter):
+        path = reported.project / "records" / f"{motion}-{letter}.csv"
+        return 9.80665 * np.loadtxt(path, delimiter=",", skiprows=2, usecols=1)
+
     runs = [(array, run) for array in document["arrays"] for run in array["runs"]]
     assert len(runs) == 3 * 7 * 4
     for array, run_ in runs:
-        columns = [
-            np.loadtxt(
-                reported.project / "records" / f"{run_['motion']}-{letter}.csv",
-                delimiter=",",
-                skiprows=2,
-            )
-            for letter in ("xyz" if run_["along"] == "record" else "yxz")
-        ]
-        ax, ay, az = (9.80665 * column[:, 1] for column in columns)
-        ax *= run_["polarity"]
+        letters = "xyz" if run_["along"] == "record" else "yxz"
+        ax, ay, az = (record(run_["motion"], letter) for letter in letters)
+        ax = run_["polarity"] * ax
         about = {"slope_rad": array["slope_rad"], "mu": array["mu"], "az_mps2": az}
         if array["id"] in ("A1", "A2"):
             outcome = slide(ax, 0.005, ay_mps2=ay, **about)

@@ -51,15 +51,14 @@ LINES = 40
 """Of a difference that are printed."""
 
 
-def _si(data: Data) -> None:
-    data["project"]["units_first"] = "SI"
+def _having(**sections: Any) -> Callable[[Data], object]:
+    """Return a change of some sections: of fields of a single one, of all rows of a table."""
 
+    def change(data: Data) -> None:
+        for name, value in sections.items():
+            data[name] = data[name] | value if isinstance(value, dict) else value
 
-def _asce_7_22(data: Data) -> None:
-    data["site"] |= {
-        "rule_set": "ASCE 7-22", "edition_name": "ASCE 7-22", "f_a": None, "f_v": None,
-        "s_ms_g": 2.349, "s_m1_g": 1.8,
-    }  # fmt: skip
+    return change
 
 
 def _three_motions(data: Data) -> None:
@@ -77,22 +76,6 @@ def _polygon(data: Data) -> None:
 def _no_vertical(data: Data) -> None:
     for motion in data["motions"]:
         motion["vertical"] = None
-
-
-def _links(data: Data) -> None:
-    data["links"] = [
-        {"array": "A2", "friction": "0.4, 0.45, 0.5, 0.55", "stiffness_n_per_m": 3.5e5}
-    ]
-
-
-def _peer_review(data: Data) -> None:
-    data["options"] |= {
-        "peer_reviewed": True, "peer_reviewer": "Reviewer of record", "peer_license": "CA S0000",
-        "peer_date": data["project"]["date"],
-    }  # fmt: skip
-    data["overrides"] = [
-        {"provision": "parapet_height_in", "value": 18.0, "reason": "Agreed with the city"}
-    ]
 
 
 def _revision(data: Data) -> None:
@@ -128,21 +111,31 @@ def _ng(data: Data) -> None:
 
 
 CASES: Mapping[str, tuple[str, Callable[[Data], object]]] = {
-    "example": ("example", lambda _: None),
-    "school": ("school", lambda _: None),
-    "conditions": ("conditions", lambda _: None),
-    "SI": ("example", _si),
-    "7-22": ("example", _asce_7_22),
+    "example": ("example", _having()),
+    "school": ("school", _having()),
+    "conditions": ("conditions", _having()),
+    "SI": ("example", _having(project={"units_first": "SI"})),
+    "7-22": ("example", _having(site={
+        "rule_set": "ASCE 7-22", "edition_name": "ASCE 7-22", "f_a": None, "f_v": None,
+        "s_ms_g": 2.349, "s_m1_g": 1.8,
+    })),
     "three-motions": ("example", _three_motions),
     "polygon": ("example", _polygon),
     "no-vertical": ("example", _no_vertical),
-    "links": ("example", _links),
-    "peer-review": ("example", _peer_review),
+    "links": ("example", _having(links=[
+        {"array": "A2", "friction": "0.4, 0.45, 0.5, 0.55", "stiffness_n_per_m": 3.5e5},
+    ])),
+    "peer-review": ("example", _having(
+        options={"peer_reviewed": True, "peer_reviewer": "Reviewer of record",
+                 "peer_license": "CA S0000", "peer_date": "2025-11-20"},
+        overrides=[{"provision": "parapet_height_in", "value": 18.0,
+                    "reason": "Agreed with the city"}],
+    )),
     "revision": ("example", _revision),
     "thirty-arrays": ("school", _thirty_arrays),
     "NG": ("example", _ng),
     "NG-school": ("school", _ng),
-}
+}  # fmt: skip
 """Project and change of each case; `revision` is compared with the results of `example`."""
 
 

@@ -7,7 +7,7 @@ import datetime as dt
 import pickle
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import MappingProxyType, SimpleNamespace
+from types import MappingProxyType
 
 import pytest
 from click.testing import CliRunner
@@ -18,8 +18,7 @@ import report.manual.render
 import solver.verification.run
 from report.cli.main import main
 from report.cli.terminal import Progress
-from report.manual.sections import sections
-from report.typeset.pdf import lay_out
+from report.manual.render import manual_html
 from solver.verification.evidence import Verification
 from solver.verification.run import verify
 
@@ -62,30 +61,23 @@ def verified(factory: pytest.TempPathFactory) -> Verified:
 
 
 def _fill(folder: Path) -> None:
-    computed, laid_out, parts = [], [], {}
+    found, started = {}, dt.date.today()
+
+    def without_peers(*arguments, **options):
+        return replace(verify(*arguments, **options), peers=())
+
+    def kept_html(verification, parts, machine, date):
+        assert started <= date <= dt.date.today()
+        found["verification"] = verification
+        found["parts"] = {part.id: part for part in parts}
+        found["html"] = manual_html(verification, parts, machine, DATE)
+        return found["html"]
+
     with pytest.MonkeyPatch.context() as patch:
-
-        def kept(*arguments, **options):
-            computed.append(replace(verify(*arguments, **options), peers=()))
-            return computed[0]
-
-        def kept_sections(*about):
-            found = sections(*about)
-            parts.update((part.id, part) for part in found)
-            return found
-
-        def kept_html(html):
-            laid_out.append(html)
-            return lay_out(html)
-
-        patch.setattr(solver.verification.run, "verify", kept)
-        patch.setattr(report.manual.render, "sections", kept_sections)
-        patch.setattr(report.manual.render, "lay_out", kept_html)
-        today = SimpleNamespace(date=SimpleNamespace(today=lambda: DATE))
-        patch.setattr(report.cli.verify, "dt", today)
+        patch.setattr(solver.verification.run, "verify", without_peers)
+        patch.setattr(report.manual.render, "manual_html", kept_html)
         patch.setattr(report.cli.verify, "Progress", Counting)
         done = CliRunner().invoke(main, ["verify", "--quick", "--out", str(folder / "v")])
     assert done.exit_code == 0, done.output
-    found = {"verification": computed[0], "html": laid_out[0], "parts": parts}
-    kept_bytes = pickle.dumps(found | {"stdout": done.stdout, "output": done.output})
-    (folder / "kept").write_bytes(kept_bytes)
+    kept = pickle.dumps(found | {"stdout": done.stdout, "output": done.output})
+    (folder / "kept").write_bytes(kept)

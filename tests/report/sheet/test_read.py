@@ -288,7 +288,9 @@ def saved(tmp_path):
 def test_a_workbook_saved_by_libreoffice_reads_the_same(saved):
     former = {"mu_report": "Lab 12", "construction": "Tray 10 deg"}
     arrays = [array.model_dump() | former for array in project().arrays]
-    assert same(read_workbook(saved).input, project(arrays=arrays))
+    client = {"client": "Harbor Logistics", "address": "1200 Alameda St", "prepared_by": "RG"}
+    head = project().project.model_dump() | client
+    assert same(read_workbook(saved).input, project(project=head, arrays=arrays))
 
 
 def test_formulas_use_their_saved_values_and_are_shown_in_the_echo(saved):

@@ -15,35 +15,29 @@ ALPHAS = [0.0, 0.3, 1.0, 2.0, 5.0, 12.5, 30.0, 200.0]
 
 def finite_elements(alpha0, heights, count=48):
     """Period ratios and factors of the first four modes by cubic elements, consistent masses."""
-    size = 1.0 / count
-    bending = np.array(
-        [
-            [12, 6 * size, -12, 6 * size],
-            [6 * size, 4 * size**2, -6 * size, 2 * size**2],
-            [-12, -6 * size, 12, -6 * size],
-            [6 * size, 2 * size**2, -6 * size, 4 * size**2],
-        ]
-    )
-    shear = np.array(
-        [
-            [36, 3 * size, -36, 3 * size],
-            [3 * size, 4 * size**2, -3 * size, -(size**2)],
-            [-36, -3 * size, 36, -3 * size],
-            [3 * size, -(size**2), -3 * size, 4 * size**2],
-        ]
-    )
-    mass = np.array(
-        [
-            [156, 22 * size, 54, -13 * size],
-            [22 * size, 4 * size**2, 13 * size, -3 * size**2],
-            [54, 13 * size, 156, -22 * size],
-            [-13 * size, -3 * size**2, -22 * size, 4 * size**2],
-        ]
-    )
+    s = 1.0 / count
+    bending = np.array([
+        [12, 6 * s, -12, 6 * s],
+        [6 * s, 4 * s**2, -6 * s, 2 * s**2],
+        [-12, -6 * s, 12, -6 * s],
+        [6 * s, 2 * s**2, -6 * s, 4 * s**2],
+    ])  # fmt: skip
+    shear = np.array([
+        [36, 3 * s, -36, 3 * s],
+        [3 * s, 4 * s**2, -3 * s, -(s**2)],
+        [-36, -3 * s, 36, -3 * s],
+        [3 * s, -(s**2), -3 * s, 4 * s**2],
+    ])  # fmt: skip
+    mass = np.array([
+        [156, 22 * s, 54, -13 * s],
+        [22 * s, 4 * s**2, 13 * s, -3 * s**2],
+        [54, 13 * s, 156, -22 * s],
+        [-13 * s, -3 * s**2, -22 * s, 4 * s**2],
+    ])  # fmt: skip
     stiff, heavy = np.zeros((2, 2 * count + 2, 2 * count + 2))
     for k in range(0, 2 * count, 2):
-        stiff[k : k + 4, k : k + 4] += bending / size**3 + alpha0**2 * shear / (30 * size)
-        heavy[k : k + 4, k : k + 4] += mass * size / 420
+        stiff[k : k + 4, k : k + 4] += bending / s**3 + alpha0**2 * shear / (30 * s)
+        heavy[k : k + 4, k : k + 4] += mass * s / 420
     rigid = np.tile([1.0, 0.0], count + 1)
     gains = (heavy @ rigid)[2:]
     stiff, heavy = stiff[2:, 2:], heavy[2:, 2:]
@@ -69,8 +63,7 @@ def test_modes_solve_their_equation_to_rounding(alpha0, n):
     modes = beam_modes(alpha0, n, [0.37, 1.0])
     with mpmath.workdps(40):
         a = mpmath.mpf(alpha0)
-        gammas = [_root(a, k) for k in (1, n)]
-        gamma, first = gammas[1], gammas[0]
+        first, gamma = (_root(a, k) for k in (1, n))
         beta = mpmath.sqrt(gamma**2 + a**2)
         ratio = first * mpmath.sqrt(first**2 + a**2) / (gamma * beta)
         matrix = _conditions(gamma, beta, a)
@@ -95,15 +88,12 @@ def _conditions(gamma, beta, a):
     """No moment and no shear at the top, of the two shapes that are clamped at the base."""
     s, c = mpmath.sin(gamma), mpmath.cos(gamma)
     sh, ch = mpmath.sinh(beta), mpmath.cosh(beta)
-    return mpmath.matrix(
-        [
-            [-(gamma**2) * s - gamma * beta * sh, beta**2 * ch + gamma**2 * c],
-            [
-                -(gamma**3) * c - gamma * beta**2 * ch - a**2 * gamma * (c - ch),
-                beta**3 * sh - gamma**3 * s - a**2 * (beta * sh + gamma * s),
-            ],
-        ]
-    )
+    moment = [-(gamma**2) * s - gamma * beta * sh, beta**2 * ch + gamma**2 * c]
+    shear = [
+        -(gamma**3) * c - gamma * beta**2 * ch - a**2 * gamma * (c - ch),
+        beta**3 * sh - gamma**3 * s - a**2 * (beta * sh + gamma * s),
+    ]
+    return mpmath.matrix([moment, shear])
 
 
 def _root(a, n):
@@ -130,8 +120,7 @@ def test_a_beam_that_only_bends_has_the_textbook_values():
 
 def test_a_beam_that_only_shears_has_odd_ratios_and_sines():
     modes = beam_modes(math.inf, 5, [0.5, 1.0])
-    odd = np.array([1.0, 3.0, 5.0, 7.0, 9.0])
-    signs = np.array([1.0, -1.0, 1.0, -1.0, 1.0])
+    odd, signs = np.array([1.0, 3.0, 5.0, 7.0, 9.0]), np.array([1.0, -1.0, 1.0, -1.0, 1.0])
     np.testing.assert_allclose(1.0 / modes.period_ratios, odd, rtol=1e-14)
     np.testing.assert_allclose(modes.factors[:, 1], 4.0 / math.pi * signs / odd, rtol=1e-14)
     assert modes.factors[0, 0] == pytest.approx(4.0 / math.pi * math.sin(math.pi / 4))
@@ -189,10 +178,9 @@ def test_floors_bend_as_a_cantilever_under_a_load_at_its_top():
 
 @pytest.mark.parametrize("alpha0", [-0.1, 1001.0, math.nan, -math.inf])
 def test_a_stiffness_ratio_out_of_range_is_refused(alpha0):
-    with pytest.raises(InputError, match="give 0 to 1000, or infinity"):
-        beam_modes(alpha0, 3)
-    with pytest.raises(InputError, match="give 0 to 1000, or infinity"):
-        story_modes(alpha0, 3)
+    for modes in (beam_modes, story_modes):
+        with pytest.raises(InputError, match="give 0 to 1000, or infinity"):
+            modes(alpha0, 3)
 
 
 @pytest.mark.parametrize("stories", [0, -1, 101])

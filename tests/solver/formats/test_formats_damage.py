@@ -1,62 +1,62 @@
 """Damaged files: what a heading states is compared with what follows. Oracle: the whole file."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import Any
+from functools import cache
 
 import pytest
 
-from places import DATA, ROOT
-from solver.formats import MotionFile, read_motion_file
+from places import RECORDS, SAMPLES
+from refused import refused
+from solver.formats import read_motion_file
 from solver.model import InputError
 
-SAMPLES = DATA / "motions"
-RECORDS = ROOT.parent / "shared" / "records"
-
 # A text without remarks states neither its length nor its channels.
-SILENT = {"columns.csv", "one.txt", "remark.csv", "uneven.txt", "README.md"}
-NAMES = sorted(path.name for path in SAMPLES.iterdir() if path.name not in SILENT)
+TEXTS = ["columns.csv", "one.txt", "remark.csv", "uneven.txt"]
+NAMES = sorted({path.name for path in SAMPLES.iterdir()} - {*TEXTS, "README.md"})
 
 
-def values_of(motion_file: MotionFile) -> list[tuple[float, bytes]]:
+def values_of(motion_file):
     return [(record.dt_s, record.a_mps2.tobytes()) for record in motion_file.channels]
 
 
-def problems_of(path: Path, **how: Any) -> tuple[str, ...]:
-    with pytest.raises(InputError) as caught:
-        read_motion_file(path, **how)
-    return caught.value.problems
+def problems_of(path, **how):
+    return refused(read_motion_file, path, **how)
 
 
-def damages(lines: Sequence[bytes], at: int) -> Iterator[tuple[str, list[bytes]]]:
-    """Files that have lost something at one line, with a word for what."""
-    half = lines[at][: len(lines[at]) // 2]
+intact = cache(read_motion_file)
+
+
+def is_unnoticed(path, whole, left):
+    """Whether what is left of a file is read as another record without an error or a note."""
+    path.write_bytes(left)
+    try:
+        read = read_motion_file(path)
+    except InputError:
+        return False
+    is_other = values_of(read) != values_of(intact(whole))
+    return is_other and not {*read.notes} - {*intact(whole).notes}
+
+
+def damages(lines, at):
+    """Files that have lost something at one line, by a word for what."""
+    half = lines[at][: len(lines[at]) // 2] + b"\n"
     yield "a line lost", [*lines[:at], *lines[at + 1 :]]
-    yield "cut before a line", [*lines[:at]]
-    yield "half a line lost", [*lines[:at], half + b"\n", *lines[at + 1 :]]
+    yield "cut before a line", lines[:at]
+    yield "half a line lost", [*lines[:at], half, *lines[at + 1 :]]
 
 
-def unnoticed(path: Path, whole: Path, at_lines: Sequence[int]) -> list[tuple[int, str]]:
-    """Damages that are read as another record without an error or a note."""
+def unnoticed(path, whole, at_lines):
     lines = whole.read_bytes().splitlines(keepends=True)
-    intact, missed = read_motion_file(whole), []
-    for at in at_lines:
-        for what, left in damages(lines, at):
-            path.write_bytes(b"".join(left))
-            try:
-                read = read_motion_file(path)
-            except InputError:
-                continue
-            if values_of(read) != values_of(intact) and not {*read.notes} - {*intact.notes}:
-                missed.append((at + 1, what))
-    return missed
+    return [
+        (at + 1, what)
+        for at in at_lines
+        for what, left in damages(lines, at)
+        if is_unnoticed(path, whole, b"".join(left))
+    ]
 
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.nightly("solver/formats/")
-def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path: Path, name: str) -> None:
+def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path, name):
     count = len((SAMPLES / name).read_bytes().splitlines())
     assert unnoticed(tmp_path / name, SAMPLES / name, range(count)) == []
 
@@ -70,7 +70,7 @@ REAL = [
 
 
 @pytest.mark.parametrize("name", REAL)
-def test_no_damage_of_a_real_record_changes_it_without_a_word(tmp_path: Path, name: str) -> None:
+def test_no_damage_of_a_real_record_changes_it_without_a_word(tmp_path, name):
     whole = RECORDS / name
     if not whole.is_file():
         pytest.skip("the real records are not here")
@@ -89,18 +89,14 @@ def test_no_damage_of_a_real_record_changes_it_without_a_word(tmp_path: Path, na
         ("geonet.v1a", 58, "geonet.v1a:30: found the heading of component 2, the last one, where"),
     ],
 )
-def test_a_file_cut_after_its_first_channel_is_refused(
-    file: Any, name: str, kept: int, expected: str
-) -> None:
+def test_a_file_cut_after_its_first_channel_is_refused(file, name, kept, expected):
     lines = (SAMPLES / name).read_bytes().splitlines(keepends=True)
     (problem,) = problems_of(file(b"".join(lines[:kept]), name))
     assert problem.startswith(expected)
 
 
 @pytest.mark.parametrize("name", ["csmip-old.v2", "renadic.v1", "csmip-even.raw"])
-def test_a_file_cut_between_two_channels_says_how_many_the_recorder_had(
-    file: Any, name: str
-) -> None:
+def test_a_file_cut_between_two_channels_says_how_many_the_recorder_had(file, name):
     content = (SAMPLES / name).read_bytes()
     end = content.index(b"\n", content.upper().index(b"END OF DATA FOR CHANNEL")) + 1
     motion_file = read_motion_file(file(content[:end], name))
@@ -108,135 +104,109 @@ def test_a_file_cut_between_two_channels_says_how_many_the_recorder_had(
     assert " channels of the recorder, the file has 1: the others are" in motion_file.notes[0]
 
 
-def test_a_heading_of_volume_2_without_one_line_is_refused(file: Any) -> None:
-    # The step of the real heading was not found there, and 0.008 s was taken for 1/128 s.
-    lines = (SAMPLES / "csmip-new.v2").read_bytes().splitlines(keepends=True)
-    assert problems_of(file(b"".join([*lines[:8], *lines[9:]]), "roof.v2")) == (
-        "roof.v2:45: found 44 lines of heading above this one, where the format has 45; give the"
-        " whole file",
-    )
+@pytest.mark.parametrize(
+    ("name", "lost", "problem"),
+    [
+        # The step of the real heading was not found there, and 0.008 s was taken for 1/128 s.
+        ("csmip-new.v2", 8, "45: found 44 lines of heading above this one, where the format has 45;"
+         " give the whole file"),
+        ("cosmos.v2c", 30, "25: states 20 lines of real numbers, found 19; give the whole file"),
+    ],
+)  # fmt: skip
+def test_a_heading_without_one_line_is_refused(file, name, lost, problem):
+    lines = (SAMPLES / name).read_bytes().splitlines(keepends=True)
+    left = b"".join([*lines[:lost], *lines[lost + 1 :]])
+    assert problems_of(file(left, name)) == (f"{name}:{problem}",)
 
 
-def test_a_line_cut_within_a_number_is_refused(altered: Any) -> None:
-    # 2.5 of 2.500000e+00 is a number, and so is 9.8 of 9.800000e+01.
-    path = altered("cosmos.v2c", ("   9.800000e+01", "   9.800000"))
-    assert problems_of(path) == (
-        "cosmos.v2c:54: found a line of 11 characters that ends within a field of 15; give the"
-        " whole file",
-    )
+@pytest.mark.parametrize(
+    ("name", "whole", "left", "problem"),
+    [
+        # 2.5 of 2.500000e+00 is a number, and so is 9.8 of 9.800000e+01.
+        ("cosmos.v2c", "   9.800000e+01", "   9.800000", "54: found a line of 11 characters that"
+         " ends within a field of 15; give the whole file"),
+        ("peer-nga.at2", "-.3125000E-01", "-.3125", "6: found '-.3125' at the end, with fewer"
+         " digits than all other values; give the whole file"),
+        ("geonet.v1a", "Duration   0.10 sec", "Duration   0.90 sec", "10: the heading states 0.9 s,"
+         " the record lasts 0.105 s; give dt with more digits, or a file whose headings agree"),
+        ("csmip-pairs.v1", "     0.600     0.120", "     0.600     0.220", "21: the heading states"
+         " 0.22 s, the record lasts 0.12 s; give dt with more digits, or a file whose headings"
+         " agree"),
+    ],
+)  # fmt: skip
+def test_a_value_cut_short_or_a_duration_that_is_not_there_is_refused(
+    altered, name, whole, left, problem
+):
+    assert problems_of(altered(name, (whole, left))) == (f"{name}:{problem}",)
 
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.nightly("solver/formats/")
-def test_no_cut_within_the_last_value_changes_a_record_without_a_word(
-    tmp_path: Path, name: str
-) -> None:
-    whole, path = (SAMPLES / name).read_bytes(), tmp_path / name
-    intact, missed = read_motion_file(SAMPLES / name), []
-    for lost in range(1, 40):
-        path.write_bytes(whole[:-lost])
-        try:
-            read = read_motion_file(path)
-        except InputError:
-            continue
-        if values_of(read) != values_of(intact) and not {*read.notes} - {*intact.notes}:
-            missed.append(lost)
-    assert missed == []
+def test_no_cut_within_the_last_value_changes_a_record_without_a_word(tmp_path, name):
+    whole = SAMPLES / name
+    left = {lost: whole.read_bytes()[:-lost] for lost in range(1, 40)}
+    assert [lost for lost in left if is_unnoticed(tmp_path / name, whole, left[lost])] == []
 
 
-def test_a_last_value_with_fewer_digits_than_all_others_is_refused_with_its_line(
-    altered: Any,
-) -> None:
-    assert problems_of(altered("peer-nga.at2", ("-.3125000E-01", "-.3125"))) == (
-        "peer-nga.at2:6: found '-.3125' at the end, with fewer digits than all other values; give"
-        " the whole file",
-    )
-
-
-def test_values_of_unlike_digits_may_end_with_few(altered: Any) -> None:
+def test_values_of_unlike_digits_may_end_with_few(altered):
     path = altered("peer-nga.at2", (".2500000E+00", ".25"), ("-.3125000E-01", "-.0625"))
     assert read_motion_file(path).channels[0].a_mps2.size == 7
 
 
-TEXTS = sorted(SILENT - {"README.md"})
-
-
 @pytest.mark.parametrize("name", TEXTS)
-def test_a_text_that_is_cut_within_a_line_says_so(tmp_path: Path, name: str) -> None:
-    whole, path = (SAMPLES / name).read_bytes(), tmp_path / name
-    how: dict[str, Any] = {"units": "g", "dt_s": 0.01} if name == "one.txt" else {}
-    intact, tried = read_motion_file(SAMPLES / name, **how), 0
-    for lost in range(2, 40):
-        left = whole[:-lost]
-        path.write_bytes(left)
+def test_a_text_that_is_cut_within_a_line_says_so(file, name):
+    whole = (SAMPLES / name).read_bytes()
+    how = {"units": "g", "dt_s": 0.01} if name == "one.txt" else {}
+    usual, tried = {*read_motion_file(SAMPLES / name, **how).notes}, 0
+    for left in (whole[:-lost] for lost in range(2, 40)):
         try:
-            read = read_motion_file(path, **how)
+            read = read_motion_file(file(left, name), **how)
         except InputError:
             continue
         tried += 1
-        is_told = bool({*read.notes} - {*intact.notes})
-        assert is_told == (not left.rstrip(b" ").endswith(b"\n"))
+        assert bool({*read.notes} - usual) == (not left.rstrip(b" ").endswith(b"\n"))
     assert tried > 0
 
 
-def test_a_text_whose_last_value_is_cut_short_is_refused(file: Any) -> None:
-    text = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
-    assert read_motion_file(file(text), units="g").notes == ()
-    assert problems_of(file(text[:-3]), units="g") == (
+VALUES = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
+
+
+def test_a_text_whose_last_value_is_cut_short_is_refused(file):
+    assert read_motion_file(file(VALUES), units="g").notes == ()
+    assert problems_of(file(VALUES[:-3]), units="g") == (
         "roof.csv:20: found '-0.12' at the end, with fewer digits than the values before it and"
         " without a line end; give the whole file, or end its last line",
     )
     # With a line end somebody typed it.
-    assert read_motion_file(file(text[:-3] + "\n"), units="g").notes == ()
+    assert read_motion_file(file(VALUES[:-3] + "\n"), units="g").notes == ()
 
 
 @pytest.mark.parametrize("lines", [1, 60])
-def test_a_comment_that_ends_a_text_without_a_line_end_is_no_cut_value(
-    file: Any, lines: int
-) -> None:
-    rows = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.125:.4f}\n" for i in range(20))
-    text = rows[:-3] + "\n" + "\n".join(["# end"] * lines)
+def test_a_comment_that_ends_a_text_without_a_line_end_is_no_cut_value(file, lines):
+    text = VALUES[:-3] + "\n" + "\n".join(["# end"] * lines)
     (note,) = read_motion_file(file(text), units="g").notes
     assert note.startswith("the last line has no line end")
-
-
-def test_a_block_of_a_heading_states_its_lines(file: Any) -> None:
-    lines = (SAMPLES / "cosmos.v2c").read_bytes().splitlines(keepends=True)
-    assert problems_of(file(b"".join([*lines[:30], *lines[31:]]), "roof.v2c")) == (
-        "roof.v2c:25: states 20 lines of real numbers, found 19; give the whole file",
-    )
-
-
-def test_a_duration_that_the_values_do_not_have_is_refused(altered: Any) -> None:
-    path = altered("geonet.v1a", ("Duration   0.10 sec", "Duration   0.90 sec"))
-    assert problems_of(path) == (
-        "geonet.v1a:10: the heading states 0.9 s, the record lasts 0.105 s; give dt with more"
-        " digits, or a file whose headings agree",
-    )
-    path = altered("csmip-pairs.v1", ("     0.600     0.120", "     0.600     0.220"))
-    (problem,) = problems_of(path)
-    assert problem.startswith("csmip-pairs.v1:21: the heading states 0.22 s, the record lasts 0.12")
 
 
 ROWS = "".join(f"{i * 0.01:.2f},{(-1) ** i * 0.1}\n" for i in range(20))
 
 
 @pytest.mark.parametrize("words", ["number of points: 20", "No. of samples 20, gal"])
-def test_a_text_that_states_its_samples_is_held_to_it(file: Any, words: str) -> None:
+def test_a_text_that_states_its_samples_is_held_to_it(file, words):
     text = f"# {words}\ntime_s,acc_g\n{ROWS}"
     assert len(read_motion_file(file(text)).channel().a_mps2) == 20
     cut = "".join(text.splitlines(keepends=True)[:-3])
     assert problems_of(file(cut)) == (
         "roof.csv:1: states 20 samples, found 17; give the whole file",
     )
-    (problem,) = problems_of(file(text + "0.20,0.1\n"))
-    assert problem == "roof.csv:1: states 20 samples, found 21; correct the count"
+    assert problems_of(file(text + "0.20,0.1\n")) == (
+        "roof.csv:1: states 20 samples, found 21; correct the count",
+    )
 
 
-def test_times_are_compared_with_the_step_that_a_text_states(file: Any) -> None:
+def test_times_are_compared_with_the_step_that_a_text_states(file):
     assert read_motion_file(file(f"# dt = 0.01 s\ntime_s,acc_g\n{ROWS}")).channel().dt_s == 0.01
-    (problem,) = problems_of(file(f"# dt = 0.02 s\ntime_s,acc_g\n{ROWS}"))
-    assert problem == (
+    assert problems_of(file(f"# dt = 0.02 s\ntime_s,acc_g\n{ROWS}")) == (
         "roof.csv:1: states a step of 0.02 s, the times have 0.01 s; give a file in which they"
-        " agree"
+        " agree",
     )

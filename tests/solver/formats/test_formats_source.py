@@ -1,46 +1,47 @@
 """Files from strangers: what may be opened, and what the caller may say of them."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
-from typing import Any
 
 import pytest
 
+from refused import refused
 from solver.formats.source import MAX_BYTES, Stated, open_source
-from solver.model import InputError
 
 
-def problems_of(path: Path, units: str = "g", dt_s: float = math.nan) -> tuple[str, ...]:
-    with pytest.raises(InputError) as caught:
-        open_source(path, units=units, dt_s=dt_s)
-    return caught.value.problems
+def problems_of(path, units="g", dt_s=math.nan):
+    return refused(open_source, path, units=units, dt_s=dt_s)
+
+
+@pytest.fixture
+def of_step(file):
+    """A function that returns the source with a time step that the caller gives."""
+    return lambda dt_s=math.nan: open_source(file("x"), units="", dt_s=dt_s)
 
 
 @pytest.mark.parametrize("content", [b"\x89PNG\r\n\x1a\n\x00", b"\xff\xfe\x00", b"a\x1a\x00b"])
-def test_what_is_no_text_is_refused(file: Any, content: bytes) -> None:
+def test_what_is_no_text_is_refused(file, content):
     assert problems_of(file(content)) == ("roof.csv: not a text file; give the text of a record",)
 
 
-def test_what_is_not_a_file_is_refused(tmp_path: Path) -> None:
+def test_what_is_not_a_file_is_refused(tmp_path):
     assert problems_of(tmp_path / "none.csv")[0].startswith("none.csv: no such file")
     assert problems_of(tmp_path)[0].startswith(f"{tmp_path.name}: not a file")
 
 
 @pytest.mark.skipif(not Path("/proc/self/mem").is_file(), reason="a file that gives no bytes")
-def test_a_file_that_cannot_be_read_says_why() -> None:
+def test_a_file_that_cannot_be_read_says_why():
     assert problems_of(Path("/proc/self/mem")) == ("mem: cannot be read (Input/output error)",)
 
 
-def test_a_file_beyond_the_size_cap_is_not_opened(tmp_path: Path) -> None:
+def test_a_file_beyond_the_size_cap_is_not_opened(tmp_path):
     with (tmp_path / "roof.csv").open("wb") as hollow:
         hollow.truncate(MAX_BYTES + 1)
     (problem,) = problems_of(tmp_path / "roof.csv")
     assert problem.endswith(f"give at most {MAX_BYTES // 1_000_000} MB")
 
 
-def test_long_lines_are_refused(file: Any) -> None:
+def test_long_lines_are_refused(file):
     assert problems_of(file("0 1\n" + "1" * 1200)) == (
         "roof.csv:2: found a line of 1200 characters; give at most 1000",
     )
@@ -49,52 +50,46 @@ def test_long_lines_are_refused(file: Any) -> None:
 @pytest.mark.parametrize(
     "content", ["0,1\r\n1,2\r\n\x1a", "0,1\r1,2", "\ufeff0,1\n1,2\n\n\x1a\x1a"]
 )
-def test_line_ends_marks_of_order_and_of_the_end_are_taken_off(file: Any, content: str) -> None:
+def test_line_ends_marks_of_order_and_of_the_end_are_taken_off(file, content):
     assert open_source(file(content), units="", dt_s=math.nan).lines == ["0,1", "1,2"]
 
 
 @pytest.mark.parametrize("dt_s", [0.0, -0.01, math.inf])
-def test_unknown_units_and_impossible_steps_are_refused_together(file: Any, dt_s: float) -> None:
+def test_unknown_units_and_impossible_steps_are_refused_together(file, dt_s):
     problems = problems_of(file("0,1\n"), units="furlong", dt_s=dt_s)
     assert problems[0] == "roof.csv: unit is 'furlong'; give one of g, m/s2, cm/s2, mm/s2, gal"
     assert problems[1].startswith(f"roof.csv: time step dt is {dt_s!r}; give a number")
 
 
-def test_a_stated_unit_must_be_one_of_acceleration(file: Any) -> None:
-    source = open_source(file("x"), units="", dt_s=math.nan)
-    assert source.scale("CM/SEC/SEC", 0) == 0.01
-    with pytest.raises(InputError) as caught:
-        source.scale("cm/s", 0)
-    assert caught.value.problems == (
+def test_a_stated_unit_must_be_one_of_acceleration(of_step):
+    assert of_step().scale("CM/SEC/SEC", 0) == 0.01
+    assert refused(of_step().scale, "cm/s", 0) == (
         "roof.csv:1: found unit 'cm/s'; give an acceleration in g, m/s2, cm/s2, mm/s2, gal",
     )
+
+
+MILLISECONDS = Stated(value=0.008, rounding=0.0005, index=0)
 
 
 @pytest.mark.parametrize(
     ("given", "expected"), [(math.nan, 0.008), (1 / 128, 1 / 128), (0.0084, 0.0084)]
 )
-def test_a_given_step_may_differ_by_the_rounding_of_the_stated_one(
-    file: Any, given: float, expected: float
-) -> None:
-    source = open_source(file("x"), units="", dt_s=given)
-    assert source.step(Stated(value=0.008, rounding=0.0005, index=0)) == expected
+def test_a_given_step_may_differ_by_the_rounding_of_the_stated_one(of_step, given, expected):
+    assert of_step(given).step(MILLISECONDS) == expected
 
 
-def test_a_given_step_beyond_the_rounding_is_refused(file: Any) -> None:
-    source = open_source(file("x"), units="", dt_s=0.01)
-    with pytest.raises(
-        InputError, match=r"the time step of the file is 0.008 s but dt is 0.01 s; give the dt"
-    ):
-        source.step(Stated(value=0.008, rounding=0.0005, index=0))
+def test_a_given_step_beyond_the_rounding_is_refused(of_step):
+    (problem,) = refused(of_step(0.01).step, MILLISECONDS)
+    assert "the time step of the file is 0.008 s but dt is 0.01 s; give the dt" in problem
 
 
 @pytest.mark.parametrize("value", [0.0, -0.01, math.inf])
-def test_a_stated_step_must_be_one(file: Any, value: float) -> None:
-    source = open_source(file("x"), units="", dt_s=math.nan)
-    with pytest.raises(InputError, match=r"roof\.csv:1: found time step .* give a number above 0"):
-        source.step(Stated(value=value, rounding=0.0, index=0))
+def test_a_stated_step_must_be_one(of_step, value):
+    (problem,) = refused(of_step().step, Stated(value=value, rounding=0.0, index=0))
+    assert problem == f"roof.csv:1: found time step {value:g} s; give a number above 0"
 
 
-def test_a_file_of_too_many_lines_is_refused_before_it_is_parsed(file: Any) -> None:
-    (problem,) = problems_of(file("0\n" * 1_000_001 + "x"))
-    assert problem == "roof.csv: found 1,000,002 lines; give at most 1,000,000"
+def test_a_file_of_too_many_lines_is_refused_before_it_is_parsed(file):
+    assert problems_of(file("0\n" * 1_000_001 + "x")) == (
+        "roof.csv: found 1,000,002 lines; give at most 1,000,000",
+    )

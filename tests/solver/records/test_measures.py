@@ -33,71 +33,54 @@ def largest(curve, end):
     return np.abs(curve(points[(points >= 0.0) & (points <= end)])).max()
 
 
-def test_a_ramp_gives_its_closed_forms():
-    # a = 3 t for 2 s.
-    measured = measures(record(3.0 * 0.01 * np.arange(201)))
-    assert measured.pga_mps2 == pytest.approx(6.0, rel=1e-13)
-    assert measured.pgv_mps == measured.final_velocity_mps == pytest.approx(6.0, rel=1e-13)
-    assert measured.pgd_m == measured.final_displacement_m == pytest.approx(4.0, rel=1e-13)
-    assert measured.arias_mps == pytest.approx(math.pi / (2 * G) * 9.0 * 8.0 / 3.0, rel=1e-13)
+UP = np.array([0.0, 0.5, 1.0, 0.5, 0.0])
+SINE = np.sin(2.0 * np.pi * np.arange(30001) * 1e-4)
+ARIAS = math.pi / (2.0 * G)
+CLOSED_FORMS = {
     # The integral of a^2 goes with t^3.
-    expected = 2.0 * (math.cbrt(0.95) - math.cbrt(0.05))
-    assert measured.d5_95_s == pytest.approx(expected, rel=1e-13)
+    "a ramp of 3 t for 2 s": (3.0 * 0.01 * np.arange(201), 0.01, 1e-13, {
+        "pga_mps2": 6.0, "pgv_mps": 6.0, "final_velocity_mps": 6.0, "pgd_m": 4.0,
+        "final_displacement_m": 4.0, "arias_mps": ARIAS * 9.0 * 8.0 / 3.0,
+        "d5_95_s": 2.0 * (math.cbrt(0.95) - math.cbrt(0.05)),
+    }),
+    "a constant acceleration": (np.full(101, -2.0), 0.01, 1e-13, {
+        "final_velocity_mps": -2.0, "final_displacement_m": -1.0, "arias_mps": ARIAS * 4.0,
+        "d5_95_s": 0.9,
+    }),
+    # v = t - 2 t^2 peaks at 1/4, d = t^2 / 2 - 2 t^3 / 3 at 1/2.
+    "down in one interval from 1 to -3": ([1.0, -3.0], 1.0, 1e-14, {
+        "final_displacement_m": -1.0 / 6.0, "pgd_m": 1.0 / 6.0,
+    }),
+    "the velocity of it": ([1.0, -3.0], 1.0, 1e-15, {"pgv_mps": 1.0, "final_velocity_mps": -1.0}),
+    # The velocity turns at 1/3, the displacement at 2/3, inside.
+    "from 1 to -2 and to rest": ([1.0, -2.0, 0.0], 1.0, 1e-15, {"pgv_mps": 1.5}),
+    "from 1 to -2": ([1.0, -2.0], 1.0, 1e-15, {"pgv_mps": 0.5, "final_displacement_m": 0.0}),
+    "the displacement of it": ([1.0, -2.0], 1.0, 1e-14, {"pgd_m": 2.0 / 27.0}),
+    "from 1 to -1": ([1.0, -1.0], 1.0, 1e-15, {"pgv_mps": 0.25}),
+    # v = (1 - cos) / 2 pi, d = t / 2 pi - sin / 4 pi^2.
+    "sin(2 pi t) for 3 s": (SINE, 1e-4, 1e-7, {
+        "pgv_mps": 1.0 / math.pi, "pgd_m": 3.0 / (2.0 * math.pi), "arias_mps": ARIAS * 1.5,
+    }),
+    "the end of it": (SINE, 1e-4, 1e-11, {"final_velocity_mps": 0.0}),
+    # Velocity back to zero, displacement kept. A quarter of a triangle's integral from its foot
+    # goes with (t / 0.1)^3 / 2.
+    "triangles of 1 m/s2 over 0.2 s, up and down": ([*UP, *-UP[1:], 0.0], 0.05, 1e-13, {
+        "final_velocity_mps": 0.0, "final_displacement_m": 0.1 * 0.2,
+        "arias_mps": ARIAS * 2 * 0.2 / 3, "d5_95_s": 0.4 - 2 * 0.1 * math.cbrt(0.05 * 2 * 2),
+    }),
+    "the velocity of them": ([*UP, *-UP[1:], 0.0], 0.05, 1e-14, {"pgv_mps": 0.1}),
+    "nothing": (np.zeros(50), 0.01, 0.0, dict.fromkeys(
+        ("pga_mps2", "pgv_mps", "pgd_m", "arias_mps", "d5_95_s"), 0.0)),
+}  # fmt: skip
 
 
-def test_a_constant_acceleration_gives_its_closed_forms():
-    measured = measures(record(np.full(101, -2.0)))
-    assert measured.final_velocity_mps == pytest.approx(-2.0, rel=1e-13)
-    assert measured.final_displacement_m == pytest.approx(-1.0, rel=1e-13)
-    assert measured.arias_mps == pytest.approx(math.pi / (2 * G) * 4.0, rel=1e-13)
-    assert measured.d5_95_s == pytest.approx(0.9, rel=1e-13)
-
-
-def test_peaks_between_samples_are_found():
-    # Down in one interval from 1 to -3: v = t - 2 t^2 peaks at 1/4, d = t^2 / 2 - 2 t^3 / 3 at 1/2.
-    measured = measures(record([1.0, -3.0], dt_s=1.0))
-    assert measured.pgv_mps == pytest.approx(1.0, rel=1e-15)
-    assert measured.final_velocity_mps == pytest.approx(-1.0, rel=1e-15)
-    assert measured.final_displacement_m == pytest.approx(-1.0 / 6.0, rel=1e-14)
-    assert measured.pgd_m == pytest.approx(1.0 / 6.0, rel=1e-14)
-    # From 1 to -2: the velocity turns at 1/3, the displacement at 2/3, inside.
-    measured = measures(record([1.0, -2.0, 0.0], dt_s=1.0))
-    assert measured.pgv_mps == pytest.approx(1.5, rel=1e-15)
-    back = measures(record([1.0, -2.0], dt_s=1.0))
-    assert back.pgv_mps == pytest.approx(0.5, rel=1e-15)
-    assert back.pgd_m == pytest.approx(2.0 / 27.0, rel=1e-14)
-    assert back.final_displacement_m == pytest.approx(0.0, abs=1e-16)
-    inside = measures(record([1.0, -1.0], dt_s=1.0))
-    assert inside.pgv_mps == pytest.approx(0.25, rel=1e-15)
-
-
-def test_a_fine_sine_comes_near_the_closed_form_of_the_sine():
-    # a = sin(2 pi t) for 3 s: v = (1 - cos) / 2 pi, d = t / 2 pi - sin / 4 pi^2.
-    t = np.arange(30001) * 1e-4
-    measured = measures(record(np.sin(2 * np.pi * t), dt_s=1e-4))
-    assert measured.pgv_mps == pytest.approx(1.0 / math.pi, rel=1e-7)
-    assert measured.final_velocity_mps == pytest.approx(0.0, abs=1e-14)
-    assert measured.pgd_m == pytest.approx(3.0 / (2.0 * math.pi), rel=1e-7)
-    assert measured.arias_mps == pytest.approx(math.pi / (2 * G) * 1.5, rel=1e-7)
-
-
-def test_a_pulse_gives_its_closed_forms():
-    # A triangle of 1 m/s2 over 0.2 s, then one of -1: velocity back to zero, displacement kept.
-    up = [0.0, 0.5, 1.0, 0.5, 0.0]
-    measured = measures(record([*up, *(-np.array(up[1:])), 0.0], dt_s=0.05))
-    assert measured.pgv_mps == pytest.approx(0.1, rel=1e-14)
-    assert measured.final_velocity_mps == pytest.approx(0.0, abs=1e-16)
-    assert measured.final_displacement_m == pytest.approx(0.1 * 0.2, rel=1e-13)
-    assert measured.arias_mps == pytest.approx(math.pi / (2 * G) * 2 * 0.2 / 3, rel=1e-13)
-    # A quarter of a triangle's integral from its foot goes with (t / 0.1)^3 / 2.
-    early = 0.1 * math.cbrt(0.05 * 2 * 2)
-    assert measured.d5_95_s == pytest.approx(0.4 - 2 * early, rel=1e-13)
-
-
-def test_a_record_of_zeros_has_no_duration():
-    measured = measures(record(np.zeros(50)))
-    assert (measured.pga_mps2, measured.pgv_mps, measured.pgd_m) == (0.0, 0.0, 0.0)
-    assert (measured.arias_mps, measured.d5_95_s) == (0.0, 0.0)
+@pytest.mark.parametrize(
+    ("values", "dt_s", "rel", "wanted"), CLOSED_FORMS.values(), ids=CLOSED_FORMS
+)
+def test_measures_are_those_of_closed_forms(values, dt_s, rel, wanted):
+    measured = measures(record(values, dt_s))
+    found = {name: getattr(measured, name) for name in wanted}
+    assert found == pytest.approx(wanted, rel=rel, abs=1e-3 * rel)
 
 
 def test_leading_and_trailing_zeros_do_not_change_the_duration():
@@ -132,7 +115,7 @@ def test_duration_is_between_the_times_of_the_shares_by_bisection(a):
     squared = PPoly(np.array([r * r, 2 * r * start, start * start]), 0.01 * np.arange(len(a)))
     total = squared.antiderivative()
     end = 0.01 * (len(a) - 1)
-    assert measured.arias_mps == pytest.approx(math.pi / (2 * G) * float(total(end)), rel=1e-12)
+    assert measured.arias_mps == pytest.approx(ARIAS * float(total(end)), rel=1e-12)
     times = []
     for share in (0.05, 0.95):
         low, high = 0.0, end

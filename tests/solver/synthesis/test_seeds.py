@@ -3,10 +3,6 @@
 The record is made up: bursts of waves from 12 to 1 Hz within 20 s, after 3 s of silence.
 """
 
-from __future__ import annotations
-
-from typing import Any
-
 import numba
 import numpy as np
 import pytest
@@ -31,12 +27,12 @@ VERTICAL = CORNERS_HZ, np.array([0.067, 0.67, 0.67, 0.27])
 
 
 @pytest.fixture(scope="module")
-def made() -> tuple[Any, Any]:
+def made():
     group = tuple(falling(seed) for seed in (1, 2))
     return group, make_suite(HORIZONTAL, VERTICAL, count=2, seed=7, records=[group])
 
 
-def falling(seed: int) -> Record:
+def falling(seed):
     draw, t = np.random.default_rng(seed), np.arange(2001) * 0.01
     wave = np.sin(2.0 * np.pi * np.cumsum(12.0 * 12.0 ** (-t / 20.0)) * 0.01 + 6.28 * draw.random())
     level = np.exp(-((t - 8.0) ** 2) / 8.0) + 0.2
@@ -44,12 +40,10 @@ def falling(seed: int) -> Record:
     return Record(name=f"falling-{seed}", dt_s=0.01, a_mps2=np.append(np.zeros(300), a))
 
 
-@pytest.mark.nightly("solver/synthesis/", "solver/records/")
-def test_every_component_keeps_to_its_target_and_is_strong_for_long(made: Any) -> None:
+def test_every_component_keeps_to_its_target_and_is_strong_for_long(made):
     for motion in made[1]:
-        for record, wanted in zip(
-            motion.components, (HORIZONTAL, HORIZONTAL, VERTICAL), strict=True
-        ):
+        targets = (HORIZONTAL, HORIZONTAL, VERTICAL)
+        for record, wanted in zip(motion.components, targets, strict=True):
             psa = response_spectrum(record.a_mps2, record.dt_s, 1.0 / BAND) / G
             ratio = psa / target_sa_g(wanted, BAND)
             assert 0.90 <= ratio.min() <= ratio.max() <= 1.30
@@ -61,7 +55,7 @@ def test_every_component_keeps_to_its_target_and_is_strong_for_long(made: Any) -
         assert max(map(abs, motion.correlations)) <= 0.3
 
 
-def test_phases_are_the_records_own_the_first_time_round(made: Any) -> None:
+def test_phases_are_the_records_own_the_first_time_round(made):
     (first, second), (own, later) = made
     assert likeness(own.x, first) > 0.6
     assert likeness(own.y, second) > 0.6
@@ -69,7 +63,7 @@ def test_phases_are_the_records_own_the_first_time_round(made: Any) -> None:
         assert abs(likeness(other, record)) < 0.3
 
 
-def likeness(made: Record, record: Record) -> float:
+def likeness(made, record):
     """Mean cosine of the phase between the two, 1 to 10 Hz, in windows of 2 s."""
     # A record of 23 s stands in the middle of 30 s.
     t = 0.005 * np.arange(6001)
@@ -85,13 +79,13 @@ def likeness(made: Record, record: Record) -> float:
     return float(cosine.mean(axis=1).mean())
 
 
-def test_frequencies_follow_one_another_as_in_the_record(made: Any) -> None:
+def test_frequencies_follow_one_another_as_in_the_record(made):
     for record in (r for motion in made[1] for r in motion.components):
         early, late = (record.a_mps2[k : k + 1000] for k in (1400, 3800))
         assert share_of_high(early) > 2.0 * share_of_high(late)
 
 
-def share_of_high(a: Any) -> float:
+def share_of_high(a):
     """Energy from 3.5 to 12 Hz over that from 0.8 to 3.5 Hz, of 5 s."""
     power = np.abs(np.fft.rfft(np.hanning(1000) * a)) ** 2
     freq_hz = np.fft.rfftfreq(1000, 0.005)
@@ -99,7 +93,7 @@ def share_of_high(a: Any) -> float:
     return float(power[high].sum() / power[low & ~high].sum())
 
 
-def test_what_each_component_grew_from_is_told(made: Any) -> None:
+def test_what_each_component_grew_from_is_told(made):
     own, later = made[1]
     assert own.seeds == ("falling-1", "falling-2", "falling-1, random phases")
     assert later.seeds == tuple(f"falling-{k}, random phases" for k in (1, 2, 1))
@@ -107,14 +101,14 @@ def test_what_each_component_grew_from_is_told(made: Any) -> None:
     assert noise.seeds == ("noise", "noise", "noise")
 
 
-def test_a_motion_of_records_is_the_same_whatever_the_count(made: Any) -> None:
+def test_a_motion_of_records_is_the_same_whatever_the_count(made):
     again = make_suite(HORIZONTAL, VERTICAL, count=1, seed=7, records=[made[0]])[0]
     for record, other in zip(again.components, made[1][0].components, strict=True):
         assert np.array_equal(record.a_mps2, other.a_mps2)
 
 
 @pytest.mark.nightly("solver/synthesis/suite.py", "solver/synthesis/seeds.py")
-def test_phases_of_components_alike_are_turned(made: Any) -> None:
+def test_phases_of_components_alike_are_turned(made):
     same = made[0][0]
     motion = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=[(same, same, same)])[0]
     assert motion.seeds[0] == "falling-1"
@@ -122,7 +116,7 @@ def test_phases_of_components_alike_are_turned(made: Any) -> None:
     assert max(map(abs, motion.correlations)) <= 0.3
 
 
-def test_the_strongest_part_of_a_long_record_is_used() -> None:
+def test_the_strongest_part_of_a_long_record_is_used():
     t = 0.01 * np.arange(10_000)
     weak, strong = 0.1 * np.sin(3.0 * t), np.where((t > 40.0) & (t < 65.0), np.sin(9.0 * t), 0.0)
     seed = seeds.strongest(Record(name="long", dt_s=0.01, a_mps2=weak + strong), 0.005, 6001)
@@ -130,7 +124,7 @@ def test_the_strongest_part_of_a_long_record_is_used() -> None:
     assert at[-1] - at[0] == pytest.approx(25.0, abs=0.5)
 
 
-def test_a_short_record_stands_in_the_middle_at_the_motions_step() -> None:
+def test_a_short_record_stands_in_the_middle_at_the_motions_step():
     t = 0.02 * np.arange(501)
     seed = seeds.strongest(Record(name="short", dt_s=0.02, a_mps2=np.sin(5.0 * t)), 0.005, 6001)
     assert not seed[:2000].any()
@@ -140,7 +134,7 @@ def test_a_short_record_stands_in_the_middle_at_the_motions_step() -> None:
 
 
 @pytest.mark.parametrize("size", [1e-300, 1e-6, 1e300])
-def test_the_size_of_a_record_does_not_matter(made: Any, size: float) -> None:
+def test_the_size_of_a_record_does_not_matter(made, size):
     first = made[0][0]
     sized = Record(name="falling-1", dt_s=0.01, a_mps2=first.a_mps2 * size)
     seed = seeds.strongest(sized, 0.005, 6001)
@@ -157,14 +151,10 @@ def test_the_size_of_a_record_does_not_matter(made: Any, size: float) -> None:
         ([("short",)], "short: lasts 4.99 s; give a seed of at least 5 s"),
     ],
 )
-def test_records_that_cannot_seed_are_refused(groups: Any, expected: str) -> None:
-    known = {
-        "rest": np.zeros(3000),
-        "level": np.full(3000, 2.5),
-        "short": np.sin(np.arange(500.0)),
-    }
-    records = [
-        [Record(name=name, dt_s=0.01, a_mps2=known[name]) for name in group] for group in groups
-    ]
+def test_records_that_cannot_seed_are_refused(groups, expected):
+    rest = np.zeros(3000)
+    known = {"rest": rest, "level": rest + 2.5, "short": np.sin(np.arange(500.0))}
+    named = {name: Record(name=name, dt_s=0.01, a_mps2=a) for name, a in known.items()}
+    records = [[named[name] for name in group] for group in groups]
     with pytest.raises(InputError, match=expected):
         make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=records)

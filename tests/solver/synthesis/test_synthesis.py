@@ -1,11 +1,7 @@
 """Made motions. Oracles: an oscillator in modal form, whole-number sums, the code's own corners."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
-from pathlib import Path
-from typing import Any
 
 import numba
 import numpy as np
@@ -14,12 +10,10 @@ from scipy import signal
 
 from modal import psa_g
 from solver.formats import read_motion_file, read_record
-from solver.model import Floats, InputError, Motion
+from solver.model import InputError, Motion
 from solver.records.acceptance import acceptance
-from solver.records.record import Record, write_record
+from solver.records.record import write_record
 from solver.synthesis import (
-    SuiteMotion,
-    Target,
     make_suite,
     spectrum_fit,
     suite,
@@ -36,7 +30,7 @@ G = 9.80665
 BAND = 0.3 * 2.0 ** (np.arange(82) / 12.0)
 
 
-def corners(flexible_g: float, rigid_g: float) -> Target:
+def corners(flexible_g, rigid_g):
     sa_g = np.array([0.1 * flexible_g, flexible_g, flexible_g, rigid_g])
     return np.array([0.1, 1.3, 8.3, 33.3]), sa_g
 
@@ -44,16 +38,16 @@ def corners(flexible_g: float, rigid_g: float) -> Target:
 HORIZONTAL, VERTICAL = corners(1.6 * 1.566, 1.2 * 1.566), corners(0.67 * 1.566, 0.27 * 1.566)
 
 
-def rng(seed: int) -> np.random.Generator:
+def rng(seed):
     return np.random.Generator(np.random.PCG64(seed))
 
 
-def psa_over(record: Record, wanted: Target, freq_hz: Floats) -> Floats:
+def psa_over(record, wanted, freq_hz):
     """Spectrum over the target, by another method."""
     return psa_g(record.a_mps2, record.dt_s, freq_hz) / target_sa_g(wanted, freq_hz)
 
 
-def counts(record: Record) -> list[int]:
+def counts(record):
     """Samples in whole hundred-thousandths of g."""
     return [round(a) for a in (record.a_mps2 / G * 1e5).tolist()]
 
@@ -65,20 +59,19 @@ def counts(record: Record) -> list[int]:
         pytest.param(range(10), id="ten", marks=pytest.mark.nightly),
     ],
 )
-def suites(request: pytest.FixtureRequest) -> list[SuiteMotion]:
+def suites(request):
     return [make_suite(HORIZONTAL, VERTICAL, count=1, seed=seed)[0] for seed in request.param]
 
 
 @pytest.fixture(scope="module")
-def components(suites: Any) -> list[tuple[Record, Target]]:
+def components(suites):
     targets = HORIZONTAL, HORIZONTAL, VERTICAL
     return [pair for motion in suites for pair in zip(motion.components, targets, strict=True)]
 
 
 @pytest.mark.nightly("solver/synthesis/", "solver/records/")
 class TestSuite:
-    @pytest.mark.nightly("solver/synthesis/", "solver/records/")
-    def test_every_component_keeps_to_its_target(self, components: Any) -> None:
+    def test_every_component_keeps_to_its_target(self, components):
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
             fit = spectrum_fit(record, wanted)
@@ -88,8 +81,8 @@ class TestSuite:
 
     @pytest.mark.parametrize("count", [2, pytest.param(6, marks=pytest.mark.nightly)])
     def test_no_point_of_a_sixth_of_an_octave_is_below_the_target_wherever_the_first_lies(
-        self, components: Any, count: int
-    ) -> None:
+        self, components, count
+    ):
         # 100 grids; another routine finds the same.
         shift = np.arange(100) / 600.0
         freq_hz = 1.3 * 2.0 ** (np.arange(-22, 28) / 6.0 + shift[:, None]).ravel()
@@ -99,7 +92,7 @@ class TestSuite:
             assert ratio.max() <= 1.3
 
     @pytest.mark.nightly("solver/synthesis/suite.py")
-    def test_the_suite_that_failed_between_the_points_keeps_every_row_on_every_grid(self) -> None:
+    def test_the_suite_that_failed_between_the_points_keeps_every_row_on_every_grid(self):
         # 1.3 x 2^(k/6) Hz: 4 of 18 components were below the target at 2.6 and 2.92 Hz.
         across, upward = corners(1.6 * 1.7, 0.4 * 1.7 * 2.25 / 1.3), corners(0.67 * 1.7, 0.27 * 1.7)
         (made,) = make_suite(across, upward, count=1, seed=99002)
@@ -107,19 +100,12 @@ class TestSuite:
         for record, wanted in zip(made.components, (across, across, upward), strict=True):
             assert psa_over(record, wanted, freq_hz).min() >= 1.0
 
-    def test_suites_satisfy_every_row_of_the_acceptance(self, suites: Any) -> None:
+    def test_suites_satisfy_every_row_of_the_acceptance(self, suites):
+        about = {"source": "", "dt_s": suites[0].x.dt_s, "scale": 1.0, "signs": (1, -1)}
+        names = ("ax_mps2", "ay_mps2", "az_mps2")
         motions = [
-            Motion(
-                id=f"M{k}",
-                source="",
-                dt_s=one.x.dt_s,
-                ax_mps2=one.x.a_mps2,
-                ay_mps2=one.y.a_mps2,
-                az_mps2=one.z.a_mps2,
-                scale=1.0,
-                signs=(1, -1),
-            )
-            for k, one in enumerate(suites)
+            Motion(id=f"M{k}", **about, **dict(zip(names, sides, strict=True)))
+            for k, sides in enumerate([r.a_mps2 for r in one.components] for one in suites)
         ]
         holds = [one.hold_s for one in suites]
         across, upward = (partial(target_sa_g, wanted) for wanted in (HORIZONTAL, VERTICAL))
@@ -131,7 +117,7 @@ class TestSuite:
             other = acceptance(motions[part], [math.nan] * len(motions[part]), across, upward)
             assert other.missed == ()
 
-    def test_velocity_and_displacement_end_at_zero_exactly(self, components: Any) -> None:
+    def test_velocity_and_displacement_end_at_zero_exactly(self, components):
         # Straight lines between samples that begin and end at zero: velocity is proportional to
         # the sum of the samples, displacement to the sum of their moments about the end.
         for record, _ in components:
@@ -140,27 +126,25 @@ class TestSuite:
             assert sum(whole) == 0
             assert sum(n * k for n, k in enumerate(whole)) == 0
 
-    def test_the_ground_does_not_wander_beyond_the_longest_period_asked_for(
-        self, components: Any
-    ) -> None:
+    def test_the_ground_does_not_wander_beyond_the_longest_period_asked_for(self, components):
         for record, (freq_hz, sa_g) in components:
             velocity = np.cumsum(record.a_mps2) * record.dt_s
             displacement = np.cumsum(velocity) * record.dt_s
             longest = sa_g[0] * G / (2.0 * np.pi * freq_hz[0]) ** 2
             assert np.abs(displacement).max() < longest
 
-    def test_the_peak_acceleration_is_the_rigid_one(self, components: Any) -> None:
+    def test_the_peak_acceleration_is_the_rigid_one(self, components):
         for record, (_, sa_g) in components:
             assert np.abs(record.a_mps2).max() / G == pytest.approx(sa_g[-1], rel=0.3)
 
-    def test_components_of_a_motion_are_independent(self, suites: Any) -> None:
+    def test_components_of_a_motion_are_independent(self, suites):
         for motion in suites:
             together = np.corrcoef([record.a_mps2 for record in motion.components])
             xy, xz, yz = together[0, 1], together[0, 2], together[1, 2]
             assert motion.correlations == pytest.approx((xy, xz, yz), rel=1e-9)
             assert max(map(abs, motion.correlations)) <= 0.3
 
-    def test_motions_last_thirty_seconds_and_are_strong_for_twenty(self, components: Any) -> None:
+    def test_motions_last_thirty_seconds_and_are_strong_for_twenty(self, components):
         for record, _ in components:
             assert (record.dt_s, len(record.a_mps2)) == (0.005, 6001)
             energy = np.cumsum(record.a_mps2**2)
@@ -169,7 +153,7 @@ class TestSuite:
             assert energy[400] < 0.02 * energy[-1] > energy[-1] - energy[-401]
 
     @pytest.mark.nightly
-    def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites: Any) -> None:
+    def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites):
         again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=1)
         for component, other in zip(again[0].components, suites[1].components, strict=True):
             assert np.array_equal(component.a_mps2, other.a_mps2)
@@ -177,11 +161,11 @@ class TestSuite:
         assert names == ["motion-02-x", "motion-02-y", "motion-02-z"]
         assert not np.array_equal(again[1].x.a_mps2, again[0].x.a_mps2)
 
-    def test_other_seeds_give_other_motions(self, suites: Any) -> None:
+    def test_other_seeds_give_other_motions(self, suites):
         first, second = suites[:2]
         assert abs(np.corrcoef(first.x.a_mps2, second.x.a_mps2)[0, 1]) < 0.3
 
-    def test_what_is_written_is_what_was_checked(self, suites: Any, tmp_path: Path) -> None:
+    def test_what_is_written_is_what_was_checked(self, suites, tmp_path):
         for record in suites[0].components:
             path = tmp_path / f"{record.name}.csv"
             write_record(path, record, hold_s=suites[0].hold_s)
@@ -193,7 +177,7 @@ class TestSuite:
             assert not record.a_mps2.flags.writeable
 
     @pytest.mark.parametrize(("count", "seed"), [(0, 1), (1, -1)])
-    def test_impossible_counts_and_seeds_are_refused(self, count: int, seed: int) -> None:
+    def test_impossible_counts_and_seeds_are_refused(self, count, seed):
         with pytest.raises(InputError, match="give at least 1 and at least 0"):
             make_suite(HORIZONTAL, VERTICAL, count=count, seed=seed)
 
@@ -201,9 +185,7 @@ class TestSuite:
 class TestSynthesis:
     @pytest.mark.parametrize(("dt_s", "duration_s"), [(0.01, 20.0), (0.0025, 12.0), (0.005, 60.0)])
     @pytest.mark.by_day(1)
-    def test_a_long_period_tail_is_met_at_other_samplings(
-        self, dt_s: float, duration_s: float
-    ) -> None:
+    def test_a_long_period_tail_is_met_at_other_samplings(self, dt_s, duration_s):
         # 1/T beyond 0.77 s, then flat and falling.
         tail = np.array([0.1, 1.0 / 0.77, 8.3, 33.3]), np.array([0.077, 1.0, 1.0, 0.75])
         record = synthesize(tail, rng=rng(1), dt_s=dt_s, duration_s=duration_s, name="tail")
@@ -211,19 +193,19 @@ class TestSynthesis:
         ratio = psa_over(record, tail, BAND)
         assert 0.9 <= ratio.min() <= ratio.max() <= 1.3
 
-    def test_a_target_that_begins_above_the_band_is_flat_below(self) -> None:
+    def test_a_target_that_begins_above_the_band_is_flat_below(self):
         flat = np.array([2.0, 20.0]), np.array([1.0, 1.0])
         record = synthesize(flat, rng=rng(1), dt_s=0.01, duration_s=20.0, name="flat")
         assert psa_over(record, flat, BAND[:24]) == pytest.approx(1.0, abs=0.1)
 
-    def test_a_motion_like_another_is_drawn_again(self) -> None:
-        how: dict[str, Any] = {"dt_s": 0.01, "duration_s": 12.0, "name": "x"}
+    def test_a_motion_like_another_is_drawn_again(self):
+        how = {"dt_s": 0.01, "duration_s": 12.0, "name": "x"}
         first = synthesize(HORIZONTAL, rng=rng(1), **how)
         assert np.array_equal(synthesize(HORIZONTAL, rng=rng(1), **how).a_mps2, first.a_mps2)
         second = synthesize(HORIZONTAL, rng=rng(1), unlike=(first,), **how)
         assert abs(np.corrcoef(first.a_mps2, second.a_mps2)[0, 1]) <= 0.3
 
-    def test_a_target_out_of_reach_is_told(self, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_a_target_out_of_reach_is_told(self, monkeypatch):
         monkeypatch.setattr(suite, "DRAWS", 2)
         monkeypatch.setattr(target, "LEAST", 1.5)
         with pytest.raises(
@@ -246,20 +228,20 @@ class TestSynthesis:
             ({"duration_s": np.inf}, "duration is inf; give from 10 s"),
         ],
     )
-    def test_impossible_arguments_are_refused(self, how: dict[str, Any], expected: str) -> None:
-        usual: dict[str, Any] = {"target": HORIZONTAL, "dt_s": 0.005, "duration_s": 30.0}
+    def test_impossible_arguments_are_refused(self, how, expected):
+        usual = {"target": HORIZONTAL, "dt_s": 0.005, "duration_s": 30.0}
         with pytest.raises(InputError, match=expected):
             synthesize(**(usual | how), rng=rng(1), name="x")
 
 
 class TestFit:
-    def test_the_target_is_straight_on_log_log_axes(self) -> None:
+    def test_the_target_is_straight_on_log_log_axes(self):
         # AC156 with A_FLX = 1.6 and A_RIG = 1.2, worked by hand.
         freq_hz = np.array([0.05, 0.1, 0.2, 0.5, 1.0, 1.3, 8.3, 10.0, 15.0, 20.0, 33.3, 60.0])
         worked = [0.16, 0.16, 0.2981, 0.6786, 1.2642, 1.6, 1.6, 1.5394, 1.4155, 1.3336, 1.2, 1.2]
         assert target_sa_g(corners(1.6, 1.2), freq_hz) == pytest.approx(worked, abs=6e-5)
 
-    def test_a_fit_compares_the_spectrum_with_the_target_over_the_band(self, suites: Any) -> None:
+    def test_a_fit_compares_the_spectrum_with_the_target_over_the_band(self, suites):
         fit = spectrum_fit(suites[0].x, HORIZONTAL)
         assert fit.freq_hz[:-1] == pytest.approx(0.1 * 2.0 ** (np.arange(101) / 12.0), rel=1e-12)
         assert fit.freq_hz[-1] == 33.3
@@ -268,7 +250,7 @@ class TestFit:
         ratios = fit.least, fit.mean, fit.greatest
         assert ratios == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-4)
 
-    def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites: Any) -> None:
+    def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites):
         record, freq_hz = suites[-1].y, np.array([0.1, 0.3, 0.9, 2.7, 4.9])
         t = record.dt_s * np.arange(len(record.a_mps2))
         peaks_g = []
