@@ -18,10 +18,10 @@ def run(*words: object) -> Result:
 
 
 def printed(*words: object) -> str:
-    """Return what a command prints that succeeds."""
+    """Return what a command prints that succeeds, without its progress."""
     done = run(*words)
     assert done.exit_code == 0, done.output
-    return done.output
+    return done.stdout
 
 
 def as_json(*words: object) -> dict:
