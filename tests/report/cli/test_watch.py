@@ -12,6 +12,7 @@ import sys
 import threading
 import time
 import zipfile
+from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from commands import hearing, printed, run
 from packages import unlaid
 from places import ROOT, TESTS
 from report.beside import SameProcess, beside
+from report.cli.terminal import INTERRUPTED
 from report.cli.watch import Round, is_input, saves, settle
 from report.making import OUTPUTS
 from report.memoized import clear
@@ -198,47 +200,34 @@ with unlaid(): main()
 """
 
 
-class Watching:
-    """The command in one process of its own; its packages are not laid out."""
+@contextmanager
+def watching(folder):
+    """Yield a function that waits for a line of the command in a process of its own.
 
-    def __init__(self, folder):
-        self.lines = []
-        self.process = subprocess.Popen(
-            [sys.executable, "-u", "-c", UNLAID, "watch", str(folder)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            env=SCRIPT,
-            preexec_fn=hearing(signal.SIGINT),
-        )
-        self.reader = threading.Thread(target=self._read, daemon=True)
-        self.reader.start()
+    Its packages are not laid out.
+    """
+    command = [sys.executable, "-u", "-c", UNLAID, "watch", str(folder)]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=SCRIPT,
+        preexec_fn=hearing(signal.SIGINT),
+    ) as process:  # fmt: skip
+        too_long = later(WAIT_S, process.kill)
 
-    def _read(self):
-        self.lines += [""]
-        for line in self.process.stdout:
-            self.lines.append(line.rstrip())
-
-    def until(self, start, after=0):
-        """Wait for a line that starts so, and return its number."""
-        last = time.monotonic() + WAIT_S
-        while time.monotonic() < last and self.process.poll() is None:
-            for number, line in enumerate(self.lines[after:], start=after):
+        def until(start):
+            told = []
+            for line in process.stdout:
+                told.append(line)
                 if line.startswith(start):
-                    return number
-            time.sleep(0.1)
-        raise AssertionError("\n".join([f"no line starts with '{start}':", *self.lines]))
+                    return line
+            raise AssertionError(f"no line starts with '{start}':\n{''.join(told)}")
 
-    def end(self):
-        self.process.send_signal(signal.SIGINT)
         try:
-            return self.process.wait(20)
+            yield until
+            process.send_signal(signal.SIGINT)
+            assert process.wait(20) == INTERRUPTED
         finally:
-            if self.process.poll() is None:
-                self.process.kill()
-                self.process.wait(20)
-            self.reader.join(5)
-            self.process.stdout.close()
+            too_long.cancel()
+            process.kill()
 
 
 class Interrupting:
@@ -270,28 +259,22 @@ def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, second):
 
 @pytest.mark.nightly("report/cli/watch.py")
 def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
-    path = make(tmp_path)
-    watching = Watching(tmp_path)
-    try:
-        at = watching.until("watching ")
+    path, record = make(tmp_path), tmp_path / "records" / "z.csv"
+    with watching(tmp_path) as until:
+        until("watching ")
         whole = type_into(path, {FRICTION: 0.5}).read_bytes()
         path.write_bytes(whole[: len(whole) // 2])
         time.sleep(0.5)
         path.write_bytes(whole)
-        at = watching.until("changed: ", after=at)
-        assert f"({address(path, FRICTION)}): 0.45 -> 0.5" in watching.lines[at]
-        at = watching.until(str(tmp_path / "out"), after=at)
-        record = tmp_path / "records" / "z.csv"
+        assert f"({address(path, FRICTION)}): 0.45 -> 0.5" in until("changed: ")
+        until(str(tmp_path / "out"))
         record.write_text(record.read_text() + "0.0\n")
         # A save of the workbook that came meanwhile may be named with it.
-        at = watching.until("changed: M1 vertical: records/z.csv", after=at)
-        at = watching.until(str(tmp_path / "out"), after=at)
+        until("changed: M1 vertical: records/z.csv")
+        until(str(tmp_path / "out"))
         # A mistake is printed, and the watch goes on.
         path.write_bytes(b"")
-        watching.until(f"{path}: 1 problem", after=at)
-    finally:
-        watching.end()
-    assert watching.process.poll() is not None
+        until(f"{path}: 1 problem")
 
 
 REPORTS = """
