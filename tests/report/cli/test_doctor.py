@@ -1,24 +1,17 @@
 """`roofslip doctor`, with everything and with something missing."""
 
-from click.testing import CliRunner
-
+from commands import printed, run
 from places import ROOT
 from report.cli import doctor
-from report.cli.main import main
-
-
-def run():
-    return CliRunner().invoke(main, ["doctor"])
 
 
 def test_with_everything_installed_it_says_so():
-    done = run()
-    assert done.exit_code == 0, done.output
-    lines = done.stdout.splitlines()
+    told = printed("doctor")
+    lines = told.splitlines()
     names = [line.split("  ")[0] for line in lines]
     assert {"Python", "numpy", "fonts", "cores", "test run", "test page"} <= set(names)
     count = len(list((ROOT / "templates" / "fonts").glob("*.ttf")))
-    assert f"{count} with the program" in done.stdout
+    assert f"{count} with the program" in told
     # 0.1 g x 0.8^2 / 6, in closed form.
     assert any(line.startswith("test run") and "0.104604267 m" in line for line in lines)
     assert lines[-1] == "Everything that a package needs is here."
@@ -26,7 +19,7 @@ def test_with_everything_installed_it_says_so():
 
 def test_a_native_library_that_is_missing_is_named_with_its_package(monkeypatch):
     monkeypatch.setitem(doctor.NATIVE, "no-such-library", "libnone0")
-    done = run()
+    done = run("doctor")
     assert done.exit_code == 1
     assert done.stderr == "no-such-library: install it: sudo apt-get install libnone0\n"
     assert "Everything" not in done.stdout

@@ -1,4 +1,4 @@
-"""What the system refuses to a whole process: permission, disk space, outputs, size of files."""
+"""What the system refuses to a whole process: permission, disk space, outputs, a working folder."""
 
 import ctypes
 import json
@@ -7,27 +7,27 @@ import resource
 import signal
 import subprocess
 import sys
+from subprocess import DEVNULL, PIPE
 
 import pytest
-from click.testing import CliRunner
 
+from commands import hearing
 from places import ROOT
-from report.cli.main import main
 from sheets import make
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
 FULL = "/dev/full"
+MAIN = "from report.cli.main import main; main"
+
+
+def python(*arguments, **options):
+    usual = {"cwd": ROOT, "stdout": PIPE, "stderr": PIPE, "text": True, "timeout": 120}
+    command = [sys.executable, *map(str, arguments)]
+    return subprocess.run(command, check=False, **usual | options)
 
 
 def roofslip(*arguments, **options):
-    return subprocess.run(
-        [sys.executable, "-m", "report.cli", *map(str, arguments)],
-        cwd=ROOT,
-        text=True,
-        check=False,
-        timeout=120,
-        **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options},
-    )
+    return python("-m", "report.cli", *arguments, **options)
 
 
 needs_full = pytest.mark.skipif(not os.path.exists(FULL), reason=f"no {FULL} here")
@@ -54,57 +54,40 @@ def test_errors_on_a_full_disk_keep_the_exit_code():
         assert roofslip("check", "none", stdout=full, stderr=full).returncode == 2
 
 
-def small_files():
-    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+def no_files():
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
 
 
 def test_serve_says_where_no_disk_has_room_for_its_folder():
-    def no_files():
-        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
-
     done = roofslip("serve", "--once", "--port", "0", preexec_fn=no_files)
     assert done.returncode == 2
-    assert done.stderr.startswith(
-        "serve: 1 problem found.\n  a file cannot be written or read (No "
-    )
+    words = "serve: 1 problem found.\n  a file cannot be written or read (No "
+    assert done.stderr.startswith(words)
     assert "free disk space" in done.stderr
 
 
-@pytest.mark.parametrize("command", [["batch"], ["watch", "--once"]])
-def test_what_the_system_refuses_is_a_problem_of_the_input(command):
-    done = CliRunner().invoke(main, [*command, "a" * 300])
-    assert done.exit_code == 2
-    assert "the system refuses it (File name too long)" in done.stderr
-    assert "Traceback" not in done.stderr
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [["motion", "convert", RECORD, "made.csv"], ["motion", "info", RECORD, "--plot", "made.svg"]],
-)
-@pytest.mark.by_day(1)
-def test_a_limit_on_the_size_of_files_leaves_no_half_file(arguments, tmp_path):
-    *arguments, name = arguments
-    done = roofslip(*arguments, tmp_path / name, preexec_fn=small_files)
-    assert done.returncode == 2
-    assert f"{name}: cannot be written (File too large)" in done.stderr
-    assert "Traceback" not in done.stderr
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_set_beyond_the_limit_on_the_size_of_files_is_not_published(tmp_path):
-    (tmp_path / "a.txt").write_text("old")
+def test_a_working_folder_that_is_gone_is_an_input_error(tmp_path):
+    gone = tmp_path / "gone"
+    gone.mkdir()
     code = (
-        "import sys; from pathlib import Path; from report.results.publish import publish\n"
-        "publish({'a.txt': b'new', 'b.txt': b'9' * 10000}, Path(sys.argv[1]))"
+        "import os; os.rmdir(os.getcwd()); from report.cli.main import main; main(['check', 'x'])"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code, tmp_path],
-        cwd=ROOT, capture_output=True, text=True, check=False, preexec_fn=small_files,
-    )  # fmt: skip
-    assert "InputError" in done.stderr
-    assert "cannot be written (File too large); free disk space" in done.stderr
-    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("a.txt", "old")]
+    done = python("-P", "-c", code, cwd=gone, env=os.environ | {"PYTHONPATH": str(ROOT)})
+    assert done.returncode == 2
+    assert done.stderr == "The working folder no longer exists; change to another folder.\n"
+
+
+@pytest.mark.nightly("report/cli/terminal.py")
+def test_without_a_standard_error_the_exit_code_is_the_same(tmp_path):
+    code = (
+        "import os, sys; os.close(2); sys.stderr = None; from report.cli.main import main; main()"
+    )
+    for arguments, expected in (
+        (["check", tmp_path / "none"], 2),
+        (["motion", "info", RECORD], 0),
+        (["motion", "suite", tmp_path / "made", "--sds", "9", "--code", "pv1"], 2),
+    ):
+        assert python("-c", code, *arguments, stderr=None).returncode == expected
 
 
 # Runs commands one after the other, and prints how each ended.
@@ -132,15 +115,15 @@ def no_override():
 def test_without_permission_each_command_says_which_file(tmp_path):
     book = make(tmp_path / "book")
     books = {name: make(tmp_path / name) for name in ("workbook", "record", "records", "out")}
+    closed = books["out"].parent
     locked = {
         books["workbook"]: 0o000,
         books["record"].parent / "records" / "x.csv": 0o000,
         books["records"].parent / "records": 0o000,
-        books["out"].parent: 0o555,
+        closed: 0o555,
     }
     for path, mode in locked.items():
         path.chmod(mode)
-    closed = books["out"].parent
     commands = {
         "input.xlsx' is not readable": ["check", books["workbook"]],
         "x.csv: cannot be read (Permission denied)": ["check", books["record"]],
@@ -155,20 +138,18 @@ def test_without_permission_each_command_says_which_file(tmp_path):
         ],
     }  # fmt: skip
     given = [[str(word) for word in command] for command in commands.values()]
+    words = json.dumps([str(books["workbook"]), *given])
     try:
-        done = subprocess.run(
-            [sys.executable, "-c", COMMANDS, json.dumps([str(books["workbook"]), *given])],
-            cwd=ROOT, capture_output=True, text=True, check=False, preexec_fn=no_override,
-        )  # fmt: skip
+        done = python("-c", COMMANDS, words, preexec_fn=no_override)
     finally:
         for path in locked:
             path.chmod(0o755)
     ended = json.loads(done.stdout)
     if not ended:
         pytest.skip("permissions cannot be taken away here")
-    for (exit_code, output), words in zip(ended, commands, strict=True):
+    for (exit_code, output), told in zip(ended, commands, strict=True):
         assert exit_code == 2, output
-        assert words.strip() in output, output
+        assert told.strip() in output, output
         assert "running" not in output
     assert [path.name for path in closed.iterdir()] == ["records", "input.xlsx"]
 
@@ -176,21 +157,20 @@ def test_without_permission_each_command_says_which_file(tmp_path):
 def test_a_closed_pipe_stops_no_work_and_has_no_traceback(tmp_path):
     read, write = os.pipe()
     os.close(read)
-    made = tmp_path / "made.csv"
+    made, whole = tmp_path / "made.csv", tmp_path / "whole.csv"
     with os.fdopen(write, "w") as closed:
         done = roofslip("motion", "convert", RECORD, made, stdout=closed)
         assert (done.returncode, done.stderr) == (0, "")
-        whole = tmp_path / "whole.csv"
         assert roofslip("motion", "convert", RECORD, whole, stderr=closed).returncode == 0
     assert made.read_bytes() == whole.read_bytes()
 
 
 def test_ctrl_c_ends_with_130_and_one_line(tmp_path):
     """The whole group gets the signal, as from a terminal."""
+    command = [sys.executable, "-m", "report.cli", "report", make(tmp_path)]
     work = subprocess.Popen(
-        [sys.executable, "-m", "report.cli", "report", make(tmp_path), "--out", tmp_path / "out"],
-        cwd=ROOT, text=True, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
-        start_new_session=True,
+        command, cwd=ROOT, text=True, stdout=PIPE, stderr=PIPE, start_new_session=True,
+        preexec_fn=hearing(signal.SIGINT),
     )  # fmt: skip
     try:
         assert work.stderr.readline().startswith("[")  # the first step after a second
@@ -203,13 +183,11 @@ def test_ctrl_c_ends_with_130_and_one_line(tmp_path):
 
 
 def test_sign_without_a_terminal_is_an_input_error(tmp_path):
-    for name in ("a.pdf", "a.p12"):
-        (tmp_path / name).write_bytes(b"x")
-    done = roofslip(
-        "sign", tmp_path / "a.pdf", "--p12", tmp_path / "a.p12",
-        stdin=subprocess.DEVNULL, start_new_session=True,
-        env={k: v for k, v in os.environ.items() if k != "ROOFSLIP_P12_PASSWORD"},
-    )  # fmt: skip
+    pdf, key = tmp_path / "a.pdf", tmp_path / "a.p12"
+    for path in (pdf, key):
+        path.write_bytes(b"x")
+    env = {name: v for name, v in os.environ.items() if name != "ROOFSLIP_P12_PASSWORD"}
+    done = roofslip("sign", pdf, "--p12", key, stdin=DEVNULL, start_new_session=True, env=env)
     assert done.returncode == 2
     assert "without a terminal; set ROOFSLIP_P12_PASSWORD" in done.stderr
     assert "Warning" not in done.stderr

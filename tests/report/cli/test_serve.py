@@ -12,10 +12,9 @@ from contextlib import ExitStack
 from http.cookiejar import CookieJar
 
 import pytest
-from click.testing import CliRunner
 
+from commands import hearing, refused
 from places import ROOT
-from report.cli.main import main
 from report.cli.serve import listen, names_of
 from report.web.connections import TimedProtocol
 
@@ -23,31 +22,23 @@ WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
 
 
-def served(*arguments, **options):
-    return CliRunner().invoke(main, ["serve", *arguments], **options)
-
-
 def test_a_host_needs_a_token_file():
-    done = served("--host", "127.0.0.1")
-    assert done.exit_code == 2
-    assert "--host needs --token-file" in done.output
+    assert "--host needs --token-file" in refused("serve", "--host", "127.0.0.1")
 
 
 @pytest.mark.parametrize("token", ["", "short", "a token with spaces in it", "x" * 19])
 def test_a_token_that_can_be_guessed_or_is_no_part_of_an_address_is_refused(token, tmp_path):
     path = tmp_path / "token"
     path.write_text(token)
-    done = served("--host", "127.0.0.1", "--token-file", str(path))
-    assert done.exit_code == 2
-    assert "20 or more letters" in done.output
+    told = refused("serve", "--host", "127.0.0.1", "--token-file", path)
+    assert "20 or more letters" in told
 
 
 def test_a_port_that_is_taken_is_named():
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        done = served("--no-browser", "--port", str(port))
-    assert done.exit_code == 2
-    assert f"127.0.0.1, port {port}: cannot listen there" in done.output
+        told = refused("serve", "--no-browser", "--port", port)
+    assert f"127.0.0.1, port {port}: cannot listen there" in told
 
 
 @pytest.mark.parametrize(
@@ -67,9 +58,7 @@ def test_the_server_answers_to_the_names_of_its_address(host, port, name, hosts)
 
 def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "uvicorn", None)
-    done = served("--no-browser")
-    assert done.exit_code == 2
-    assert "install roofslip[web]" in done.output
+    assert "install roofslip[web]" in refused("serve", "--no-browser")
 
 
 def assert_connections_are_limited(page):
@@ -90,9 +79,8 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
     command += ["--host", "127.0.0.1", "--token-file", str(token)]
     server = subprocess.Popen(
-        # The tests may run under nohup.
-        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
-        args=command,
+        command,
+        preexec_fn=hearing(signal.SIGHUP),
         cwd=ROOT,
         env=os.environ | {"TMPDIR": str(tmp_path)},
         stdout=subprocess.PIPE,

@@ -1,27 +1,18 @@
 """Progress on the terminal."""
 
-import sys
 import warnings
 
 import pytest
-from click.testing import CliRunner
 
-from report.cli.main import main
 from report.cli.terminal import Progress, show_warnings
 from sheets import make
 
 
-def terminal(monkeypatch):
-    """Take the captured output for that of a terminal."""
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-
-
-def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(monkeypatch, capsys):
-    terminal(monkeypatch)
+def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(terminal, capsys):
+    terminal()
     with Progress(4) as progress:
-        progress("reading")
-        progress("running")
-        progress("writing")
+        for step in ("reading", "running", "writing"):
+            progress(step)
     shown = capsys.readouterr().err.split("\r\x1b[2K")
     assert [line.partition("]")[0] for line in shown] == [
         "",
@@ -33,8 +24,8 @@ def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(monkeypatch, ca
     assert shown[2].endswith(" s  running")
 
 
-def test_without_a_number_of_steps_there_is_no_bar(monkeypatch, capsys):
-    terminal(monkeypatch)
+def test_without_a_number_of_steps_there_is_no_bar(terminal, capsys):
+    terminal()
     with Progress() as progress:
         progress("reading")
     shown = capsys.readouterr().err
@@ -43,27 +34,17 @@ def test_without_a_number_of_steps_there_is_no_bar(monkeypatch, capsys):
 
 
 @pytest.mark.parametrize(
-    ("command", "module", "steps"),
+    ("command", "steps"),
     [
-        (["check", "{0}"], "check", 3),
-        (["motion", "suite", "{1}", "--sds=1", "--zh=1", "--code=pv1", "--count=2"], "motion", 4),
+        (["check", "{0}"], 3),
+        (["motion", "suite", "{1}", "--sds=1", "--zh=1", "--code=pv1", "--count=2"], 4),
     ],
 )
 @pytest.mark.nightly
-def test_the_bar_of_a_command_is_full_when_it_ends(monkeypatch, tmp_path, command, module, steps):
+def test_the_bar_of_a_command_is_full_when_it_ends(tmp_path, bars, full_after, command, steps):
     """That of `new --example` is tested in test_cli.py."""
-    bars = []
-
-    class Kept(Progress):
-        def __exit__(self, *about):
-            bars.append((self._done, self._steps))
-            super().__exit__(*about)
-
-    monkeypatch.setattr(f"report.cli.{module}.Progress", Kept)
     paths = make(tmp_path / "old"), tmp_path / "new"
-    done = CliRunner().invoke(main, [word.format(*paths) for word in command])
-    assert done.exit_code == 0, done.output
-    assert bars == [(steps, steps)]
+    assert bars(*(word.format(*paths) for word in command)) == full_after(steps)
 
 
 def test_elsewhere_plain_lines_start_after_a_second(monkeypatch, capsys):
@@ -75,8 +56,8 @@ def test_elsewhere_plain_lines_start_after_a_second(monkeypatch, capsys):
     assert capsys.readouterr().err == "[ 1.5 s] running\n"
 
 
-def test_quiet_progress_prints_nothing(monkeypatch, capsys):
-    terminal(monkeypatch)
+def test_quiet_progress_prints_nothing(terminal, capsys):
+    terminal()
     with Progress(2, quiet=True) as progress:
         progress("reading")
     assert capsys.readouterr().err == ""

@@ -12,17 +12,19 @@ import sys
 import threading
 import time
 import zipfile
+from contextlib import contextmanager
+from itertools import islice
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
 import report.typeset.pdf
 from cells import address
+from commands import hearing, printed, run
 from packages import unlaid
 from places import ROOT, TESTS
 from report.beside import SameProcess, beside
-from report.cli.main import main
+from report.cli.terminal import INTERRUPTED
 from report.cli.watch import Round, is_input, saves, settle
 from report.making import OUTPUTS
 from report.memoized import clear
@@ -31,6 +33,8 @@ from solver.model import InputError
 from solver.sliding import least_model
 
 WAIT_S = 240.0
+SCRIPT = os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"}
+FRICTION = "Arrays/1/Friction coefficient"
 
 
 @pytest.mark.parametrize(
@@ -49,59 +53,66 @@ def test_locks_and_temporary_files_are_no_save(name, counts):
     assert is_input(Path(name)) is counts
 
 
-def test_a_folder_that_only_received_the_package_is_no_save(tmp_path):
-    path, folder = tmp_path / "input.xlsx", tmp_path / "out"
-    path.write_bytes(b"before")
-    found = saves(path, folder, settle_s=0.0)
+def begun(path, **options):
+    """The saves beside a workbook, once they are watched."""
+    found = saves(path, path.parent / "out", **options)
     next(found)
-    (tmp_path / "records").mkdir()
-    folder.mkdir()
-    (folder / "calc-package.pdf").write_bytes(b"%PDF")
-    assert [next(found) for _ in range(4)] == [[]] * 4
-    path.write_bytes(b"after it")
-    assert next(filter(None, found)) == ["input.xlsx"]
+    return found
 
 
-def test_a_save_with_an_older_time_stamp_is_seen(tmp_path):
-    """As of a file that is copied back from a backup with its time."""
-    path = tmp_path / "input.xlsx"
-    path.write_bytes(b"before")
-    found = saves(path, tmp_path / "out", settle_s=0.0)
-    next(found)
+def copied_back(path, record):
+    """As from a backup, with its time."""
     path.write_bytes(b"backup")
     os.utime(path, (1e9, 1e9))
-    assert next(filter(None, (next(found) for _ in range(4)))) == ["input.xlsx"]
 
 
-def test_a_save_without_a_change_is_none(tmp_path):
-    path, record = make(tmp_path), tmp_path / "records" / "z.csv"
-    found = saves(path, tmp_path / "out")
-    next(found)
+def removed(path, record):
+    record.unlink()
+
+
+def saved_alike(path, record):
     path.write_bytes(path.read_bytes())
     record.touch()
-    assert [next(found) for _ in range(4)] == [[]] * 4
+
+
+def packaged(path, record):
+    (path.parent / "new").mkdir()
+    (path.parent / "out").mkdir()
+    (path.parent / "out" / "calc-package.pdf").write_bytes(b"%PDF")
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        (copied_back, ["input.xlsx"]),
+        (removed, ["records/z.csv"]),
+        (saved_alike, []),
+        (packaged, []),
+    ],
+)
+def test_a_save_is_a_file_with_other_content(tmp_path, change, named):
+    path, record = tmp_path / "input.xlsx", tmp_path / "records" / "z.csv"
+    record.parent.mkdir()
+    for each in (path, record):
+        each.write_bytes(b"before")
+    found = begun(path, settle_s=0.0)
+    change(path, record)
+    assert next(filter(None, islice(found, 4)), []) == named
+    path.write_bytes(b"after it")
+    assert next(filter(None, found)) == ["input.xlsx"]
 
 
 def test_a_save_in_several_steps_is_one(tmp_path):
     """As Excel does it: a temporary file, then another name; here with a pause in the middle."""
     path = make(tmp_path)
-    whole = type_into(path, {"Arrays/1/Friction coefficient": 0.5}).read_bytes()
-    found = saves(path, tmp_path / "out")
-    next(found)
+    whole = type_into(path, {FRICTION: 0.5}).read_bytes()
+    found = begun(path)
     temporary = tmp_path / "5A1B2C00"
     temporary.write_bytes(whole[:1000])
     timer = later(0.5, lambda: (temporary.write_bytes(whole + b"0"), temporary.replace(path)))
-    named = [next(found) for _ in range(6)]
+    named = list(filter(None, islice(found, 6)))
     timer.join()
-    assert [names for names in named if names] == [["input.xlsx"]]
-
-
-def test_a_removed_record_is_a_save(tmp_path):
-    path, record = make(tmp_path), tmp_path / "records" / "z.csv"
-    found = saves(path, tmp_path / "out")
-    next(found)
-    record.unlink()
-    assert next(filter(None, (next(found) for _ in range(4)))) == ["records/z.csv"]
+    assert named == [["input.xlsx"]]
 
 
 def test_a_workbook_that_shrinks_while_it_is_read_is_read_again(tmp_path, monkeypatch):
@@ -170,15 +181,13 @@ def test_a_workbook_that_stays_away_is_an_error(tmp_path):
 def test_once_ends_after_one_round(tmp_path):
     with zipfile.ZipFile(tmp_path / "input.xlsx", "w") as archive:
         archive.writestr("notes.txt", "no workbook")
-    refused = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
+    refused = run("watch", "--once", tmp_path)
     assert refused.exit_code == 2
     assert "1 problem found" in refused.stderr
     make(tmp_path)
     with unlaid():
-        done = CliRunner().invoke(main, ["watch", "--once", str(tmp_path)])
-    assert done.exit_code == 0, done.output
+        assert "watching" not in printed("watch", "--once", tmp_path)
     assert (tmp_path / "out" / "calc-package.pdf").is_file()
-    assert "watching" not in done.stdout
 
 
 UNLAID = """
@@ -191,46 +200,34 @@ with unlaid(): main()
 """
 
 
-class Watching:
-    """The command in one process of its own; its packages are not laid out."""
+@contextmanager
+def watching(folder):
+    """Yield a function that waits for a line of the command in a process of its own.
 
-    def __init__(self, folder):
-        self.lines = []
-        self.process = subprocess.Popen(
-            [sys.executable, "-u", "-c", UNLAID, "watch", str(folder)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            env=os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"},
-        )
-        self.reader = threading.Thread(target=self._read, daemon=True)
-        self.reader.start()
+    Its packages are not laid out.
+    """
+    command = [sys.executable, "-u", "-c", UNLAID, "watch", str(folder)]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=SCRIPT,
+        preexec_fn=hearing(signal.SIGINT),
+    ) as process:  # fmt: skip
+        too_long = later(WAIT_S, process.kill)
 
-    def _read(self):
-        self.lines += [""]
-        for line in self.process.stdout:
-            self.lines.append(line.rstrip())
-
-    def until(self, start, after=0):
-        """Wait for a line that starts so, and return its number."""
-        last = time.monotonic() + WAIT_S
-        while time.monotonic() < last and self.process.poll() is None:
-            for number, line in enumerate(self.lines[after:], start=after):
+        def until(start):
+            told = []
+            for line in process.stdout:
+                told.append(line)
                 if line.startswith(start):
-                    return number
-            time.sleep(0.1)
-        raise AssertionError("\n".join([f"no line starts with '{start}':", *self.lines]))
+                    return line
+            raise AssertionError(f"no line starts with '{start}':\n{''.join(told)}")
 
-    def end(self):
-        self.process.send_signal(signal.SIGINT)
         try:
-            return self.process.wait(20)
+            yield until
+            process.send_signal(signal.SIGINT)
+            assert process.wait(20) == INTERRUPTED
         finally:
-            if self.process.poll() is None:
-                self.process.kill()
-                self.process.wait(20)
-            self.reader.join(5)
-            self.process.stdout.close()
+            too_long.cancel()
+            process.kill()
 
 
 class Interrupting:
@@ -262,29 +259,22 @@ def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, second):
 
 @pytest.mark.nightly("report/cli/watch.py")
 def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
-    path = make(tmp_path)
-    watching = Watching(tmp_path)
-    try:
-        at = watching.until("watching ")
-        whole = type_into(path, {"Arrays/A1/Friction coefficient": 0.5}).read_bytes()
+    path, record = make(tmp_path), tmp_path / "records" / "z.csv"
+    with watching(tmp_path) as until:
+        until("watching ")
+        whole = type_into(path, {FRICTION: 0.5}).read_bytes()
         path.write_bytes(whole[: len(whole) // 2])
         time.sleep(0.5)
         path.write_bytes(whole)
-        at = watching.until("changed: ", after=at)
-        place = address(path, "Arrays/A1/Friction coefficient")
-        assert f"({place}): 0.45 -> 0.5" in watching.lines[at]
-        at = watching.until(str(tmp_path / "out"), after=at)
-        record = tmp_path / "records" / "z.csv"
+        assert f"({address(path, FRICTION)}): 0.45 -> 0.5" in until("changed: ")
+        until(str(tmp_path / "out"))
         record.write_text(record.read_text() + "0.0\n")
         # A save of the workbook that came meanwhile may be named with it.
-        at = watching.until("changed: M1 vertical: records/z.csv", after=at)
-        at = watching.until(str(tmp_path / "out"), after=at)
+        until("changed: M1 vertical: records/z.csv")
+        until(str(tmp_path / "out"))
         # A mistake is printed, and the watch goes on.
         path.write_bytes(b"")
-        watching.until(f"{path}: 1 problem", after=at)
-    finally:
-        watching.end()
-    assert watching.process.poll() is not None
+        until(f"{path}: 1 problem")
 
 
 REPORTS = """
@@ -295,21 +285,16 @@ from packages import unlaid
 from report.cli.main import main
 
 report.beside.SecondProcess = report.beside.SameProcess
-*before, last = sys.argv[1:]
-for folder in (*before, last):
-    with nullcontext() if folder == last else unlaid():
+for folder in sys.argv[1:]:
+    with nullcontext() if folder == sys.argv[-1] else unlaid():
         main(["report", folder, "--quiet"], standalone_mode=False)
 """
 
 
 def fresh(folders):
     """Report each folder in one process that keeps nothing, the last one laid out."""
-    subprocess.run(
-        [sys.executable, "-c", REPORTS, *map(str, folders)],
-        check=True,
-        env=os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"},
-        timeout=WAIT_S,
-    )
+    command = [sys.executable, "-c", REPORTS, *map(str, folders)]
+    subprocess.run(command, check=True, env=SCRIPT, timeout=WAIT_S)
     return [outputs(folder / "out") for folder in folders]
 
 
@@ -345,7 +330,7 @@ def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
                 all_runs = len(runs)
                 type_into(path, {"Clearances/1/Provided clearance": 31.0})
                 none = counted(round_, "clearance")
-                type_into(path, {"Arrays/1/Friction coefficient": 0.5})
+                type_into(path, {FRICTION: 0.5})
                 some = counted(round_, "friction")
             vertical.write_text("0.001\n" + vertical.read_text().partition("\n")[2])
             others = counted(round_, "record")

@@ -4,7 +4,7 @@ import asyncio
 import socket
 import threading
 import time
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing
 
 import pytest
 import uvicorn
@@ -42,8 +42,8 @@ async def answer(scope, receive, send):
     await send({"type": "http.response.body", "body": text})
 
 
-@contextmanager
-def serving():
+@pytest.fixture(scope="module")
+def address():
     with socket.create_server(("127.0.0.1", 0)) as listening:
         config = uvicorn.Config(answer, http=Short, lifespan="off", log_level="critical")
         config.timeout_graceful_shutdown = 1
@@ -55,12 +55,6 @@ def serving():
         finally:
             server.should_exit = True
             thread.join(REST_S)
-
-
-@pytest.fixture(scope="module")
-def address():
-    with serving() as found:
-        yield found
 
 
 def connected(address):
@@ -139,15 +133,10 @@ def test_a_part_of_a_request_that_follows_another_one_at_once_ends_the_connectio
 
 
 def test_one_address_has_a_limit_of_connections_and_gets_others_back(address):
-    clients = [socket.create_connection(address, timeout=REST_S) for _ in range(Short.most + 1)]
-    try:
+    with ExitStack() as stack:
+        clients = [stack.enter_context(connected(address)) for _ in range(Short.most + 1)]
         assert clients[-1].recv(1000).startswith(b"HTTP/1.1 503")
-        assert is_closed(clients[-1])
-        for client in clients[:-1]:
-            assert is_closed(client)
-    finally:
-        for client in clients:
-            client.close()
+        assert all(map(is_closed, clients))
     with connected(address) as client:
         client.sendall(WHOLE)
         assert client.recv(100).startswith(b"HTTP/1.1 200")

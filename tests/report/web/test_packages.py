@@ -13,6 +13,8 @@ from report.web.packages import Packages, State
 from report.web.sessions import Session
 from solver.model import InputError
 
+SESSION = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
+
 
 async def waiting(code):
     """Start a process that runs some Python in place of a package."""
@@ -32,8 +34,7 @@ def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process()
     packages = Packages(slow)
 
     async def run():
-        session = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
-        package = packages.begin(session, Path("/nowhere/p/input.xlsx"), {})
+        package = packages.begin(SESSION, Path("/nowhere/p/input.xlsx"), {})
         async with asyncio.timeout(20.0):
             while package.state is State.QUEUED or not started:
                 await asyncio.sleep(0.01)
@@ -45,11 +46,9 @@ def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process()
 
 
 def test_a_step_is_named_in_a_sentence_without_what_compiles():
-    compiling = "running the motions (the first run compiles the solver)"
-    assert in_words(compiling) == "Running the motions"
-    assert (
-        in_words("running the motions (about 3 minutes)") == "Running the motions (about 3 minutes)"
-    )
+    step = "running the motions"
+    assert in_words(f"{step} (the first run compiles the solver)") == "Running the motions"
+    assert in_words(f"{step} (about 3 minutes)") == "Running the motions (about 3 minutes)"
 
 
 def full():
@@ -75,13 +74,12 @@ def test_the_last_five_packages_of_a_session_are_kept():
 
     async def run():
         packages = Packages(at_once)
-        session = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
         found = []
         for k in range(7):
-            found.append(packages.begin(session, Path(f"/nowhere/{k}/input.xlsx"), {}))
+            found.append(packages.begin(SESSION, Path(f"/nowhere/{k}/input.xlsx"), {}))
             while not found[-1].state.is_over:
                 await asyncio.sleep(0.01)
         assert {one.state for one in found} == {State.DONE}
-        return [packages.find(session, one.ticket) is not None for one in found]
+        return [packages.find(SESSION, one.ticket) is not None for one in found]
 
     assert asyncio.run(run()) == [False] * 2 + [True] * 5

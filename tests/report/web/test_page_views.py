@@ -2,6 +2,7 @@
 
 import math
 import re
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -12,7 +13,6 @@ from report.web import views
 from report.words.units import Quantity, measured, number, pair
 
 MOTIONS = stand_in.motions(2, seconds=8.0)
-PEER = {"peer_reviewed": True}
 MOUNT = """
 async ([view, data, wide]) => {
   document.body.innerHTML =
@@ -33,13 +33,17 @@ async ([view, data, wide]) => {
 }"""
 
 
+DATA = stand_in.project(
+    options={"peer_reviewed": True},
+    arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, downslope_deg=30.0)],
+    objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
+    clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],
+)
+
+
 @pytest.fixture(scope="module")
 def assessment():
-    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, downslope_deg=30.0)]
-    objects = [stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)]
-    gaps = [stand_in.clearance("A1", "RTU-1", 9.0)]
-    data = stand_in.project(options=PEER, arrays=arrays, objects=objects, clearances=gaps)
-    return stand_in.assessed(stand_in.book(data, MOTIONS))
+    return stand_in.assess_input(DATA, MOTIONS)
 
 
 @pytest.fixture(scope="module")
@@ -49,17 +53,21 @@ def run(assessment):
 
 @pytest.fixture(scope="module")
 def page(browser):
-    with quiet_page(browser) as page:
-        serve_scripts(page)
-        serve_fonts(page)
+    with scripts(browser) as page:
         yield page
 
 
-def serve_fonts(page):
-    def handle(route):
+@contextmanager
+def scripts(browser, **options):
+    """A page with the scripts, the styles and the fonts."""
+
+    def font(route):
         route.fulfill(path=FONTS / route.request.url.rpartition("/")[2])
 
-    page.route(f"{ALONE}/static/fonts/*", handle)
+    with quiet_page(browser, **options) as page:
+        serve_scripts(page)
+        page.route(f"{ALONE}/static/fonts/*", font)
+        yield page
 
 
 def mounted(page, view, data, wide=590):
@@ -67,10 +75,17 @@ def mounted(page, view, data, wide=590):
     page.evaluate(MOUNT, [view, data, wide])
 
 
-def called(page, module, body, given):
-    return page.evaluate(
-        f"async (g) => {{ const m = await import('/static/{module}.js'); return {body}; }}", given
-    )
+def called(page, module, body, **given):
+    """Return what JavaScript gives with a module `m` and what is given `g`."""
+    script = f"async (g) => {{ const m = await import('/static/{module}.js'); return {body}; }}"
+    return page.evaluate(script, given)
+
+
+def press(page, selector, *keys):
+    """Choose an element and press keys, one after the other."""
+    page.focus(selector)
+    for key in keys:
+        page.keyboard.press(key)
 
 
 def text(page, selector):
@@ -87,133 +102,91 @@ def value_at(series, dt_s, time):
 
 
 def test_a_reading_is_written_as_in_the_package(page):
-    units = [
-        {"symbol": "in", "si": 0.0254, "decimals": 1},
-        {"symbol": "mm", "si": 1e-3, "decimals": 0},
-    ]
+    inch, mm = ("in", 0.0254, 1), ("mm", 1e-3, 0)
+    units = [dict(zip(("symbol", "si", "decimals"), unit, strict=True)) for unit in (inch, mm)]
     values = [*np.random.default_rng(5).normal(size=200).tolist(), 0.0, -1e-9, -0.04, 123.4]
-    found = called(
-        page,
-        "reading",
-        "g.values.map((v) => m.reading(v, g.units))",
-        {
-            "values": values,
-            "units": units,
-        },
-    )
+    body = "[null, ...g.values].map((v) => m.reading(v, g.units))"
+    none, *found = called(page, "reading", body, values=values, units=units)
     assert found == [pair(value, Quantity.DISPLACEMENT) for value in values]
-    assert called(page, "reading", "m.reading(null, g)", units) == number(math.nan, 1)
-    ticks = called(
-        page, "reading", "[m.tickText(-0.5, 0.1), m.tickText(20, 10), m.tickText(0, 2)]", 0
-    )
-    assert ticks == ["−0.5", "20", "0"]
+    assert none == number(math.nan, 1)
+    ticks = "[m.tickText(-0.5, 0.1), m.tickText(20, 10), m.tickText(0, 2)]"
+    assert called(page, "reading", ticks) == ["−0.5", "20", "0"]
 
 
-def test_ticks_are_round_within_their_range_and_not_too_many(page):
-    for low, high, wanted in (
-        (0.0, 30.0, 6),
-        (-0.013, 0.0042, 4),
-        (0.31, 0.75, 7),
-        (-900.0, 3.0, 3),
-    ):
-        found = called(page, "view-axes", "m.ticks(...g)", [low, high, wanted])
-        values, step = found["values"], found["step"]
-        assert float(f"{step:e}"[0]) in (1.0, 2.0, 5.0)
-        assert low - 1e-9 <= values[0] < values[-1] <= high + 1e-9
-        assert 2 <= len(values) <= 1.5 * wanted + 1
-    below = called(page, "view-axes", "g.map(m.roundBelow)", [1.0, 1.99, 2.0, 4.9, 73.0, 0.034])
+@pytest.mark.parametrize(
+    ("low", "high", "wanted"),
+    [(0.0, 30.0, 6), (-0.013, 0.0042, 4), (0.31, 0.75, 7), (-900.0, 3.0, 3)],
+)
+def test_ticks_are_round_within_their_range_and_not_too_many(page, low, high, wanted):
+    found = called(page, "view-axes", "m.ticks(...g.range)", range=[low, high, wanted])
+    values, step = found["values"], found["step"]
+    assert float(f"{step:e}"[0]) in (1.0, 2.0, 5.0)
+    assert low - 1e-9 <= values[0] < values[-1] <= high + 1e-9
+    assert 2 <= len(values) <= 1.5 * wanted + 1
+
+
+def test_a_number_is_rounded_down_to_one_two_or_five(page):
+    values = [1.0, 1.99, 2.0, 4.9, 73.0, 0.034]
+    below = called(page, "view-axes", "g.values.map(m.roundBelow)", values=values)
     assert below == pytest.approx([1.0, 1.0, 2.0, 2.0, 50.0, 0.02])
 
 
 def test_a_value_between_samples_is_on_the_line_and_a_gap_has_none(page):
     series = {"t": [0.0, 0.1, 0.4, 0.5, 0.6], "v": [1.0, 3.0, -3.0, None, 2.0]}
     times = [0.0, 0.05, 0.1, 0.25, 0.4, 0.45, 0.5, 0.6, 0.7]
-    found = called(
-        page,
-        "view-series",
-        "g.times.map((t) => m.valueAt(g.series, t))",
-        {
-            "series": series,
-            "times": times,
-        },
-    )
+    body = "g.times.map((t) => m.valueAt(g.series, t))"
+    found = called(page, "view-series", body, series=series, times=times)
     assert found == pytest.approx([1.0, 2.0, 3.0, 0.0, -3.0, None, None, 2.0, 2.0], abs=1e-12)
 
 
 def test_a_curve_of_many_samples_keeps_the_extremes_of_every_column_of_pixels(page):
     t = np.linspace(0.0, 100.0, 5001)
     v = np.random.default_rng(1).normal(size=t.size)
-    drawn = called(
-        page,
-        "view-series",
-        "m.curve(g, [0, 100], (t) => t, (v) => 1000 * v)",
-        {
-            "t": t.tolist(),
-            "v": v.tolist(),
-        },
-    )
+    body = "m.curve(g, [0, 100], (t) => t, (v) => 1000 * v)"
+    drawn = called(page, "view-series", body, t=t.tolist(), v=v.tolist())
     xy = np.array([pair.split() for pair in re.split("[ML]", drawn)[1:]], float)
     assert drawn.count("M") == 1
     assert len(xy) <= 4 * 101
     for column in range(100):
-        inside = v[(t >= column) & (t < column + 1)]
+        inside = 1000 * v[(t >= column) & (t < column + 1)]
         points = xy[(xy[:, 0] >= column) & (xy[:, 0] < column + 1), 1]
-        assert (points.min(), points.max()) == pytest.approx(
-            (1000 * inside.min(), 1000 * inside.max()), abs=0.006
-        )
+        extremes = inside.min(), inside.max()
+        assert (points.min(), points.max()) == pytest.approx(extremes, abs=0.006)
+
+
+def isolines(page, xs, ys, values, level):
+    body = "m.isolines(g.xs, g.ys, g.values, g.level, 1e-4)"
+    return called(page, "view-contour", body, xs=xs, ys=ys, values=values, level=level)
 
 
 def test_a_contour_lies_where_the_logarithm_has_its_level(page):
     xs, ys = [0.0, 1.0, 2.5, 3.0], [0.0, 2.0, 5.0]
     values = [[10.0 ** (0.5 * x - 0.2 * y) for x in xs] for y in ys]
-    lines = called(
-        page,
-        "view-contour",
-        "m.isolines(g.xs, g.ys, g.values, 3, 1e-4)",
-        {
-            "xs": xs,
-            "ys": ys,
-            "values": values,
-        },
-    )
-    assert len(lines) == 1
-    assert len(lines[0]) >= 4
-    for x, y in lines[0]:
+    (line,) = isolines(page, xs, ys, values, 3)
+    assert len(line) >= 4
+    for x, y in line:
         assert 0.5 * x - 0.2 * y == pytest.approx(math.log10(3.0), abs=1e-12)
-    ends = sorted([lines[0][0], lines[0][-1]])
+    ends = sorted([line[0], line[-1]])
     assert ends[0][1] == 0.0
     assert ends[1][0] == pytest.approx(3.0) or ends[1][1] == pytest.approx(5.0)
 
 
 def test_around_a_lost_value_and_across_a_saddle_a_contour_stays_whole(page):
     lost = [[1.0, 1.0, 1.0], [1.0, None, 100.0], [1.0, 100.0, 100.0]]
-    given = {"xs": [0, 1, 2], "ys": [0, 1, 2], "values": lost}
-    assert called(page, "view-contour", "m.isolines(g.xs, g.ys, g.values, 10, 1e-4)", given) == []
-    saddle = {"xs": [0, 1], "ys": [0, 1], "values": [[100.0, 1.0], [1.0, 1000.0]]}
-    lines = called(page, "view-contour", "m.isolines(g.xs, g.ys, g.values, 10, 1e-4)", saddle)
+    assert isolines(page, [0, 1, 2], [0, 1, 2], lost, 10) == []
+    lines = isolines(page, [0, 1], [0, 1], [[100.0, 1.0], [1.0, 1000.0]], 10)
     assert len(lines) == 2
     for line in lines:  # around the low corners: the middle is above the level
-        assert min(math.dist(point, (1, 0)) for point in line) < 0.8 or (
-            min(math.dist(point, (0, 1)) for point in line) < 0.8
-        )
+        assert min(math.dist(point, corner) for point in line for corner in ((1, 0), (0, 1))) < 0.8
         assert len({(x == 0 or y == 1) for x, y in line}) == 1
 
 
 def test_between_computed_points_the_logarithm_is_linear(page):
-    rng = np.random.default_rng(8)
-    xs, ys, values = [0.3, 0.4, 0.6], [0.0, 1.0, 3.0], rng.uniform(0.01, 2.0, (3, 3)).tolist()
+    xs, ys = [0.3, 0.4, 0.6], [0.0, 1.0, 3.0]
+    values = np.random.default_rng(8).uniform(0.01, 2.0, (3, 3)).tolist()
     at = [[0.3, 0.0], [0.6, 3.0], [0.35, 1.0], [0.57, 2.2]]
-    found = called(
-        page,
-        "view-contour",
-        "g.at.map(([x, y]) => m.surfaceAt(g.xs, g.ys, g.values, x, y, 1e-4))",
-        {
-            "xs": xs,
-            "ys": ys,
-            "values": values,
-            "at": at,
-        },
-    )
+    body = "g.at.map(([x, y]) => m.surfaceAt(g.xs, g.ys, g.values, x, y, 1e-4))"
+    found = called(page, "view-contour", body, xs=xs, ys=ys, values=values, at=at)
     logs = np.log10(values)
     for (x, y), one in zip(at, found, strict=True):
         rows = [np.interp(x, xs, row) for row in logs]
@@ -251,13 +224,13 @@ def clock(page):
 
 def test_the_run_opens_at_its_peak_with_the_values_of_the_package(page, run):
     mounted(page, "slide", run)
-    shown = text(page, ".watch-head strong")
-    assert shown == f"{run['texts']['prd']}"
+    assert text(page, ".watch-head strong") == run["texts"]["prd"]
     assert clock(page) == round(run["t_prd_s"], 2)
-    downslope = value_at(run["relative"][0], run["dt_s"], run["t_prd_s"])
+    downslope, force = (
+        value_at(run[name][0], run["dt_s"], run["t_prd_s"]) for name in ("relative", "normal")
+    )
     heads = page.locator(".panel-head").all_inner_texts()
     assert f"{measured(downslope, Quantity.DISPLACEMENT.us)} in" in heads[0]
-    force = value_at(run["normal"][0], run["dt_s"], run["t_prd_s"])
     assert f"{number(force, 2)} W" in heads[1]
     assert "used" in heads[2]
 
@@ -282,31 +255,34 @@ def test_the_plan_moves_as_the_array_does(page, run):
 def test_slips_are_gone_through_one_at_a_time_by_keys_and_by_buttons(page, run):
     mounted(page, "slide", run)
     slips = run["slips"]
-    page.locator(".watch").focus()
-    page.keyboard.press("Home")
+    before, after = (
+        page.locator(f"[aria-label='{name}']") for name in ("Slip before", "Next slip")
+    )
+    press(page, ".watch", "Home")
     assert clock(page) == 0.0
     assert text(page, ".slip-text") == f"At rest, after 0 of {len(slips)} slips"
-    assert page.locator("[aria-label='Slip before']").is_disabled()
-    page.keyboard.press("n")
-    page.keyboard.press("N")
+    assert before.is_disabled()
+    press(page, ".watch", "n", "N")
     assert text(page, ".slip-text") == f"Slip 2 of {len(slips)}: {slips[1]['text']}"
     assert clock(page) == round(slips[1]["to_s"], 2)
     assert page.locator(".track-picked").nth(1).get_attribute("points") != ""
-    page.locator("[aria-label='Next slip']").click()
-    page.locator("[aria-label='Slip before']").click()
+    after.click()
+    before.click()
     assert clock(page) == round(slips[1]["to_s"], 2)
-    page.locator(".watch").focus()
-    page.keyboard.press("p")
+    press(page, ".watch", "p")
     assert page.evaluate("said.at(-1)") == f"Slip 1 of {len(slips)}: {slips[0]['text']}"
-    page.keyboard.press("End")
-    assert page.locator("[aria-label='Next slip']").is_disabled()
+    press(page, ".watch", "End")
+    assert after.is_disabled()
     assert clock(page) == pytest.approx(run["seconds"], abs=0.006)
+
+
+def is_stale(page):
+    return "is-stale" in page.locator(".view").get_attribute("class")
 
 
 def test_it_plays_at_a_speed_pauses_and_stops_when_a_slider_moves(page, run):
     mounted(page, "slide", run)
-    page.locator(".watch").focus()
-    page.keyboard.press(">")
+    press(page, ".watch", ">")
     assert page.locator("[aria-label=Speed]").input_value() == "2"
     page.keyboard.press(" ")
     assert text(page, ".play") == "Pause"
@@ -319,16 +295,14 @@ def test_it_plays_at_a_speed_pauses_and_stops_when_a_slider_moves(page, run):
     page.keyboard.press(" ")
     page.evaluate("view.moving()")
     assert text(page, ".play") == "Play"
-    assert "is-stale" in page.locator(".view").get_attribute("class")
+    assert is_stale(page)
     page.evaluate("view.update({ values: { friction: 1 }, array: 'A2', motion: 'M1' })")
-    assert "is-stale" not in page.locator(".view").get_attribute("class")
+    assert not is_stale(page)
     assert page.evaluate("asked.length") == 1  # the same values: nothing is asked again
 
 
 def test_where_motion_is_to_be_reduced_it_goes_from_event_to_event(browser, run):
-    with quiet_page(browser, reduced_motion="reduce") as page:
-        serve_scripts(page)
-        serve_fonts(page)
+    with scripts(browser, reduced_motion="reduce") as page:
         page.clock.install()
         mounted(page, "slide", run)
         page.locator(".play").click()
@@ -342,12 +316,8 @@ def test_another_run_is_asked_for_by_name_and_an_error_is_said(page, run):
     mounted(page, "slide", run)
     page.locator(".toolbar select").select_option("record +")
     page.wait_for_function("asked.length === 2")
-    assert page.evaluate("asked[1]") == {
-        "array": "A2",
-        "motion": "M1",
-        "values": {"friction": 1},
-        "run": "record +",
-    }
+    chosen = {"array": "A2", "motion": "M1", "values": {"friction": 1}, "run": "record +"}
+    assert page.evaluate("asked[1]") == chosen
     page.evaluate("() => { reply = async () => { throw new Error('Choose another motion.'); }; }")
     page.evaluate("view.update({ values: { friction: 2 }, array: 'A2', motion: 'M2' })")
     assert text(page, ".view [role=alert]") == "Choose another motion."
@@ -356,25 +326,22 @@ def test_another_run_is_asked_for_by_name_and_an_error_is_said(page, run):
 
 def test_an_answer_that_comes_while_a_slider_moves_is_marked_as_out_of_date(page, run):
     mounted(page, "slide", run)
-    page.evaluate(
-        """async (data) => {
+    late = """async (data) => {
       let answer;
       reply = () => new Promise((done) => { answer = done; });
       view.update({ values: { friction: 2 }, array: 'A2', motion: 'M1' });
       view.moving();
       answer(data);
       await new Promise((done) => setTimeout(done, 0));
-    }""",
-        run,
-    )
+    }"""
+    page.evaluate(late, run)
     assert page.locator(".view[aria-busy]").count() == 0
-    assert "is-stale" in page.locator(".view").get_attribute("class")
+    assert is_stale(page)
 
 
 def test_a_run_without_displacement_is_drawn_at_rest(page):
     lifted = stand_in.motion("M1", MOTIONS[0].ax_mps2, 4.0 * MOTIONS[0].az_mps2, dt_s=0.005)
-    data = stand_in.project(options=PEER)
-    answer = views.slide(stand_in.assessed(stand_in.book(data, [lifted])), "A2", "M1")
+    answer = views.slide(stand_in.assess_input(DATA, [lifted]), "A2", "M1")
     mounted(page, "slide", answer)
     assert "normal force falls below zero" in text(page, ".slip-text")
     assert "—" in page.locator(".panel-head").first.inner_text()
@@ -396,24 +363,35 @@ def span(page):
     return float(labels[0]), float(labels[-1])
 
 
+def is_whole(page):
+    """Whether the whole record is shown."""
+    return page.locator("[aria-label='Zoom out']").is_disabled()
+
+
+def first_value(page):
+    """What is read on the first curve, with its unit."""
+    return page.locator(".panel-head").first.locator(".value").first.inner_text()
+
+
+def number_of(words):
+    return float(words.split()[0].replace("−", "-"))
+
+
 def test_histories_zoom_and_read_by_keys(page, run):
     mounted(page, "histories", run)
     assert span(page) == (0.0, 6.0)
-    assert page.locator("[aria-label='Zoom out']").is_disabled()
-    page.locator(".stage").focus()
-    for _ in range(3):
-        page.keyboard.press("+")
+    assert is_whole(page)
+    press(page, ".stage", "+", "+", "+")
     low, high = span(page)
     assert low < run["t_prd_s"] < high + 0.5
     assert high - low < 8.0 * 0.6**3
     before = when(page)
     page.keyboard.press("ArrowRight")
     assert when(page) == pytest.approx(before + run["dt_s"], abs=1e-3)
-    series = run["acceleration"][0]
-    shown = value_at(series, run["dt_s"], when(page)) / stand_in.G
-    found = page.locator(".panel-head").first.locator(".value").first.inner_text()
+    shown = value_at(run["acceleration"][0], run["dt_s"], when(page)) / stand_in.G
+    found = first_value(page)
     assert found.endswith(" g")
-    assert float(found.split()[0].replace("−", "-")) == pytest.approx(shown, abs=0.02)
+    assert number_of(found) == pytest.approx(shown, abs=0.02)
     said = page.evaluate("said.at(-1)")
     assert said.startswith(f"t = {number(when(page), 3)} s. Roof acceleration [g]: down {found}, ")
     page.keyboard.press("Shift+ArrowLeft")
@@ -425,18 +403,19 @@ def test_histories_zoom_and_read_by_keys(page, run):
 def test_the_wheel_zooms_what_is_chosen_and_else_scrolls_the_page(page, run):
     mounted(page, "histories", run)
     box = page.locator(".stage").bounding_box()
-    page.mouse.move(box["x"] + 300, box["y"] + 100)
+    place = box["x"] + 300, box["y"] + 100
+    page.mouse.move(*place)
     page.mouse.wheel(0, -300)
     page.wait_for_timeout(50)
-    assert page.locator("[aria-label='Zoom out']").is_disabled()
-    page.mouse.click(box["x"] + 300, box["y"] + 100)
+    assert is_whole(page)
+    page.mouse.click(*place)
     about = when(page)
     page.mouse.wheel(0, -300)
     page.wait_for_function("!document.querySelector('[aria-label=\"Zoom out\"]').disabled")
     low, high = span(page)
     assert low - 0.5 < about < high + 0.5
-    page.mouse.dblclick(box["x"] + 300, box["y"] + 100)
-    assert page.locator("[aria-label='Zoom out']").is_disabled()
+    page.mouse.dblclick(*place)
+    assert is_whole(page)
 
 
 def test_a_span_is_enlarged_by_dragging_over_it(page, run):
@@ -456,19 +435,16 @@ def test_a_span_is_enlarged_by_dragging_over_it(page, run):
 
 
 def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wide(page):
-    usual = stand_in.motions(2, seconds=20.0)
-    data = views.slide(stand_in.assessed(stand_in.book(stand_in.project(), usual)), "A1", "M1")
+    motions = stand_in.motions(1, seconds=20.0)
+    data = views.slide(stand_in.assess_input(DATA, motions), "A1", "M1")
     mounted(page, "histories", data)
-    page.locator(".stage").focus()
-    page.keyboard.press("Home")
+    press(page, ".stage", "Home")
     samples = data["acceleration"][0]["v"]
     for _ in range(60):
         page.keyboard.press("ArrowRight")
-        shown = page.locator(".panel-head").first.locator(".value").first.inner_text()
         sample = samples[round(when(page) / data["dt_s"])] / stand_in.G
-        assert float(shown.split()[0].replace("−", "-")) == pytest.approx(sample, abs=0.0051)
-    for _ in range(20):
-        page.keyboard.press("+")
+        assert number_of(first_value(page)) == pytest.approx(sample, abs=0.0051)
+    press(page, ".stage", *"+" * 20)
     # The shortest span has 20 samples, and the curve goes through each of them.
     curve = page.locator(".panel").first.locator(".curve").last.get_attribute("d")
     assert 20 <= len(re.split("[ML]", curve)) - 1 <= 24
@@ -480,16 +456,12 @@ def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wi
 def test_a_contour_is_read_by_keys_at_computed_values_and_by_pointer_between_them(page, assessment):
     data = views.contour(assessment, "A2")
     mounted(page, "contour", data)
-    mus, slopes, prd = np.array(data["mus"]), np.array(data["slopes_deg"]), data["prd_m"]
-    row = int(np.argmin(abs(slopes - data["here"]["slope_deg"])))
-    column = int(np.argmin(abs(mus - data["here"]["mu"])))
+    row = int(np.argmin(abs(np.array(data["slopes_deg"]) - data["here"]["slope_deg"])))
+    column = int(np.argmin(abs(np.array(data["mus"]) - data["here"]["mu"])))
+    here, beside = (pair(data["prd_m"][row + k][column + k], Quantity.DISPLACEMENT) for k in (0, 1))
     reading = ".contour-reading output"
-    here = pair(prd[row][column], Quantity.DISPLACEMENT)
     assert text(page, reading) == f"μ 0.450, slope 2.00 deg: mean PRD {here}, computed"
-    page.locator(".contour").focus()
-    page.keyboard.press("ArrowRight")
-    page.keyboard.press("ArrowUp")
-    beside = pair(prd[row + 1][column + 1], Quantity.DISPLACEMENT)
+    press(page, ".contour", "ArrowRight", "ArrowUp")
     assert text(page, reading).endswith(f"mean PRD {beside}, computed")
     page.keyboard.press("Shift+ArrowLeft")
     assert text(page, reading).endswith("interpolated")
@@ -500,33 +472,28 @@ def test_a_contour_is_read_by_keys_at_computed_values_and_by_pointer_between_the
     assert {level["text"] for level in data["levels"]} & set(labels)
     dot = page.locator(".array-dot circle").last.bounding_box()
     page.mouse.move(dot["x"] + 40, dot["y"] + 4)
-    assert re.search(
-        r"μ 0\.\d{3}, slope \d\.\d\d deg: mean PRD .* interpolated", text(page, reading)
-    )
+    between = r"μ 0\.\d{3}, slope \d\.\d\d deg: mean PRD .* interpolated"
+    assert re.search(between, text(page, reading))
 
 
 def test_paths_are_at_one_scale_and_read_point_by_point(page, assessment):
     data = views.paths(assessment, "A2")
     mounted(page, "paths", data)
-    assert page.locator(".path-panel").count() == 2
     scales = []
     for path, drawn in zip(data["paths"], page.locator(".path-panel polyline").all(), strict=True):
         box = drawn.evaluate("(one) => [one.getBBox().width, one.getBBox().height]")
         scales += [box[0] / np.ptp(path["x_m"]), box[1] / np.ptp(path["y_m"])]
     assert scales == pytest.approx([scales[0]] * 4, rel=0.02)
-    page.locator(".path-panel svg").first.focus()
-    page.keyboard.press("Home")
-    read = text(page, ".paths-foot output")
-    assert read.startswith(f"M1 {data['paths'][0]['run']} at 0.00 s: 0.0 in (0 mm) from the start")
+    path, reading = data["paths"][0], ".paths-foot output"
+    press(page, ".path-panel svg >> nth=0", "Home")
+    start = f"M1 {path['run']} at 0.00 s: 0.0 in (0 mm) from the start"
+    assert text(page, reading).startswith(start)
     page.keyboard.press("End")
-    path = data["paths"][0]
     far = math.hypot(path["x_m"][-1], path["y_m"][-1])
-    assert f"at 8.00 s: {pair(far, Quantity.DISPLACEMENT)} from" in text(page, ".paths-foot output")
+    assert f"at 8.00 s: {pair(far, Quantity.DISPLACEMENT)} from" in text(page, reading)
 
 
-CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
-  .filter((one) => one.scrollWidth > one.clientWidth || one.scrollHeight > one.clientHeight + 1)
-  .map((one) => one.className)"""
+# --- all views
 
 
 def test_in_print_a_run_is_named_and_no_control_is_left(page, run):
@@ -540,15 +507,17 @@ def test_in_print_a_run_is_named_and_no_control_is_left(page, run):
         page.emulate_media(media="screen")
 
 
+CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
+  .filter((one) => one.scrollWidth > one.clientWidth || one.scrollHeight > one.clientHeight + 1)
+  .map((one) => one.className)"""
+
+
 @pytest.mark.parametrize("wide", [411, 590, 760])
 @pytest.mark.by_day(1)
 def test_nothing_of_a_view_is_cut_off_in_any_width_of_the_page(page, run, assessment, wide):
-    for view, data in (
-        ("slide", run),
-        ("histories", run),
-        ("contour", views.contour(assessment, "A1")),
-        ("paths", views.paths(assessment, "A1")),
-    ):
+    drawn = {"slide": run, "histories": run}
+    drawn |= {name: getattr(views, name)(assessment, "A1") for name in ("contour", "paths")}
+    for view, data in drawn.items():
         mounted(page, view, data, wide=wide)
         page.evaluate("document.fonts.ready")
         assert page.evaluate(CLIPPED) == [], view

@@ -40,6 +40,26 @@ def written(project, values, folder):
     return opened(folder)
 
 
+def at_rest(project, **values):
+    """What the page gets for values at rest."""
+    workbook = str(PROJECTS / project / "input.xlsx")
+    job = {"do": "assess", "workbook": workbook, "values": values, "moving": False}
+    return jobs.perform(job)["answer"]
+
+
+def offered(project, kind="sliders"):
+    return {item["id"]: item for item in controls(start(project))[kind]}
+
+
+def anticipated(project, **values):
+    """The whole assessment and the provisional one at values, motion by motion."""
+    given = start(project)
+    whole, turned = assess(given.sheet, given.shaking), with_values(given, values)
+    quick = anticipate(replace(whole, shaking=turned.shaking), turned.sheet.project)
+    for array, provisional in zip(whole.arrays, quick.arrays, strict=True):
+        yield from zip(array.motions, provisional.motions, strict=True)
+
+
 @pytest.mark.parametrize(
     ("project", "values"),
     [
@@ -53,17 +73,12 @@ def written(project, values, folder):
 def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     project, values, tmp_path
 ):
-    workbook = PROJECTS / project / "input.xlsx"
-    at_rest = jobs.perform(
-        {"do": "assess", "workbook": str(workbook), "values": values, "moving": False}
-    )
     again = written(project, values, tmp_path)
     whole = answer(assess(again.sheet, again.shaking), is_provisional=False)
-    expected = json.dumps({**whole, "shown": shown(again)})
-    assert json.dumps(at_rest["answer"]) == expected
+    found = at_rest(project, **values)
+    assert json.dumps(found) == json.dumps({**whole, "shown": shown(again)})
     # The values do change what is shown.
-    start = jobs.perform({"do": "assess", "workbook": str(workbook), "values": {}, "moving": False})
-    assert at_rest["answer"]["arrays"] != start["answer"]["arrays"]
+    assert found["arrays"] != at_rest(project)["arrays"]
 
 
 @pytest.mark.parametrize("project", ["example", "school", "conditions"])
@@ -71,8 +86,7 @@ def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
 def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
     given = start(project)
     values = {"friction": 0.87, "slope": 0.3, "intensity": 0.94, "clearance": 2.0}
-    offered = {item["id"]: item for item in controls(given)["sliders"]}
-    assert offered.keys() >= values.keys()
+    assert offered(project).keys() >= values.keys()
     again = written(project, values, tmp_path)
     assert again.sheet.project == with_values(given, values).sheet.project
     assert again.sheet.project != given.sheet.project
@@ -81,13 +95,13 @@ def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
 def test_where_no_run_gives_a_displacement_the_page_says_no_value():
     lifted = stand_in.motions(1, seconds=4.0)[0]
     lifted = stand_in.motion("M1", lifted.ax_mps2, 4.0 * lifted.az_mps2, dt_s=0.005)
-    arrays = [stand_in.array("A1", 0.5)]
-    objects = [stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)]
-    gaps = [stand_in.clearance("A1", "RTU-1", 9.0)]
     data = stand_in.project(
-        options={"peer_reviewed": True}, arrays=arrays, objects=objects, clearances=gaps
+        options={"peer_reviewed": True},
+        arrays=[stand_in.array("A1", 0.5)],
+        objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
+        clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],
     )
-    found = answer(stand_in.assessed(stand_in.book(data, [lifted])), is_provisional=True)
+    found = answer(stand_in.assess_input(data, [lifted]), is_provisional=True)
     (array,), (gap,), (drawn,) = found["arrays"], found["clearances"], found["plan"]["gaps"]
     assert {array["mean_prd"], array["mean_prd_short"]} == {"no value"}
     assert {gap["required"], gap["required_short"], drawn["required"]} == {"no value"}
@@ -118,12 +132,9 @@ def test_a_motion_scaled_to_a_target_keeps_its_factor_when_s_ds_changes(tmp_path
     row = {"id": "M1", "record": "records/x.csv", "units": "g", "dt_s": 0.01}
     given = opened(make(tmp_path, motions=[row | {"scaling": Scaling.TARGET.value}]))
     (scale,) = given.scales.values()
-    changed_ = with_values(given, {"together": "no", "s_ds": 1.5})
-    (motion,) = changed_.shaking.motions
-    assert motion.scale == pytest.approx(scale, rel=1e-5)
-    assert with_values(given, {"intensity": 1.5}).shaking.motions[0].scale == pytest.approx(
-        1.5 * scale, rel=1e-5
-    )
+    for values, factor in (({"together": "no", "s_ds": 1.5}, 1.0), ({"intensity": 1.5}, 1.5)):
+        (motion,) = with_values(given, values).shaking.motions
+        assert motion.scale == pytest.approx(factor * scale, rel=1e-5)
 
 
 def test_clearances_follow_the_sides_of_the_arrays():
@@ -137,98 +148,80 @@ def test_clearances_follow_the_sides_of_the_arrays():
 
 
 def test_sliders_end_where_the_workbook_could_have_no_value_beyond():
-    given = start("example")
-    friction = controls(given)["sliders"][0]
-    assert (friction["id"], friction["greatest"]) == ("friction", 1.01)
+    given, friction = start("example"), offered("example")["friction"]
+    assert friction["greatest"] == 1.01
     assert "the tests give 0.505" in friction["stops"]["greatest"]
     assert "least" not in friction["stops"]
-    scales = given.scales
-    at_end = retyped(given.sheet, typed(given.sheet, scales, {"friction": 1.01}))
-    beyond = retyped(given.sheet, typed(given.sheet, scales, {"friction": 1.02}))
+    at_end, beyond = (
+        retyped(given.sheet, typed(given.sheet, given.scales, {"friction": value}))
+        for value in (1.01, 1.02)
+    )
     assert not at_end.problems
     assert beyond.problems
 
 
 def test_a_clearance_that_moves_runs_nothing_again(monkeypatch):
-    workbook = PROJECTS / "example" / "input.xlsx"
-
-    def answered(**values):
-        job = {"do": "assess", "workbook": str(workbook), "values": values, "moving": False}
-        return jobs.perform(job)["answer"]
-
-    before = answered(friction=0.91)
+    before = at_rest("example", friction=0.91)
     monkeypatch.setattr(least_model, "solve", lambda *_: pytest.fail("a run"))
-    narrower = answered(friction=0.91, clearance=-5.0)
+    narrower = at_rest("example", friction=0.91, clearance=-5.0)
     provided = [[gap["provided_m"] for gap in one["clearances"]] for one in (before, narrower)]
     assert all(after < given for given, after in zip(*provided, strict=True))
     assert [a["bars"] for a in narrower["arrays"]] == [a["bars"] for a in before["arrays"]]
     with pytest.raises(pytest.fail.Exception):
-        answered(friction=0.92, clearance=-5.0)
+        at_rest("example", friction=0.92, clearance=-5.0)
 
 
 def test_values_as_typed_change_no_cell():
     given = start("example")
-    same = {item["id"]: item["typed"] for item in controls(given)["sliders"]}
-    same |= {item["id"]: item["typed"] for item in controls(given)["choices"]}
+    items = offered("example") | offered("example", "choices")
+    same = {name: item["typed"] for name, item in items.items()}
     assert typed(given.sheet, given.scales, same) == {}
     assert with_values(given, same) is given
 
 
 def test_provisional_values_are_of_the_heading_that_governs_in_one_axis():
-    given = start("school")
-    whole = assess(given.sheet, given.shaking)
-    quick = anticipate(whole, given.sheet.project)
-    for array, provisional in zip(whole.arrays, quick.arrays, strict=True):
-        for run, (along,) in zip(array.motions, (m.runs for m in provisional.motions), strict=True):
-            assert along.heading == run.governing.heading
-            assert not along.scene.ay_mps2.any()
-            alone = solve(along.scene, Settings(forced=Rung.ONE_AXIS_VERTICAL))
-            assert along.prd_m == alone.result.prd_m
+    for run, motion in anticipated("school"):
+        (along,) = motion.runs
+        assert along.heading == run.governing.heading
+        assert not along.scene.ay_mps2.any()
+        alone = solve(along.scene, Settings(forced=Rung.ONE_AXIS_VERTICAL))
+        assert along.prd_m == alone.result.prd_m
 
 
 def test_a_polarity_without_the_governing_heading_runs_all_that_it_has():
-    given = start("school")
-    whole = assess(given.sheet, given.shaking)
-    turned = with_values(given, {"polarity": "reversed"})
-    quick = anticipate(replace(whole, shaking=turned.shaking), turned.sheet.project)
-    for array, provisional in zip(whole.arrays, quick.arrays, strict=True):
-        for run, along in zip(array.motions, provisional.motions, strict=True):
-            headings = [one.heading for one in along.runs]
-            governs = run.governing.heading
-            known = along.motion.headings
-            assert headings == ([governs] if governs in known else list(known))
-            assert {heading.sign for heading in headings} == {-1}
+    for run, along in anticipated("school", polarity="reversed"):
+        headings = [one.heading for one in along.runs]
+        governs, known = run.governing.heading, along.motion.headings
+        assert headings == ([governs] if governs in known else list(known))
+        assert {heading.sign for heading in headings} == {-1}
 
 
 @pytest.mark.parametrize("shortages", [1, 2])
 def test_where_memory_ends_what_is_kept_goes_and_the_job_is_done_again_once(shortages, monkeypatch):
-    workbook = PROJECTS / "school" / "input.xlsx"
-    job = {"do": "assess", "workbook": str(workbook), "values": {}, "moving": False}
-    jobs.perform(job)
-    kept = []
+    at_rest("school")
+    begun = []
 
     def short_at_first(*given):
-        kept.append(jobs._as_typed.cache_info().currsize)
-        if len(kept) <= shortages:
+        begun.append(given)
+        if len(begun) <= shortages:
             raise MemoryError
         return assess(*given)
 
     monkeypatch.setattr(jobs, "assess", short_at_first)
-    other = job | {"values": {"friction": 1.0 - 0.01 * shortages}}
+    friction = 1.0 - 0.01 * shortages
     if shortages == 1:
-        assert "answer" in jobs.perform(other)
+        assert at_rest("school", friction=friction)
+        assert len(begun) == 3  # cut off, then as typed once more, then at these values
     else:
         with pytest.raises(MemoryError):
-            jobs.perform(other)
-    assert kept[0] >= 1
-    assert kept[1] == 0
+            at_rest("school", friction=friction)
+        assert len(begun) == 2
 
 
 def test_s_ds_that_changes_leaves_the_table_of_its_coefficient_behind():
     """Of a school with S_S 0.55 g and F_a 1.28: at a smaller S_S the table gives a larger F_a."""
     given = start("school")
-    offered = {item["id"]: item for item in controls(given)["sliders"]}
-    assert "least" not in offered["intensity"]["stops"]
+    assert "least" not in offered("school")["intensity"]["stops"]
     site = given.sheet.project.site
     lower = with_values(given, {"intensity": 0.7}).sheet.project.site
     assert lower.s_ds == pytest.approx(0.7 * site.s_ds, rel=1e-5)

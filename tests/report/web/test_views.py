@@ -15,34 +15,40 @@ from solver.model import InputError
 from solver.sliding import least_model
 from solver.sliding.least_model import Settings
 
-PEER = {"peer_reviewed": True}
 LONG = stand_in.motions(2, seconds=20.0)  # 4,000 samples: more than are drawn of a path
+X_MPS2, DT_S = LONG[0].ax_mps2, LONG[0].dt_s
 G = stand_in.G
 
 
-def made(found, **changes):
-    data = stand_in.project(**({"options": PEER} | changes))
-    return stand_in.assessed(stand_in.book(data, found))
+def made(*found, **changes):
+    data = stand_in.project(options={"peer_reviewed": True}, **changes)
+    return stand_in.assess_input(data, found)
 
 
 @pytest.fixture(scope="module")
 def usual():
     fast = {"mu": 0.4, "mu_fast": 0.5, "mu_rate_s_per_m": 30.0}
-    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, **fast)]
-    objects = [stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)]
-    gaps = [stand_in.clearance("A1", "RTU-1", 9.0)]
-    return made(LONG, arrays=arrays, objects=objects, clearances=gaps)
+    return made(
+        *LONG,
+        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 2.0, x=120, **fast)],
+        objects=[stand_in.roof_object("RTU-1", "fixed object", 107, 112, 35, 42)],
+        clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],
+    )
 
 
 @pytest.fixture(scope="module")
 def along():
     """One horizontal component, and no vertical one."""
-    return made([stand_in.motion("M1", LONG[0].ax_mps2[::2])])
+    return made(stand_in.motion("M1", X_MPS2[::2]))
+
+
+def named(assessment, array):
+    return next(one for one in assessment.arrays if one.array.id == array)
 
 
 def solved(assessment, array, motion, run):
     """The history of a run, solved again from the input alone."""
-    item = next(one.array for one in assessment.arrays if one.array.id == array)
+    item = named(assessment, array).array
     moved = next(one for one in assessment.shaking.motions if one.id == motion)
     heading = next(one for one in moved.headings if one.name == run)
     scene = moved.scene(heading, slope_rad=item.slope_rad, friction=item.friction)
@@ -57,17 +63,23 @@ def values(series):
 @pytest.mark.parametrize("array", ["A1", "A2"])
 def test_a_run_is_that_of_the_solver_to_the_last_bit(usual, array):
     answer = views.slide(usual, array, "M2")
-    _, history = solved(usual, array, "M2", answer["run"])
-    assert answer["prd_m"] == history.result.prd_m
+    scene, history = solved(usual, array, "M2", answer["run"])
+    assert answer["prd_m"] == history.result.prd_m == named(usual, array).motions[1].governing.prd_m
     assert answer["t_prd_s"] == history.result.t_prd_s
     track, at = answer["track"], answer["track"]["i"]
     assert track["relative_m"] == [history.u_m[at].tolist(), history.across_m[at].tolist()]
-    for series, samples in zip(answer["relative"], (history.u_m, history.across_m), strict=True):
-        assert series["v"] == samples.tolist()
     slips = [(slip["from_s"], slip["to_s"]) for slip in answer["slips"]]
     assert [t for pair in slips for t in pair] == [event.t_s for event in history.events]
-    governing = next(one for one in usual.arrays if one.array.id == array).motions[1].governing
-    assert answer["prd_m"] == governing.prd_m
+    assert {math.floor(event.t_s / scene.dt_s) for event in history.events} <= set(at)
+    full = {
+        "acceleration": [scene.ax_mps2, scene.ay_mps2, scene.az_mps2],
+        "relative": [history.u_m, history.across_m],
+    }
+    for name, histories in full.items():
+        assert [series["v"] for series in answer[name]] == [a.tolist() for a in histories]
+    cs, sn = unit(scene.slope_rad)
+    normal = (G + scene.az_mps2) * cs + scene.ax_mps2 * sn
+    assert values(answer["normal"][0]) == pytest.approx(normal / G, rel=1e-15, abs=0.0)
 
 
 def test_any_run_of_a_motion_can_be_asked_for(usual):
@@ -80,19 +92,16 @@ def test_any_run_of_a_motion_can_be_asked_for(usual):
 
 def test_the_roof_is_its_acceleration_integrated_by_cubic_sums(usual):
     answer = views.slide(usual, "A1", "M1", "transverse −")
-    a, dt = -LONG[0].ay_mps2, LONG[0].dt_s
+    a, dt = -LONG[0].ay_mps2, DT_S
     velocity, place = [0.0], [0.0]
     for before, after in zip(a[:-1].tolist(), a[1:].tolist(), strict=True):
         place.append(place[-1] + dt * velocity[-1] + dt * dt * (before / 3 + after / 6))
         velocity.append(velocity[-1] + dt * (before + after) / 2)
     at = answer["track"]["i"]
     assert answer["track"]["roof_m"][0] == pytest.approx(np.array(place)[at], abs=1e-12)
-    names = [series["name"] for series in answer["velocity"]]
-    assert names == ["downslope", "cross-slope", "vertical"]
-    downslope = answer["velocity"][0]
-    assert downslope["v"] == pytest.approx(np.array(velocity), abs=1e-12)
-    series = answer["acceleration"][0]
-    assert series["v"] == a.tolist()
+    assert names_of(answer["velocity"]) == ["downslope", "cross-slope", "vertical"]
+    assert answer["velocity"][0]["v"] == pytest.approx(np.array(velocity), abs=1e-12)
+    assert answer["acceleration"][0]["v"] == a.tolist()
 
 
 @pytest.mark.parametrize("array", ["A1", "A2"])
@@ -100,10 +109,10 @@ def test_the_friction_used_is_what_changes_the_velocity_of_the_solver(usual, arr
     """By Newton's law from the velocities alone: |G - change of velocity| / N between samples."""
     answer = views.slide(usual, array, "M1")
     scene, history = solved(usual, array, "M1", answer["run"])
-    run = next(one for one in usual.arrays if one.array.id == array).motions[0].governing
     slips = slips_of(history)
+    run = named(usual, array).motions[0].governing
     normal, demand, used = run_forces(run, history, slips)
-    cs, sn = math.cos(scene.slope_rad), math.sin(scene.slope_rad)
+    cs, sn = unit(scene.slope_rad)
     drive = (scene.g_mps2 + scene.az_mps2) * sn - scene.ax_mps2 * cs, -scene.ay_mps2
     velocity = history.v_mps / cs, history.across_mps
     rest = [between(g) - np.diff(v) / scene.dt_s for g, v in zip(drive, velocity, strict=True)]
@@ -153,30 +162,13 @@ def between(samples):
     return (samples[:-1] + samples[1:]) / 2
 
 
-def test_every_history_has_all_of_its_samples(usual):
-    answer = views.slide(usual, "A1", "M1")
-    scene, history = solved(usual, "A1", "M1", answer["run"])
-    full = {
-        "acceleration": [scene.ax_mps2, scene.ay_mps2, scene.az_mps2],
-        "relative": [history.u_m, history.across_m],
-        "normal": [views_normal(scene)],
-    }
-    for name, samples in full.items():
-        for series, of in zip(answer[name], samples, strict=True):
-            assert values(series) == pytest.approx(of, rel=1e-15, abs=0.0)
-    around = {math.floor(event.t_s / scene.dt_s) for event in history.events}
-    assert around <= set(answer["track"]["i"])
-
-
-def views_normal(scene):
-    lift = (scene.g_mps2 + scene.az_mps2) * math.cos(scene.slope_rad)
-    return (lift + scene.ax_mps2 * math.sin(scene.slope_rad)) / scene.g_mps2
+def names_of(series):
+    return [one["name"] for one in series]
 
 
 def test_in_one_axis_the_forces_are_those_of_the_model(along):
     answer = views.slide(along, "A2", "M1")
-    assert [series["name"] for series in answer["relative"]] == ["downslope"]
-    assert [series["name"] for series in answer["acceleration"]] == ["downslope"]
+    assert names_of(answer["relative"]) == names_of(answer["acceleration"]) == ["downslope"]
     assert set(answer["track"]["relative_m"][1]) == {0.0} == set(answer["track"]["roof_m"][1])
     used = values(answer["friction"][0])
     assert used.max() == 0.45
@@ -185,8 +177,8 @@ def test_in_one_axis_the_forces_are_those_of_the_model(along):
 
 
 def test_a_run_that_lifts_off_has_forces_and_no_displacement():
-    found = [stand_in.motion("M1", LONG[0].ax_mps2, 3.0 * LONG[0].az_mps2, dt_s=0.005)]
-    answer = views.slide(made(found), "A2", "M1")
+    assessment = made(stand_in.motion("M1", X_MPS2, 3.0 * LONG[0].az_mps2, dt_s=DT_S))
+    answer = views.slide(assessment, "A2", "M1")
     assert answer["prd_m"] is answer["peak"] is None
     assert answer["slips"] == []
     assert set(answer["relative"][0]["v"]) == {None}
@@ -195,13 +187,12 @@ def test_a_run_that_lifts_off_has_forces_and_no_displacement():
     assert answer["texts"]["prd"] == "no PRD"
     assert not [one for one in answer["runs"] if one["label"].endswith("no PRD, governing")]
     json.dumps(answer, allow_nan=False)
-    path = views.paths(made(found), "A2")["paths"][0]
+    path = views.paths(assessment, "A2")["paths"][0]
     assert (path["prd"], path["x_m"], path["peak"]) == ("no PRD", [], None)
 
 
 def test_a_block_that_never_slips_uses_what_friction_is_demanded():
-    found = [stand_in.motion("M1", 0.1 * LONG[0].ax_mps2)]
-    answer = views.slide(made(found), "A1", "M1")
+    answer = views.slide(made(stand_in.motion("M1", 0.1 * X_MPS2)), "A1", "M1")
     used, demand = answer["friction"]
     assert used["v"] == demand["v"]
     assert answer["slips"] == []
@@ -209,9 +200,9 @@ def test_a_block_that_never_slips_uses_what_friction_is_demanded():
 
 
 def test_a_slip_that_the_record_cuts_off_ends_with_it():
-    long = LONG[0].ax_mps2[:1800:2]
-    answer = views.slide(made([stand_in.motion("M1", long)]), "A2", "M1")
-    _, history = solved(made([stand_in.motion("M1", long)]), "A2", "M1", answer["run"])
+    assessment = made(stand_in.motion("M1", X_MPS2[:1800:2]))
+    answer = views.slide(assessment, "A2", "M1")
+    _, history = solved(assessment, "A2", "M1", answer["run"])
     assert history.result.end_speed_mps != 0.0
     assert answer["slips"][-1]["to_s"] == history.t_s[-1]
     assert answer["texts"]["status"].startswith("Still sliding at the end of the record: ")
@@ -239,8 +230,7 @@ def test_levels_are_round_in_the_first_unit(usual):
 
 
 def test_a_grid_where_nothing_slides_says_so_and_has_no_levels():
-    found = [stand_in.motion("M1", 1e-3 * LONG[0].ax_mps2)]
-    answer = views.contour(made(found), "A1")
+    answer = views.contour(made(stand_in.motion("M1", 1e-3 * X_MPS2)), "A1")
     assert answer["levels"] == []
     assert answer["texts"]["notes"] == ["Nothing slides on the whole grid: no contours are drawn."]
 
@@ -248,8 +238,7 @@ def test_a_grid_where_nothing_slides_says_so_and_has_no_levels():
 def test_paths_are_those_of_the_governing_runs_and_keep_their_peaks(usual):
     answer = views.paths(usual, "A2")
     assert [path["motion"] for path in answer["paths"]] == ["M1", "M2"]
-    item = next(one for one in usual.arrays if one.array.id == "A2")
-    for path, motion in zip(answer["paths"], item.motions, strict=True):
+    for path, motion in zip(answer["paths"], named(usual, "A2").motions, strict=True):
         _, history = solved(usual, "A2", path["motion"], motion.governing.heading.name)
         assert path["x_m"] == history.across_m[path["i"]].tolist()
         assert path["y_m"] == (-history.u_m[path["i"]]).tolist()

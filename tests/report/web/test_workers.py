@@ -1,7 +1,6 @@
 """Which job goes next, and what becomes of jobs whose process is lost; with processes that echo."""
 
 import asyncio
-import json
 import sys
 from asyncio.subprocess import PIPE
 
@@ -26,12 +25,12 @@ async def echoing(is_quick):
     )
 
 
-def done(number, script, **options):
+def done(number, script, first=None, **options):
     """Run a script with so many processes, which are all ended after it."""
 
     async def run():
         pool = Workers(number, echoing, **options)
-        pool.start({})
+        pool.start(first or {})
         try:
             return await asyncio.wait_for(script(pool), 60.0)
         finally:
@@ -85,44 +84,36 @@ def ask(pool, name, rank=Rank.AT_REST, key="p", number=1, **job):
     return asyncio.create_task(pool.ask({"name": name, **job}, rank, place))
 
 
-async def busy(pool, seconds=0.3, key="busy"):
+async def gathered(*tasks):
+    """What becomes of tasks, errors among it."""
+    return await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def busy(pool):
     """Keep a process busy."""
-    task = ask(pool, "busy", Rank.MOVING, key=key, seconds=seconds)
-    await asyncio.sleep(seconds / 3)
+    task = ask(pool, "busy", Rank.MOVING, key="busy", seconds=0.6)
+    await asyncio.sleep(0.2)
     return task
 
 
-def test_a_newer_job_of_a_page_replaces_one_that_waits():
+def test_of_the_jobs_of_a_page_only_the_newest_waits_in_whatever_order_they_come():
     async def script(pool):
-        running = await busy(pool, 0.6)
-        waiting = [ask(pool, f"n{n}", number=n) for n in range(1, 6)]
-        found = await asyncio.gather(running, *waiting, return_exceptions=True)
-        return found[1:]
-
-    *stale, last = done(1, script)
-    assert {type(each) for each in stale} == {StaleError}
-    assert last["name"] == "n5"
-
-
-def test_an_older_job_that_comes_late_is_stale():
-    async def script(pool):
-        running = await busy(pool, 0.6)
-        newer = ask(pool, "newer", number=7)
+        running = await busy(pool)
+        waiting = [ask(pool, f"n{n}", number=n) for n in (1, 2, 3, 7)]
         await asyncio.sleep(0)
-        older = ask(pool, "older", number=6)
+        late = ask(pool, "n6", number=6)
         other = ask(pool, "other page", number=1, key="q")
-        return await asyncio.gather(running, newer, older, other, return_exceptions=True)
+        return await gathered(running, late, *waiting, other)
 
-    _, newer, older, other = done(1, script)
-    assert newer["name"] == "newer"
-    assert isinstance(older, StaleError)
-    assert other["name"] == "other page"
+    _, *stale, newest, other = done(1, script)
+    assert [type(each) for each in stale] == [StaleError] * 4
+    assert (newest["name"], other["name"]) == ("n7", "other page")
 
 
 def test_quick_jobs_go_first_and_equal_ones_in_order():
     async def script(pool):
         order = []
-        running = await busy(pool, 0.6)
+        running = await busy(pool)
         ranks = [Rank.READ, Rank.VIEW, Rank.AT_REST, Rank.MOVING, Rank.MOVING]
         tasks = [ask(pool, rank.name, rank, key=str(k)) for k, rank in enumerate(ranks)]
         for k, task in enumerate(tasks):
@@ -134,19 +125,14 @@ def test_quick_jobs_go_first_and_equal_ones_in_order():
 
 
 def test_the_process_kept_free_starts_once_another_has_its_first_answer():
-    async def run():
-        pool = Workers(2, echoing)
-        pool.start({"seconds": 0.5})
-        try:
-            await asyncio.sleep(0.2)
-            alone = len(pool.pids)
-            await ask(pool, "after it")
-            await asyncio.sleep(0.1)
-            return alone, len(pool.pids)
-        finally:
-            await pool.stop()
+    async def script(pool):
+        await asyncio.sleep(0.2)
+        alone = len(pool.pids)
+        await ask(pool, "after it")
+        await asyncio.sleep(0.1)
+        return alone, len(pool.pids)
 
-    assert asyncio.run(run()) == (1, 2)
+    assert done(2, script, first={"seconds": 0.5}) == (1, 2)
 
 
 def test_one_process_stays_free_for_sliders_that_move():
@@ -162,9 +148,9 @@ def test_one_process_stays_free_for_sliders_that_move():
 def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost():
     async def script(pool):
         first = set(pool.pids)
-        lost = await asyncio.gather(ask(pool, "fatal", ends=True), return_exceptions=True)
+        (lost,) = await gathered(ask(pool, "fatal", ends=True))
         again = await ask(pool, "after it", number=2)
-        return lost[0], again["name"], first & set(pool.pids)
+        return lost, again["name"], first & set(pool.pids)
 
     lost, again, left = done(1, script)
     assert isinstance(lost, LostError)
@@ -173,8 +159,8 @@ def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost():
 
 def test_a_job_that_takes_too_long_is_stopped_and_says_so():
     async def script(pool):
-        lost = await asyncio.gather(ask(pool, "slow", seconds=30), return_exceptions=True)
-        return lost[0], (await ask(pool, "quick", number=2))["name"]
+        (lost,) = await gathered(ask(pool, "slow", seconds=30))
+        return lost, (await ask(pool, "quick", number=2))["name"]
 
     lost, quick = done(1, script, longest_s=0.3)
     assert str(lost) == "This took longer than 0 s and was stopped."
@@ -187,4 +173,4 @@ def test_an_answer_is_a_line_whatever_is_in_it():
     async def script(pool):
         return await ask(pool, text)
 
-    assert json.loads(json.dumps(done(1, script)))["name"] == text
+    assert done(1, script)["name"] == text

@@ -1,0 +1,44 @@
+"""Commands as a user or a script calls them, in this process."""
+
+from __future__ import annotations
+
+import json
+import signal
+from collections.abc import Callable
+from functools import partial
+
+from click.testing import CliRunner, Result
+
+from report.cli.main import main
+
+
+def run(*words: object) -> Result:
+    """Return how a command ends."""
+    return CliRunner().invoke(main, [str(word) for word in words])
+
+
+def printed(*words: object) -> str:
+    """Return what a command prints that succeeds, without its progress."""
+    done = run(*words)
+    assert done.exit_code == 0, done.output
+    return done.stdout
+
+
+def as_json(*words: object) -> dict:
+    """Return what a command prints as JSON."""
+    return json.loads(printed(*words, "--json"))
+
+
+def refused(*words: object) -> str:
+    """Return what a command prints as it refuses its input."""
+    done = run(*words)
+    assert done.exit_code == 2, done.output
+    return done.output
+
+
+def hearing(number: signal.Signals) -> Callable[[], object]:
+    """Return a `preexec_fn` of a process that takes a signal, which the tests may have to ignore.
+
+    A shell starts what runs in the background without Ctrl+C, and `nohup` without the hangup.
+    """
+    return partial(signal.signal, number, signal.SIG_DFL)
