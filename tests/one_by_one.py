@@ -18,9 +18,12 @@ def slides(motion, array, **changes) -> list[SlideResult]:
 
 
 def slid(motion, along, across, array, **changes) -> SlideResult:
-    """Return the run of these horizontal components; of the first alone if the second is empty."""
+    """Return the run of two horizontal components with the vertical one; empty ones are none."""
     given = {"slope_rad": array.slope_rad, "mu": array.mu, "az_mps2": motion.az_mps2} | changes
-    return slide(along, motion.dt_s, ay_mps2=across if across.size else None, **given)
+    given["ay_mps2"] = across
+    for name in ("ay_mps2", "az_mps2"):
+        given[name] = given[name] if given[name].size else None
+    return slide(along, motion.dt_s, **given)
 
 
 def prd_m(motion, array, **changes) -> float:

@@ -7,13 +7,13 @@ import pytest
 
 import scenes
 import stand_in
+from one_by_one import prd_m, slid
 from printed import printed
 from report.assessment.sensitivity import accuracy
 from report.figures.accuracy import work_precision
 from report.figures.base import load_fonts
 from report.typeset.pdf import TEMPLATES
 from solver.rivals.methods import METHODS
-from solver.sliding.checked import slide
 
 
 def made(shaking=None, **changes):
@@ -32,17 +32,10 @@ def usual():
     return made(scenes.motions(3, seconds=10.0), options=PEER)
 
 
-def direct(run, array, **method):
-    motion = run.motion
-    return slide(
-        run.governing.scene.ax_mps2,
-        motion.dt_s,
-        slope_rad=array.slope_rad,
-        mu=array.mu,
-        az_mps2=motion.az_mps2 if motion.has_vertical else None,
-        scale=motion.scale,
-        **method,
-    )
+def direct(rivals, **method):
+    """The governing run along the slope alone, by the public solver."""
+    along = rivals.motion.governing.scene.ax_mps2
+    return slid(rivals.motion.motion, along, np.empty(0), rivals.array.array, **method)
 
 
 def test_each_method_is_run_on_the_governing_scene(usual):
@@ -51,19 +44,11 @@ def test_each_method_is_run_on_the_governing_scene(usual):
     peak = evidence.rivals.motion.governing.result.prd_m
     assert peak == max(m.governing.result.prd_m for m in evidence.rivals.array.motions)
     exact = evidence.rivals.exact.prd_m
-    assert evidence.rivals.exact == direct(evidence.rivals.motion, evidence.rivals.array.array)
-    assert {run.method.name for run in evidence.rivals.runs} == set(METHODS) - {
-        "exact",
-        "regularized",
-        "paper",
-    }
+    assert evidence.rivals.exact == direct(evidence.rivals)
+    names = {run.method.name for run in evidence.rivals.runs}
+    assert names == set(METHODS) - {"exact", "regularized", "paper"}
     for run in evidence.rivals.runs:
-        again = direct(
-            evidence.rivals.motion,
-            evidence.rivals.array.array,
-            method=run.method.name,
-            **run.parameters,
-        )
+        again = direct(evidence.rivals, method=run.method.name, **run.parameters)
         assert run.result == again
         assert run.error == pytest.approx(abs(again.prd_m - exact) / exact)
 
@@ -88,7 +73,7 @@ def test_in_one_axis_the_methods_are_compared_with_the_result_itself():
 
 
 def test_without_vertical_shaking_the_papers_own_method_is_shown():
-    _, evidence, page = made(tuple(replace(m, az_mps2=np.empty(0)) for m in scenes.motions()))
+    _, evidence, page = made(scenes.level())
     names = {run.method.name for run in evidence.rivals.runs}
     assert "paper" in names
     assert "adaptive" not in names
@@ -102,14 +87,12 @@ def test_the_same_motion_with_twice_the_samples_gives_the_same_result(usual):
 def test_the_table_of_methods_agrees_with_the_solver(usual):
     _, evidence, page = usual
     rows = page.table("The governing run").cells
-    exact = direct(evidence.rivals.motion, evidence.rivals.array.array)
+    exact = direct(evidence.rivals)
     assert rows[0][2] == f"{exact.prd_m / 0.0254:.1f}"
     by_title = {row[0]: row for row in rows[1:]}
     for method in METHODS.values():
         if method.title in by_title:
-            outcome = direct(
-                evidence.rivals.motion, evidence.rivals.array.array, method=method.name
-            )
+            outcome = direct(evidence.rivals, method=method.name)
             cells = by_title[method.title]
             assert cells[2] == f"{outcome.prd_m / 0.0254:.1f}"
             assert cells[-1] == f"{100 * abs(outcome.prd_m / exact.prd_m - 1):.3f}"
@@ -120,24 +103,8 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
     scene, evidence, page = usual
     for factor, assessed in ((0.95, evidence.less), (1.0, evidence.given), (1.05, evidence.more)):
         for array, item in zip(scene.data.arrays, assessed.arrays, strict=True):
-            peaks = [
-                max(
-                    slide(
-                        sign * along,
-                        motion.dt_s,
-                        slope_rad=array.slope_rad,
-                        mu=array.mu * factor,
-                        ay_mps2=across,
-                        az_mps2=motion.az_mps2,
-                    ).prd_m
-                    for along, across in (
-                        (motion.ax_mps2, motion.ay_mps2),
-                        (motion.ay_mps2, motion.ax_mps2),
-                    )
-                    for sign in (1, -1)
-                )
-                for motion in scene.assessment.shaking.motions
-            ]
+            motions = scene.assessment.shaking.motions
+            peaks = [prd_m(motion, array, mu=array.mu * factor) for motion in motions]
             assert item.design_m == pytest.approx(1.1 * max(peaks), rel=1e-12)
     rows = page.table("Design displacement with").rows
     for row, less, more in zip(rows, evidence.less.arrays, evidence.more.arrays, strict=True):
@@ -180,10 +147,7 @@ def test_where_nothing_slides_there_is_no_chart():
 
 
 def test_a_block_that_lifts_off_has_no_error_and_no_sensitivity():
-    up = np.zeros(800)
-    up[300:400] = -1.4 * stand_in.G
-    lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
-    _, evidence, page = made((*scenes.motions(3, seconds=4.0), lifted))
+    _, evidence, page = made((*scenes.motions(3, seconds=4.0), stand_in.lifting(signs=(1,))))
     assert "lifts off the roof" in page
     assert "no permitted design displacement" in page
     assert not re.search(r"\bnan\b", page)
