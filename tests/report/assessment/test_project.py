@@ -198,13 +198,6 @@ def test_the_prescriptive_route_takes_no_less_than_a_computed_displacement():
     assert any(item.design_m > item.prescriptive.value_m for item in done.arrays)
 
 
-def test_a_motion_that_ends_while_sliding_is_warned_of():
-    done = assessed((*SEVEN[:6], stand_in.motion("CUT", CUT, signs=(1,))))
-    assert any("CUT" in line and "still sliding" in line for line in done.warnings)
-    assert all(math.isnan(item.design_m) for item in done.arrays)
-    assert not done.verdict.is_permitted
-
-
 def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
     cut = [stand_in.motion(f"CUT{k}", CUT, signs=(1,)) for k in range(11)]
     arrays = [stand_in.array("A1", 0.0), stand_in.array("A2", 0.0, x=120)]
