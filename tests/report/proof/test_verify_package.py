@@ -10,10 +10,10 @@ import pikepdf
 import pytest
 from click.testing import CliRunner
 
-import report.cli.verify_package
+import packages
 import tampering
 from report.cli.main import main
-from report.making import OUTPUTS, make
+from report.making import OUTPUTS
 from report.proof.package import open_package, take_out
 from solver.model import InputError
 
@@ -65,22 +65,20 @@ def after_record_changed(data, given):
 
 @pytest.mark.nightly("report/proof/", "report/provenance/")
 def test_a_package_is_the_same_to_the_last_bit_and_nothing_is_left_behind(
-    job, after_record_changed, monkeypatch
+    job, after_record_changed
 ):
     """A process beside another wrote it; this one is alone, and has laid out a package before."""
-    written = {}
-
-    def kept(*call):
-        made = make(*call)
-        written.update(made[2])
-        return made
-
-    monkeypatch.setattr(report.cli.verify_package, "make", kept)
     done = run(job / "out" / "calc-package.pdf")
     assert done.exit_code == 0, done.output
     assert "Same: the input in the package gives this package, to the last bit." in done.output
     assert sorted(path.name for path in job.iterdir()) == ["input.xlsx", "out", "records"]
-    assert written == {name: (job / "out" / name).read_bytes() for name in OUTPUTS}
+
+
+@pytest.mark.nightly("report/proof/", "report/provenance/")
+def test_this_process_alone_writes_every_file_as_two_do(job, tmp_path_factory):
+    alone = packages.reported(tmp_path_factory, job.name).out
+    for name in OUTPUTS:
+        assert (alone / name).read_bytes() == (job / "out" / name).read_bytes(), name
 
 
 def test_a_record_that_was_changed_with_its_hash_gives_other_numbers(after_record_changed):
@@ -254,7 +252,9 @@ def test_a_changed_number_is_told_with_its_place_and_by_how_much(tampered, few_s
         results["arrays"][0]["design_m"] *= 1.001
         with_file("results.json", json.dumps(results).encode())(pdf)
 
-    told = [text for text in tampered(few_sheets, change).differences if "arrays[0].design_m" in text]
+    told = [
+        text for text in tampered(few_sheets, change).differences if "arrays[0].design_m" in text
+    ]
     assert told
     assert told[0].endswith("(1.0e-03 of it)")
 
