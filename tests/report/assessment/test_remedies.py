@@ -23,15 +23,22 @@ def made(provided_m, *, options=PEER, motions=SHORT, far="A3", **changes):
     return scenes.package(motions, clearances=[gap], options=options, **changes).assessment
 
 
-def peaks_m(array, mu, share=1.0):
-    """The PRD of each motion over its headings, by the public solver."""
-    return [prd_m(motion, array, mu=mu, scale=share) for motion in SHORT]
+def tight(share, **changes):
+    """An assessment with a share of the required clearance, and the displacement that it allows."""
+    (roomy,) = made(9.0, **changes).clearances
+    done = made(share * roomy.required_m, **changes)
+    (gap,) = done.clearances
+    return done, gap.clearance.provided_m / gap.factor
+
+
+def analysis_m(array, mu, share=1.0):
+    """The value from analysis of an array with such friction, by the public solver."""
+    return 1.1 * max(prd_m(motion, array, mu=mu, scale=share) for motion in SHORT)
 
 
 @pytest.fixture(scope="module")
 def failing():
-    roomy = made(9.0)
-    return made(0.6 * roomy.clearances[0].required_m)
+    return tight(0.6)
 
 
 def test_nothing_is_tried_for_a_clearance_without_a_permitted_route():
@@ -73,47 +80,39 @@ def test_a_satisfied_package_needs_nothing():
 
 
 def test_the_least_friction_satisfies_there_and_beyond_and_not_below(failing):
-    listed = of(remedies(failing), RemedyKind.FRICTION)
-    gap = failing.clearances[0]
-    by_id = {array.array.id: array.array for array in failing.arrays}
+    done, allowed = failing
+    by_id = {item.array.id: item.array for item in done.arrays}
+    listed = of(remedies(done), RemedyKind.FRICTION)
     assert listed
     for remedy in listed:
         array = by_id[remedy.array]
-        allowed = gap.clearance.provided_m / gap.factor
-
-        def design(mu, array=array):
-            return 1.1 * max(peaks_m(array, mu))
-
-        assert design(array.mu) > allowed
+        assert analysis_m(array, array.mu) > allowed
         assert remedy.value > array.mu == remedy.given
-        assert design(remedy.value) <= allowed
-        assert design(remedy.value - remedy.resolution) > allowed
+        assert analysis_m(array, remedy.value) <= allowed
+        assert analysis_m(array, remedy.value - remedy.resolution) > allowed
         for mu in np.arange(remedy.value, MOST_MU + 0.01, 0.07):
-            assert design(mu) <= allowed
+            assert analysis_m(array, mu) <= allowed
         assert remedy.verified == (remedy.value, MOST_MU)
         assert remedy.n_values >= (MOST_MU - remedy.value) / 0.05
 
 
 def test_the_separation_is_the_required_one(failing):
-    (remedy,) = of(remedies(failing), RemedyKind.SEPARATION)
-    assert remedy.value == failing.clearances[0].required_m
-    assert remedy.given == failing.clearances[0].clearance.provided_m
+    (gap,) = failing[0].clearances
+    (remedy,) = of(remedies(failing[0]), RemedyKind.SEPARATION)
+    assert remedy.value == gap.required_m
+    assert remedy.given == gap.clearance.provided_m
     assert remedy.resolution == 0.0
 
 
 @pytest.mark.parametrize("options", [PEER, {}])
 def test_the_largest_s_ds_satisfies_with_all_arrays_and_not_above(options):
-    roomy = made(9.0, options=options)
-    failing = made(0.6 * roomy.clearances[0].required_m, options=options)
-    (remedy,) = of(remedies(failing), RemedyKind.S_DS)
-    gap = failing.clearances[0]
-    allowed = gap.clearance.provided_m / gap.factor
-    arrays = [array.array for array in failing.arrays if array.array.id in ("A2", "A3")]
+    done, allowed = tight(0.6, options=options)
+    (remedy,) = of(remedies(done), RemedyKind.S_DS)
+    arrays = [item.array for item in done.arrays if item.array.id in ("A2", "A3")]
 
     def design(s_ds):
         floor = 0.0 if options else 0.5 * max(60 * 0.0254 * max(s_ds - 0.4, 0) ** 2, 6 * 0.0254)
-        share = s_ds / 1.566
-        return max(floor, *(1.1 * max(peaks_m(a, a.mu, share)) for a in arrays))
+        return max(floor, *(analysis_m(array, array.mu, s_ds / 1.566) for array in arrays))
 
     assert design(1.566) > allowed
     assert remedy.value < remedy.given == 1.566
@@ -147,17 +146,13 @@ def test_a_friction_law_is_scaled_as_a_whole():
         stand_in.array("A2", 2.0, mu=0.3, mu_fast=0.36, mu_rate_s_per_m=20.0),
         stand_in.array("A3", 3.0, mu=0.9, y=90),
     ]
-    roomy = made(9.0, arrays=arrays)
-    failing = made(0.7 * roomy.clearances[0].required_m, arrays=arrays)
-    remedy = next(r for r in of(remedies(failing), RemedyKind.FRICTION) if r.array == "A2")
-    gap = failing.clearances[0]
-    array = failing.arrays[0].array
+    done, allowed = tight(0.7, arrays=arrays)
+    remedy = next(r for r in of(remedies(done), RemedyKind.FRICTION) if r.array == "A2")
 
     def design(mu):
         law = Friction(mu_slow=mu, mu_fast=1.2 * mu, rate_s_per_m=20.0, mu_static=mu)
-        return 1.1 * max(peaks_m(array, law))
+        return analysis_m(done.arrays[0].array, law)
 
-    allowed = gap.clearance.provided_m / gap.factor
     assert design(remedy.value) <= allowed < design(remedy.value - 0.01)
     assert "scaled as a whole" in remedy.basis
 
