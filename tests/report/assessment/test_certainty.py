@@ -68,14 +68,12 @@ def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not():
     searched = [one for one in certainty(made(clearances=[close])).margins if not one.is_beyond]
     assert searched
     for margin in searched:
-        array, gap = margin.array.array, margin.gap
-        allowed = gap.clearance.provided_m / gap.factor
-
-        def design(mu, array=array):
-            return 1.1 * max(prd_m(motion, array, mu=mu) for motion in SHORT)
-
-        assert design(margin.least_mu) <= allowed < design(margin.least_mu - 0.01)
-        assert margin.required_m == pytest.approx(gap.factor * design(margin.least_mu), rel=1e-5)
+        array, gap, mu = margin.array.array, margin.gap, margin.least_mu
+        there, below = (
+            1.1 * max(prd_m(motion, array, mu=each) for motion in SHORT) for each in (mu, mu - 0.01)
+        )
+        assert there <= gap.clearance.provided_m / gap.factor < below
+        assert margin.required_m == pytest.approx(gap.factor * there, rel=1e-5)
 
 
 def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_none():

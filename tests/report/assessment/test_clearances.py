@@ -113,33 +113,35 @@ def test_a_clearance_takes_the_full_displacement_unless_the_workbook_departs():
     assert any(one.design_m > other.design_m for one, other in pairs)
 
 
-def test_without_a_permitted_route_a_clearance_has_no_required_separation_and_no_verdict():
+@pytest.fixture(scope="module")
+def unpermitted():
+    return stand_in.unpermitted()
+
+
+def test_without_a_permitted_route_there_is_no_required_separation_and_no_verdict(unpermitted):
     """A displacement of 0 from motions that do not qualify is no displacement to design for."""
-    done = stand_in.unpermitted()
-    first, second = done.arrays
+    first, second = unpermitted.arrays
     assert (first.design_m, first.source) == (0.0, "analysis, not permitted")
     assert second.source == "prescriptive"
-    for gap in done.clearances[:2]:  # also where the permitted side is the longer one
+    for gap in unpermitted.clearances[:2]:  # also where the permitted side is the longer one
         assert math.isnan(gap.required_m)
         assert math.isnan(gap.demand_capacity)
         assert gap.governing_array == "A1"
         assert (gap.verdict, gap.ok) == (Verdict.NONE, False)
-    assert done.verdict is Verdict.NG
+    assert unpermitted.verdict is Verdict.NG
 
 
-def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict():
-    done = stand_in.unpermitted()
-    third = done.clearances[2]
-    assert third.required_m == pytest.approx(1.5 * done.arrays[1].prescriptive.value_m)
+def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict(unpermitted):
+    third = unpermitted.clearances[2]
+    assert third.required_m == pytest.approx(1.5 * unpermitted.arrays[1].prescriptive.value_m)
     assert third.verdict is Verdict.OK
     narrow = [stand_in.clearance("A2", "S edge", 5 * stand_in.FOOT)]
     assert stand_in.unpermitted(clearances=narrow).clearances[0].verdict is Verdict.NG
 
 
-def test_an_array_beside_a_clearance_without_a_verdict_is_ng():
-    done = stand_in.unpermitted()
-    assert [done.array_verdict(item) for item in done.arrays] == [Verdict.NG, Verdict.NG]
-    assert done.governing_clearance("A2").verdict is Verdict.NONE
+def test_an_array_beside_a_clearance_without_a_verdict_is_ng(unpermitted):
+    assert [unpermitted.array_verdict(item) for item in unpermitted.arrays] == [Verdict.NG] * 2
+    assert unpermitted.governing_clearance("A2").verdict is Verdict.NONE
     alone = [stand_in.clearance("A2", "S edge", 15 * stand_in.FOOT)]
     done = stand_in.unpermitted(clearances=alone, objects=stand_in.project().objects[3:])
     assert done.array_verdict(done.arrays[1]) is not Verdict.NG
