@@ -59,18 +59,20 @@ def test_arrays_cost_runs_where_their_slope_or_friction_differs(book):
     assert more_s(steeper) == pytest.approx(0.45 + 0.3 * 7.3)
 
 
-def test_a_report_says_it_before_the_runs(tmp_path):
+def test_a_report_says_it_before_the_runs(tmp_path, monkeypatch):
     one = project().model_dump()["arrays"][0]
     arrays = [
         one | {"id": f"A{k}", "x_from_m": 20.0 * k, "x_to_m": 20.0 * k + 10.0} for k in range(200)
     ]
     path = make_book(tmp_path, arrays=arrays, objects=[], clearances=[])
 
-    def stop_at_the_runs(doing):
-        if doing.startswith("running the motions"):
-            raise InputError(doing)
+    def stopped(*_):
+        raise InputError("the runs begin")
 
-    said = "about 2 minutes of processor time for 200 arrays, 3 motions and 600 samples"
-    with SameProcess() as here, pytest.raises(InputError, match=said):
-        make(path, None, None, stop_at_the_runs, here)
+    monkeypatch.setattr("report.assessment.project.assess", stopped)
+    said = []
+    with SameProcess() as here, pytest.raises(InputError, match="the runs begin"):
+        make(path, None, None, said.append, here)
+    cost_words = "about 2 minutes of processor time for 200 arrays, 3 motions and 600 samples"
+    assert said[-1] == f"running the motions ({cost_words})"
     assert LONG_S == 60.0
