@@ -56,6 +56,15 @@ def motion(name, ax, az=NO_RECORD, *, ay=NO_RECORD, dt_s=0.01, signs=(1, -1), so
     return Motion(id=name, source=source, dt_s=dt_s, **sides, scale=1.0, signs=signs)
 
 
+def lifting(name="UP", **changes):
+    """One motion whose vertical component lifts every array off, with a horizontal one of zeros."""
+    flat, up = np.zeros(400), np.zeros(400)
+    up[100:200] = -1.4 * G
+    for record in (flat, up):
+        record.setflags(write=False)
+    return motion(name, flat, up, **changes)
+
+
 def _noise(rng, seconds, peak):
     n = round(seconds / DT_S)
     freq = np.fft.rfftfreq(n, DT_S)

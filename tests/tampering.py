@@ -11,6 +11,7 @@ import json
 import random
 import re
 from collections.abc import Callable
+from typing import Any
 
 import pikepdf
 
@@ -51,6 +52,17 @@ def relisted(pdf: pikepdf.Pdf) -> None:
         content = file_of(pdf, entry["name"])
         entry |= {"bytes": len(content), "sha256": hashlib.sha256(content).hexdigest()}
     set_file(pdf, "roofslip.json", json.dumps(manifest, indent=1).encode() + b"\n")
+
+
+def of_manifest(change: Callable[[dict[str, Any]], object]) -> Callable[[pikepdf.Pdf], None]:
+    """Return a change of the manifest as one of the package."""
+
+    def write(pdf: pikepdf.Pdf) -> None:
+        manifest = json.loads(file_of(pdf, "roofslip.json"))
+        change(manifest)
+        set_file(pdf, "roofslip.json", json.dumps(manifest).encode())
+
+    return write
 
 
 def digit_in_text(data: bytes, rng: random.Random) -> bytes:

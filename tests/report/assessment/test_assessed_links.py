@@ -2,15 +2,17 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import scenes
 import stand_in
+from report.assessment.links import assess_linked
 from report.assessment.project import reassess
-from solver.model import Scene, Status, coulomb
-from solver.sliding.checked import slide
+from solver.model import Status
+from solver.sliding.checked import scene, slide
 from solver.sliding.least_model import DEFAULT
 from solver.sliding.row import BlockRow, slide_row
 
@@ -18,11 +20,11 @@ G, LB, INCH = 9.80665, 4.4482216152605, 0.0254
 MOTIONS = scenes.motions(3, seconds=12.0)
 
 
-def assessed(friction, lb_per_in, *, mu=0.45, shaking=MOTIONS, peer_reviewed=True, **changes):
+def assessed(friction, lb_per_in, *, shaking=MOTIONS, peer_reviewed=True, array=(), **changes):
     """An array of two degrees as a row, with its assessment."""
     done = scenes.package(
         shaking,
-        arrays=[stand_in.array("A1", 2.0, mu=mu)],
+        arrays=[stand_in.array("A1", 2.0, **dict(array))],
         objects=[],
         clearances=[],
         links=[stand_in.links("A1", friction, lb_per_in, **changes)],
@@ -38,18 +40,9 @@ def along(motion):
 
 def rigid_value(mu):
     """1.1 times the largest PRD of one block in one axis, by the solver itself."""
-    runs = (
-        slide(a, m.dt_s, slope_rad=math.radians(2.0), mu=mu, az_mps2=m.az_mps2)
-        for m in MOTIONS
-        for a in along(m)
-    )
+    given = {"slope_rad": math.radians(2.0), "mu": mu}
+    runs = (slide(a, m.dt_s, az_mps2=m.az_mps2, **given) for m in MOTIONS for a in along(m))
     return 1.1 * max(run.prd_m for run in runs)
-
-
-def readonly(values):
-    values = values.copy()
-    values.setflags(write=False)
-    return values
 
 
 @pytest.mark.nightly("report/assessment/links.py", "solver/sliding/row.py", "solver/kernels/row.py")
@@ -63,17 +56,10 @@ def test_the_rows_are_those_of_the_solver():
     )
     for motion, linked in zip(MOTIONS, item.motions, strict=True):
         for a, run in zip(along(motion), linked.runs, strict=True):
-            scene = Scene(
-                ax_mps2=readonly(a),
-                ay_mps2=np.empty(0),
-                az_mps2=motion.az_mps2,
-                dt_s=motion.dt_s,
-                slope_rad=math.radians(2.0),
-                friction=coulomb(0.45),
-                scale=1.0,
-                g_mps2=G,
+            one_axis = scene(
+                a, motion.dt_s, slope_rad=math.radians(2.0), mu=0.45, az_mps2=motion.az_mps2
             )
-            wanted = slide_row(scene, row)
+            wanted = slide_row(one_axis, row)
             assert run.row.prd_m == pytest.approx(wanted.prd_m, rel=1e-9)
             assert run.row.link_force == pytest.approx(wanted.link_force, rel=1e-9)
             assert run.block == 1 + int(np.argmax(wanted.prd_m))
@@ -117,7 +103,7 @@ def test_very_soft_links_leave_the_weakest_block_by_itself():
 @pytest.mark.parametrize("friction", ["0.40, 0.45, 0.50", "0.50, 0.40", "0.40, 0.60, 0.41, 0.55"])
 @pytest.mark.parametrize("lb_per_in", [50, 5000])
 def test_the_least_coefficient_entered_as_that_of_the_array_does(friction, lb_per_in):
-    done, item = assessed(friction, lb_per_in, mu=0.40)
+    done, item = assessed(friction, lb_per_in, array={"mu": 0.40})
     assert item.ratio <= 1.0
     assert done.verdict.is_permitted
 
@@ -130,14 +116,7 @@ def test_where_the_floor_governs_links_may_change_what_stays_below_it():
 
 
 def test_links_raise_the_value_of_the_model_that_the_motions_need():
-    data = stand_in.project(
-        arrays=[stand_in.array("A1", 2.0, mu=0.45, model="one axis")],
-        objects=[],
-        clearances=[],
-        links=[stand_in.links("A1", "0.40, 0.50", 50)],
-        options={"peer_reviewed": True},
-    )
-    (item,) = stand_in.assess_input(data, MOTIONS).linked
+    _, item = assessed("0.40, 0.50", 50, array={"model": "one axis"})
     fuller = item.design.chosen["any"].value_m
     assert fuller > item.design.analysis.value_m
     assert item.estimated_m == pytest.approx(item.ratio * fuller)
@@ -154,13 +133,13 @@ def test_a_difference_below_the_model_tolerance_is_allowed():
 
 def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
     shaking = (stand_in.motion("M", 0.25 * G * np.sin(np.arange(400) / 10.0)),) * 3
-    done, item = assessed("0.10, 0.50", 0.01, mu=0.3, shaking=shaking)
+    done, item = assessed("0.10, 0.50", 0.01, shaking=shaking, array={"mu": 0.3})
     assert item.rigid.value_m == 0.0
     assert item.linked.value_m > 0.01
     assert math.isinf(item.ratio)
     assert math.isinf(item.estimated_m)
     assert not done.verdict.is_permitted
-    _, still = assessed("0.29, 0.50", 0.01, mu=0.3, shaking=shaking)
+    _, still = assessed("0.29, 0.50", 0.01, shaking=shaking, array={"mu": 0.3})
     assert (still.linked.value_m, still.ratio) == (0.0, 1.0)
     assert still.is_within
 
@@ -173,10 +152,7 @@ def test_one_rigid_block_is_not_adequate_for_a_displacement_that_is_not_permitte
 
 
 def test_uplift_withholds_the_row_as_well():
-    up = np.zeros(400)
-    up[200:300] = -1.3 * G
-    lifted = stand_in.motion("UP", np.zeros(400), up)
-    done, item = assessed("0.40, 0.50", 50, shaking=(*MOTIONS, lifted))
+    done, item = assessed("0.40, 0.50", 50, shaking=(*MOTIONS, stand_in.lifting()))
     assert item.farthest.row.status is Status.UPLIFT
     for value in (item.ratio, item.estimated_m, item.link_force_n, item.rigid_prd_m):
         assert math.isnan(value)
@@ -184,19 +160,25 @@ def test_uplift_withholds_the_row_as_well():
     assert not done.verdict.is_permitted
 
 
-def test_a_row_that_cannot_be_followed_is_never_enough(monkeypatch):
-    monkeypatch.setattr("solver.sliding.row._MOST_EVENTS", 0)
+def test_a_row_that_cannot_be_followed_is_never_enough():
     done, item = assessed("0.45, 0.45", 50)
-    assert item.farthest.row.status is Status.DIVERGED
-    assert math.isnan(item.ratio)
-    assert item.design.is_model_enough
-    assert not done.verdict.is_permitted
+    first, *others = item.motions
+    run = first.runs[0]
+    lost = replace(run.row, status=Status.DIVERGED, prd_m=(math.nan, math.nan))
+    motions = [replace(first, runs=(replace(run, row=lost), *first.runs[1:])), *others]
+    pool = SimpleNamespace(map=lambda *_: motions)
+    again = assess_linked(pool, done.rules, item.links, item.design)
+    assert again.farthest.row is lost
+    assert math.isnan(again.ratio)
+    assert again.design.is_model_enough
+    assert done.verdict.is_permitted
+    assert not replace(done, linked=(again,)).verdict.is_permitted
 
 
 def test_a_row_that_still_slides_at_the_end_is_not_final():
     ax = np.concatenate([np.zeros(100), np.full(60, -4.0)])
     cut = (stand_in.motion("CUT", ax, signs=(1,)),) * 3
-    done, item = assessed("0.30, 0.60", 0.01, mu=0.6, shaking=cut)
+    done, item = assessed("0.30, 0.60", 0.01, shaking=cut, array={"mu": 0.6})
     assert item.design.motions[0].governing.result.status is Status.OK
     assert item.farthest.row.status is Status.SLIDING_AT_END
     assert not item.is_final

@@ -1,14 +1,13 @@
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import scenes
 import stand_in
+from one_by_one import prd_m, slid
 from report.assessment.certainty import certainty
 from solver.model import Friction
-from solver.sliding.checked import slide
 
 PEER = {"peer_reviewed": True}
 SHORT = scenes.motions()
@@ -24,18 +23,15 @@ def usual():
     return assessment, certainty(assessment)
 
 
-def prd_m(motion, along, across, array, **changes):
-    scene = {"slope_rad": array.slope_rad, "mu": array.mu, "az_mps2": motion.az_mps2} | changes
-    across = across if across.size else None
-    return slide(along, motion.dt_s, ay_mps2=across, **scene).prd_m
-
-
-def oriented(run):
-    """The components of the governing heading of a motion."""
-    motion, heading = run.motion, run.governing.heading
-    pair = (motion.ax_mps2, motion.ay_mps2)
-    along, across = pair[::-1] if heading.swapped else pair
-    return heading.sign * along, across
+def mean_m(governing, **changes):
+    """The mean PRD of an array over its motions, each in its governing heading, by the solver."""
+    peaks = []
+    for run in governing.motions:
+        motion, heading = run.motion, run.governing.heading
+        pair = (motion.ax_mps2, motion.ay_mps2)
+        along, across = pair[::-1] if heading.swapped else pair
+        peaks.append(slid(motion, heading.sign * along, across, governing.array, **changes).prd_m)
+    return sum(peaks) / len(peaks)
 
 
 def test_the_grid_has_eight_by_six_points_around_the_arrays_and_that_of_the_governing_one(usual):
@@ -56,56 +52,35 @@ def test_the_grid_agrees_with_runs_one_by_one_and_with_the_package(usual):
     assessment, found = usual
     surface, governing = found.surface, assessment.governing
     for row, column in ((0, 0), (5, 0), (3, 4), (5, 7)):
-        peaks = [
-            prd_m(
-                run.motion,
-                *oriented(run),
-                governing.array,
-                mu=float(surface.mus[column]),
-                slope_rad=float(surface.slopes_rad[row]),
-            )
-            for run in governing.motions
-        ]
-        assert surface.mean_m[row, column] == pytest.approx(sum(peaks) / 3, rel=2e-3)
+        point = {
+            "mu": float(surface.mus[column]),
+            "slope_rad": float(surface.slopes_rad[row]),
+        }
+        assert surface.mean_m[row, column] == pytest.approx(mean_m(governing, **point), rel=2e-3)
     row = int(np.argmin(abs(surface.slopes_rad - governing.array.slope_rad)))
     column = int(np.argmin(abs(surface.mus - governing.array.mu)))
     assert surface.mean_m[row, column] == pytest.approx(governing.analysis.mean_m, rel=2e-3)
 
 
 def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not():
-    roomy = made(clearances=[stand_in.clearance("A2", "A3", 9.0)]).clearances[0]
-    found = certainty(
-        made(clearances=[stand_in.clearance("A2", "A3", 1.3 * roomy.required_m)]),
-    )
-    searched = [one for one in found.margins if not one.is_beyond]
+    (roomy,) = made(clearances=[stand_in.clearance("A2", "A3", 9.0)]).clearances
+    close = stand_in.clearance("A2", "A3", 1.3 * roomy.required_m)
+    searched = [one for one in certainty(made(clearances=[close])).margins if not one.is_beyond]
     assert searched
     for margin in searched:
-        array, gap = margin.array.array, margin.gap
-        allowed = gap.clearance.provided_m / gap.factor
-
-        def design(mu, array=array):
-            return 1.1 * max(
-                prd_m(motion, sign * along, across, array, mu=mu)
-                for motion in SHORT
-                for along, across in (
-                    (motion.ax_mps2, motion.ay_mps2),
-                    (motion.ay_mps2, motion.ax_mps2),
-                )
-                for sign in motion.signs
-            )
-
-        assert design(margin.least_mu) <= allowed < design(margin.least_mu - 0.01)
-        assert margin.required_m == pytest.approx(gap.factor * design(margin.least_mu), rel=1e-5)
+        array, gap, mu = margin.array.array, margin.gap, margin.least_mu
+        there, below = (
+            1.1 * max(prd_m(motion, array, mu=each) for motion in SHORT) for each in (mu, mu - 0.01)
+        )
+        assert there <= gap.clearance.provided_m / gap.factor < below
+        assert margin.required_m == pytest.approx(gap.factor * there, rel=1e-5)
 
 
 def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_none():
     gaps = [stand_in.clearance("A2", "A3", 0.05), stand_in.clearance("A1", "RTU-1", 9.0)]
     found = certainty(made(clearances=gaps))
-    assert [(one.number, one.array.id) for one in found.margins] == [
-        (1, "A2"),
-        (1, "A3"),
-        (2, "A1"),
-    ]
+    listed = [(one.number, one.array.id) for one in found.margins]
+    assert listed == [(1, "A2"), (1, "A3"), (2, "A1")]
     assert math.isnan(found.margins[0].least_mu)
     assert math.isnan(found.margins[1].least_mu)
     assert found.margins[2].is_beyond
@@ -122,24 +97,20 @@ def test_turned_shaking_agrees_with_the_public_solver(usual):
         both = np.array([motion.ax_mps2, motion.ay_mps2])
         cs, sn = math.cos(angle), math.sin(angle)
         along, across = np.array([[cs, -sn], [sn, cs]]) @ both
-        assert turned.result.prd_m == pytest.approx(prd_m(motion, along, across, array), rel=0.006)
+        wanted = slid(motion, along, across, array).prd_m
+        assert turned.result.prd_m == pytest.approx(wanted, rel=0.006)
     assert found.worst.result.prd_m == max(turned.result.prd_m for turned in found.turned)
 
 
 def test_the_reversed_vertical_is_run_in_every_heading(usual):
     assessment, found = usual
     array, motion = assessment.governing.array, found.motion.motion
-    largest = max(
-        prd_m(motion, sign * along, across, array, az_mps2=-motion.az_mps2)
-        for along, across in ((motion.ax_mps2, motion.ay_mps2), (motion.ay_mps2, motion.ax_mps2))
-        for sign in motion.signs
-    )
+    largest = prd_m(motion, array, az_mps2=-motion.az_mps2)
     assert found.reversed_m == pytest.approx(largest, rel=1e-5)
 
 
 def test_one_component_has_no_angles_and_no_vertical_to_reverse():
-    alone = tuple(replace(m, ay_mps2=np.empty(0), az_mps2=np.empty(0)) for m in SHORT)
-    found = certainty(made(alone))
+    found = certainty(made(scenes.along(SHORT)))
     assert found.turned == ()
     assert math.isnan(found.reversed_m)
     assert (found.surface.mean_m > 0).all()
@@ -158,11 +129,11 @@ def test_without_clearances_there_are_no_margins():
 
 
 def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named():
-    law = {"mu_fast": 0.54, "mu_rate_s_per_m": 20.0}
+    law = {"mu_rate_s_per_m": 20.0}
     arrays = [
         stand_in.array("A1", 0.5, mu=0.6),
-        stand_in.array("A2", 2.0, mu=0.45, **law),
-        stand_in.array("A3", 3.0, mu=0.3, mu_fast=0.36, mu_rate_s_per_m=20.0),
+        stand_in.array("A2", 2.0, mu=0.45, mu_fast=0.54, **law),
+        stand_in.array("A3", 3.0, mu=0.3, mu_fast=0.36, **law),
     ]
     assessment = made(arrays=arrays, clearances=[])
     found = certainty(assessment).surface
@@ -170,20 +141,11 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
     assert found.others == ("A1",)
     mu = float(found.mus[-1])
     friction = Friction(mu_slow=mu, mu_fast=1.2 * mu, rate_s_per_m=20.0, mu_static=mu)
-    peaks = [
-        prd_m(run.motion, *oriented(run), assessment.governing.array, mu=friction,
-              slope_rad=float(found.slopes_rad[-1]))
-        for run in assessment.governing.motions
-    ]  # fmt: skip
-    assert found.mean_m[-1, -1] == pytest.approx(sum(peaks) / 3, rel=2e-3)
+    wanted = mean_m(assessment.governing, mu=friction, slope_rad=float(found.slopes_rad[-1]))
+    assert found.mean_m[-1, -1] == pytest.approx(wanted, rel=2e-3)
 
 
 def test_a_block_that_lifts_off_leaves_holes_and_no_margin():
-    up = np.zeros(400)
-    up[100:200] = -1.4 * stand_in.G
-    flat = np.zeros(400)
-    for record in (up, flat):
-        record.setflags(write=False)
-    found = certainty(made(tuple(stand_in.motion(f"L{k}", flat, up, signs=(1,)) for k in range(3))))
+    found = certainty(made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))))
     assert np.isnan(found.surface.mean_m).all()
     assert all(math.isnan(margin.least_mu) for margin in found.margins)

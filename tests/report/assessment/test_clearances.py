@@ -1,8 +1,6 @@
 """The object across each clearance, its required separation, and the governing displacement."""
 
-import datetime as dt
 import math
-from functools import partial
 
 import pytest
 
@@ -12,12 +10,13 @@ from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction
 from solver.rules.provisions import Neighbor
 
-motions = partial(scenes.motions, 7, 12.0)  # half a second less for a run of seven
-SAME_SLOPE = 100.0 * math.tan(math.radians(0.5))
+SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds
+PEER = {"peer_reviewed": True}
+SAME_SLOPE = {"slope_value": 100.0 * math.tan(math.radians(0.5)), "slope_unit": "percent"}
 
 
-def assessed(shaking=None, **changes):
-    return scenes.package(shaking or motions(), **changes).assessment
+def assessed(shaking=SEVEN, **changes):
+    return scenes.package(shaking, **changes).assessment
 
 
 @pytest.fixture(scope="module")
@@ -26,15 +25,13 @@ def done():
 
 
 def test_clearances_take_the_factor_of_what_lies_across(done):
-    kinds = [item.neighbor for item in done.clearances]
-    assert kinds == [
-        Neighbor.UNLIKE,  # of another slope
-        Neighbor.FIXED,
-        Neighbor.UNLIKE,
-        Neighbor.PARAPET,
-        Neighbor.EDGE,
+    assert [(item.neighbor, item.factor) for item in done.clearances] == [
+        (Neighbor.UNLIKE, 1.0),  # of another slope
+        (Neighbor.FIXED, 1.0),
+        (Neighbor.UNLIKE, 1.0),
+        (Neighbor.PARAPET, 1.0),
+        (Neighbor.EDGE, 1.5),
     ]
-    assert [item.factor for item in done.clearances] == [1.0, 1.0, 1.0, 1.0, 1.5]
     for item in done.clearances:
         assert item.required_m == pytest.approx(item.factor * item.design_m)
         assert item.demand_capacity == item.required_m / item.clearance.provided_m
@@ -42,25 +39,12 @@ def test_clearances_take_the_factor_of_what_lies_across(done):
 
 def test_between_arrays_the_larger_displacement_governs_for_both():
     arrays = [stand_in.array("A1", 0.5, mu=0.6), stand_in.array("A2", 3.0, mu=0.3, x=120)]
-    done = assessed(
-        arrays=arrays,
-        clearances=[stand_in.clearance("A1", "a2", 3.0)],
-        options={"peer_reviewed": True},
-    )
-    gap = done.clearances[0]
+    done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "a2", 3.0)], options=PEER)
+    (gap,) = done.clearances
     assert gap.governing_array == "A2"
     assert gap.design_m == done.arrays[1].design_m > done.arrays[0].design_m
     assert done.governing_clearance("A2") is gap
     assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "A2")
-
-
-def test_arrays_of_other_construction_are_unlike():
-    arrays = [
-        stand_in.array("A1", 0.5),
-        stand_in.array("A2", 0.5, x=120, construction="Tray 5 deg, portrait"),
-    ]
-    done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)])
-    assert done.clearances[0].neighbor is Neighbor.UNLIKE
 
 
 @pytest.mark.parametrize(
@@ -72,17 +56,15 @@ def test_arrays_of_other_construction_are_unlike():
         ({"mu": 0.46}, Neighbor.UNLIKE),
         ({"mu_static": 0.5}, Neighbor.UNLIKE),
         ({"downslope_deg": 90.0}, Neighbor.UNLIKE),
-        (
-            {"slope_value": 100.0 * math.tan(math.radians(0.5)), "slope_unit": "percent"},
-            Neighbor.LIKE,
-        ),
+        ({"construction": "Tray 5 deg, portrait"}, Neighbor.UNLIKE),
+        (SAME_SLOPE, Neighbor.LIKE),
     ],
 )
 def test_like_arrays_slide_alike(change, neighbor):
     arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=120) | change]
-    done = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)])
-    assert done.clearances[0].neighbor is neighbor
-    assert done.clearances[0].factor == (0.5 if neighbor is Neighbor.LIKE else 1.0)
+    (gap,) = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)]).clearances
+    assert gap.neighbor is neighbor
+    assert gap.factor == (0.5 if neighbor is Neighbor.LIKE else 1.0)
 
 
 def test_a_low_parapet_leaves_an_edge_without():
@@ -102,11 +84,9 @@ def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7(
 
 
 def test_asce_requires_four_feet_to_an_edge():
-    done = assessed(
-        motions(peak_g=0.05, vertical_peak_g=0.01),
-        site=stand_in.site(rule_set="ASCE 7-16", s_ds_g=0.5),
-        options={"peer_reviewed": True},
-    )
+    resting = scenes.motions(7, 12.0, peak_g=0.05, vertical_peak_g=0.01)
+    site = stand_in.site(rule_set="ASCE 7-16", s_ds_g=0.5)
+    done = assessed(resting, site=site, options=PEER)
     edge = done.clearances[4]
     assert edge.required_m == pytest.approx(4 * 0.3048)
     assert edge.is_least_value
@@ -125,49 +105,43 @@ def test_the_larger_component_importance_of_both_sides_governs():
 
 
 def test_a_clearance_takes_the_full_displacement_unless_the_workbook_departs():
-    full = assessed(options={"peer_reviewed": True})
+    full = assessed(options=PEER)
     assert {gap.governing_direction for gap in full.clearances} == {Direction.ANY}
-    departing = {
-        "peer_reviewed": True,
-        "directional": True,
-        "directional_reason": "test",
-        "directional_reviewer": "Reviewer of record",
-        "directional_license": "CA S0000",
-        "directional_date": dt.date(2026, 3, 1),
-    }
-    by_direction = assessed(options=departing)
+    by_direction = assessed(options=scenes.REVIEW | scenes.DEPARTURE)
     pairs = list(zip(full.clearances, by_direction.clearances, strict=True))
     assert all(one.design_m >= other.design_m for one, other in pairs)
     assert any(one.design_m > other.design_m for one, other in pairs)
 
 
-def test_without_a_permitted_route_a_clearance_has_no_required_separation_and_no_verdict():
+@pytest.fixture(scope="module")
+def unpermitted():
+    return stand_in.unpermitted()
+
+
+def test_without_a_permitted_route_there_is_no_required_separation_and_no_verdict(unpermitted):
     """A displacement of 0 from motions that do not qualify is no displacement to design for."""
-    done = stand_in.unpermitted()
-    first, second = done.arrays
+    first, second = unpermitted.arrays
     assert (first.design_m, first.source) == (0.0, "analysis, not permitted")
     assert second.source == "prescriptive"
-    for gap in done.clearances[:2]:  # also where the permitted side is the longer one
+    for gap in unpermitted.clearances[:2]:  # also where the permitted side is the longer one
         assert math.isnan(gap.required_m)
         assert math.isnan(gap.demand_capacity)
         assert gap.governing_array == "A1"
         assert (gap.verdict, gap.ok) == (Verdict.NONE, False)
-    assert done.verdict is Verdict.NG
+    assert unpermitted.verdict is Verdict.NG
 
 
-def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict():
-    done = stand_in.unpermitted()
-    third = done.clearances[2]
-    assert third.required_m == pytest.approx(1.5 * done.arrays[1].prescriptive.value_m)
+def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict(unpermitted):
+    third = unpermitted.clearances[2]
+    assert third.required_m == pytest.approx(1.5 * unpermitted.arrays[1].prescriptive.value_m)
     assert third.verdict is Verdict.OK
     narrow = [stand_in.clearance("A2", "S edge", 5 * stand_in.FOOT)]
     assert stand_in.unpermitted(clearances=narrow).clearances[0].verdict is Verdict.NG
 
 
-def test_an_array_beside_a_clearance_without_a_verdict_is_ng():
-    done = stand_in.unpermitted()
-    assert [done.array_verdict(item) for item in done.arrays] == [Verdict.NG, Verdict.NG]
-    assert done.governing_clearance("A2").verdict is Verdict.NONE
+def test_an_array_beside_a_clearance_without_a_verdict_is_ng(unpermitted):
+    assert [unpermitted.array_verdict(item) for item in unpermitted.arrays] == [Verdict.NG] * 2
+    assert unpermitted.governing_clearance("A2").verdict is Verdict.NONE
     alone = [stand_in.clearance("A2", "S edge", 15 * stand_in.FOOT)]
     done = stand_in.unpermitted(clearances=alone, objects=stand_in.project().objects[3:])
     assert done.array_verdict(done.arrays[1]) is not Verdict.NG

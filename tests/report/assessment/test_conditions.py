@@ -9,16 +9,11 @@ import stand_in
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.verdict import Verdict, worst
 from solver.records.acceptance_row import Consequence
-
-STATED = {
-    "peer_reviewer": "Reviewer of record",
-    "peer_license": "CA S0000",
-    "peer_date": dt.date(2026, 3, 1),
-}
+from stand_in import FOOT
 
 
-def assessed(**changes):
-    return scenes.package(**changes).assessment
+def assessed(shaking=None, **changes):
+    return scenes.package(shaking, **changes).assessment
 
 
 def row(done, key):
@@ -31,50 +26,67 @@ def test_the_worst_verdict_is_ng_and_none_is_ok():
     assert worst([Verdict.NG, Verdict.CONDITIONS]) is Verdict.NG
 
 
-@pytest.mark.parametrize("missing", [None, *STATED])
+def without(given, missing):
+    return {name: value for name, value in given.items() if name != missing}
+
+
+@pytest.mark.parametrize("missing", [None, "peer_reviewer", "peer_license", "peer_date"])
 def test_a_peer_review_without_name_license_and_date_is_a_condition(missing):
-    given = {name: value for name, value in STATED.items() if name != missing}
-    done = assessed(options={"peer_reviewed": True, **given})
-    found = row(done, "peer_review")
+    found = row(assessed(options=without(scenes.REVIEW, missing)), "peer_review")
     assert found.is_satisfied is (missing is None)
     assert found.consequence is Consequence.CONDITION
+
+
+def test_without_a_peer_review_nothing_is_said_of_it():
     assert row(assessed(), "peer_review") is None
 
 
-@pytest.mark.parametrize(
-    ("hazard", "satisfied"),
-    [("mapped values", False), ("site-specific analysis", True), ("exception of 11.4.8", True)],
-)
-def test_site_class_d_with_a_large_s_1_asks_for_a_hazard_analysis(hazard, satisfied):
-    assert (
-        row(assessed(site=stand_in.site(hazard=hazard)), "site_specific_hazard").is_satisfied
-        is satisfied
-    )
-    assert row(assessed(site=stand_in.site(site_class="C")), "site_specific_hazard") is None
-
-
 SOURCED = {"hazard_source": "ASCE 7 Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
+STUDIED = SOURCED | {"hazard": "site-specific analysis", "hazard_report": "GE-12"}
 BLANK = dict.fromkeys(("s_s_g", "s_1_g", "f_a", "f_v", "s_ms_g", "s_m1_g", "s_d1_g", "site_class"))
+S_DS_ALONE = BLANK | {"s_ds_g": 1.0}
+ASCE_7_22 = BLANK | {
+    "s_ms_g": 1.5,
+    "s_1_g": 0.5,
+    "s_m1_g": 0.6,
+    "s_ds_g": None,
+    "edition_name": "ASCE 7-22",
+}
 
 
-def conditions(**changes):
-    """Ids of the open requirements on the hazard."""
-    keys = ("hazard_source", "sdc", "site_class", "site_specific_hazard")
+def hazard(**changes):
+    """The requirements on the hazard by id."""
     found = hazard_rows(stand_in.project(site=stand_in.site(**changes)))
     assert {item.consequence for item in found} == {Consequence.CONDITION}
-    return [key for key in keys for item in found if item.id == key and not item.is_satisfied]
+    return {item.id: item for item in found}
 
 
-@pytest.mark.parametrize("missing", [None, *SOURCED])
-def test_a_hazard_without_source_or_date_is_a_condition(missing):
-    given = {name: value for name, value in SOURCED.items() if name != missing}
-    assert conditions(site_class="C", **given) == (["hazard_source"] if missing else [])
-
-
-def test_s_ds_alone_is_ok_with_conditions_at_most():
-    alone = conditions(**BLANK | {"s_ds_g": 1.0})
-    assert alone == ["hazard_source", "sdc", "site_class", "site_specific_hazard"]
-    assert conditions(**BLANK | SOURCED | {"s_ds_g": 1.0, "site_class": "C"}) == ["sdc"]
+@pytest.mark.parametrize(
+    ("given", "conditions"),
+    [
+        (SOURCED | {"hazard": "mapped values"}, ["site_specific_hazard"]),
+        (SOURCED | {"hazard": "exception of 11.4.8"}, []),
+        (STUDIED, []),
+        (SOURCED | {"site_class": "C"}, []),
+        (without(SOURCED, "hazard_source") | {"site_class": "C"}, ["hazard_source"]),
+        (without(SOURCED, "hazard_date") | {"site_class": "C"}, ["hazard_source"]),
+        (without(STUDIED, "hazard_source"), ["hazard_source"]),
+        (without(STUDIED, "hazard_date"), ["hazard_source"]),
+        (without(STUDIED, "hazard_report"), ["hazard_source"]),
+        (S_DS_ALONE, ["hazard_source", "sdc", "site_class", "site_specific_hazard"]),
+        (S_DS_ALONE | SOURCED | {"site_class": "C"}, ["sdc"]),
+        (SOURCED | ASCE_7_22, ["site_class"]),
+        (SOURCED | {"site_class": None, "s_1_g": 0.1}, ["site_class"]),
+        (SOURCED | {"site_class": "D (default)", "s_1_g": 0.1}, ["site_class"]),
+        (STUDIED | {"site_class": None}, []),
+        (STUDIED | {"site_class": "D (default)"}, []),
+    ],
+)
+def test_what_is_open_on_the_hazard_is_a_condition(given, conditions):
+    found = hazard(**given)
+    assert sorted(id for id, item in found.items() if not item.is_satisfied) == conditions
+    verdicts = {True: Verdict.OK, False: Verdict.CONDITIONS}
+    assert all(item.verdict is verdicts[item.is_satisfied] for item in found.values())
 
 
 @pytest.mark.parametrize(
@@ -88,37 +100,31 @@ def test_s_ds_alone_is_ok_with_conditions_at_most():
     ],
 )
 def test_the_sdc_is_confirmed_by_s_1_and_s_d1_only(given, words):
-    data = stand_in.project(site=stand_in.site(**BLANK | given | {"s_ds_g": 1.0}))
-    (found,) = (item for item in hazard_rows(data) if item.id == "sdc")
+    site = S_DS_ALONE | given
+    found = hazard(**site)["sdc"]
     assert found.found == words
     assert found.is_satisfied is ("not" not in words)
+    data = stand_in.project(site=stand_in.site(**site))
     assert data.site.sdc_text == ("D" if found.is_satisfied else "D (not confirmed)")
 
 
 @pytest.mark.parametrize("site_class", [None, "D (default)"])
 def test_site_class_d_by_default_says_11_4_8(site_class):
-    found = hazard_rows(stand_in.project(site=stand_in.site(site_class=site_class)))
-    (by_default,) = (item for item in found if item.id == "site_class")
-    assert not by_default.is_satisfied
-    assert "F_a is then at least 1.2" in by_default.remedy
-    assert "ASCE 7-16 11.4.8" in by_default.remedy
-    (asked,) = (item for item in found if item.id == "site_specific_hazard")
-    assert asked.title == "Hazard analysis for site class D by default with S_1 = 0.7 g"
-    assert conditions(site_class=site_class, s_1_g=0.1, **SOURCED) == ["site_class"]
-    studied = {"hazard": "site-specific analysis", "hazard_report": "GE-12", **SOURCED}
-    assert conditions(site_class=site_class, **studied) == []
+    found = hazard(site_class=site_class)
+    assert not found["site_class"].is_satisfied
+    assert "F_a is then at least 1.2" in found["site_class"].remedy
+    assert "ASCE 7-16 11.4.8" in found["site_class"].remedy
+    title = "Hazard analysis for site class D by default with S_1 = 0.7 g"
+    assert found["site_specific_hazard"].title == title
 
 
-def test_a_site_class_is_asked_for_with_any_edition():
-    given = BLANK | SOURCED | {"s_ms_g": 1.5, "s_1_g": 0.5, "s_m1_g": 0.6}
-    given |= {"s_ds_g": None, "edition_name": "ASCE 7-22"}
-    assert conditions(**given) == ["site_class"]
-    (found,) = (
-        item
-        for item in hazard_rows(stand_in.project(site=stand_in.site(**given)))
-        if item.id == "site_class"
-    )
-    assert "11.4.8" not in found.remedy
+def test_a_site_class_of_another_edition_is_asked_for_without_11_4_8():
+    assert "11.4.8" not in hazard(**SOURCED | ASCE_7_22)["site_class"].remedy
+
+
+def test_a_site_specific_analysis_asks_for_its_report():
+    title = "Report on the site-specific hazard analysis"
+    assert hazard(**STUDIED)["hazard_source"].title == title
 
 
 @pytest.mark.parametrize(
@@ -130,55 +136,49 @@ def test_a_site_class_is_asked_for_with_any_edition():
         ({"site_class": "E", "s_s_g": None, "s_1_g": 0.05}, "site class E, S_S not given"),
         ({"site_class": "E", "s_s_g": 0.5, "s_1_g": 0.05}, ""),
         ({"site_class": "D", "s_1_g": 0.1}, ""),
+        ({"site_class": "C"}, ""),
     ],
 )
 def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked):
-    rows = hazard_rows(stand_in.project(site=stand_in.site(**given)))
-    found = [item.title for item in rows if item.id == "site_specific_hazard"]
+    found = [item.title for id, item in hazard(**given).items() if id == "site_specific_hazard"]
     assert found == ([f"Hazard analysis for {asked}"] if asked else [])
 
 
-@pytest.mark.parametrize("missing", [None, "hazard_report", *SOURCED])
-def test_a_site_specific_analysis_without_its_report_is_a_condition(missing):
-    stated = {"hazard_report": "GE-12", **SOURCED}
-    given = {name: value for name, value in stated.items() if name != missing}
-    data = stand_in.project(site=stand_in.site(hazard="site-specific analysis", **given))
-    (found,) = (item for item in hazard_rows(data) if item.id == "hazard_source")
-    assert found.title == "Report on the site-specific hazard analysis"
-    assert found.is_satisfied is (missing is None)
-    assert found.verdict is (Verdict.CONDITIONS if missing else Verdict.OK)
+@pytest.mark.parametrize(("to_ft", "satisfied"), [(170.0, True), (170.1, False)])
+def test_fire_lanes_limit_an_array_to_150_feet(to_ft, satisfied):
+    array = stand_in.array("A1", 0.5, x_to_m=to_ft * FOOT)
+    done = assessed(arrays=[array], clearances=[])
+    assert row(done, "fire_lanes").is_satisfied is satisfied
 
 
-def test_fire_lanes_limit_an_array_to_150_feet():
-    def array(to_ft):
-        return stand_in.array("A1", 0.5) | {"x_to_m": to_ft * stand_in.FOOT}
+@pytest.mark.parametrize(
+    ("key", "field", "needed"),
+    [
+        ("interconnection", "interconnection_n", "interconnection_n"),
+        ("electrical_slack", "slack_m", "design_m"),
+    ],
+)
+def test_too_little_is_ng_and_no_value_is_a_condition(key, field, needed):
+    def verdicts(**given):
+        done = assessed(arrays=[stand_in.array("A1", 0.5, **given)], clearances=[])
+        return done.arrays[0], row(done, key).verdict, done.array_verdict(done.arrays[0])
 
-    for to_ft, satisfied in ((170.0, True), (170.1, False)):
-        done = assessed(arrays=[array(to_ft)], clearances=[])
-        assert row(done, "fire_lanes").is_satisfied is satisfied
-
-
-def test_interconnection_and_slack_are_conditions_without_a_value_and_ng_with_too_little():
-    for key, field in (("interconnection", "interconnection_n"), ("electrical_slack", "slack_m")):
-        plain = assessed(arrays=[stand_in.array("A1", 0.5)], clearances=[])
-        item = plain.arrays[0]
-        assert row(plain, key).verdict is Verdict.CONDITIONS
-        needed = item.interconnection_n if key == "interconnection" else item.design_m
-        for factor, verdict in ((1.001, Verdict.OK), (0.999, Verdict.NG)):
-            array = stand_in.array("A1", 0.5) | {field: needed * factor}
-            done = assessed(arrays=[array], clearances=[])
-            assert row(done, key).verdict is verdict
-            assert (done.array_verdict(done.arrays[0]) is Verdict.NG) is (verdict is Verdict.NG)
+    item, plain, _ = verdicts()
+    assert plain is Verdict.CONDITIONS
+    for factor, verdict in ((1.001, Verdict.OK), (0.999, Verdict.NG)):
+        _, found, of_array = verdicts(**{field: getattr(item, needed) * factor})
+        assert found is verdict
+        assert (of_array is Verdict.NG) is (verdict is Verdict.NG)
 
 
 def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():
-    options = {"peer_reviewed": True, **STATED}
-    wide = [stand_in.clearance("A1", "RTU-1", 30.0)]
-    given = assessed(options=options, clearances=wide)
+    def apart(provided_m):
+        gap = stand_in.clearance("A1", "RTU-1", provided_m)
+        return assessed(options=scenes.REVIEW, clearances=[gap])
+
+    given = apart(30.0)
     assert row(given, "less_friction") is None
-    middle = (given.clearances[0].required_m + given.less.clearances[0].required_m) / 2.0
-    gap = [wide[0] | {"provided_m": middle}]
-    done = assessed(options=options, clearances=gap)
+    done = apart((given.clearances[0].required_m + given.less.clearances[0].required_m) / 2.0)
     assert done.clearances[0].ok
     assert not done.less.clearances[0].ok
     assert row(done, "less_friction").verdict is Verdict.CONDITIONS
@@ -192,11 +192,11 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
 ):
     """A row that is deleted turns no NG into a condition."""
     unit = stand_in.roof_object("RTU-1", "fixed object", 100 + apart_ft, 112, 35, 42)
-    rows = [stand_in.clearance("A1", "RTU-1", provided * stand_in.FOOT)] if provided else []
+    rows = [stand_in.clearance("A1", "RTU-1", provided * FOOT)] if provided else []
     done = assessed(arrays=[stand_in.array("A1", 0.5)], objects=[unit], clearances=rows)
     (near,) = done.neighbors
     assert near.required_m == done.arrays[0].design_m  # factor 1.0, I_p 1.0
-    assert 2.0 * stand_in.FOOT < near.required_m < 6.0 * stand_in.FOOT < near.reach_m
+    assert 2.0 * FOOT < near.required_m < 6.0 * FOOT < near.reach_m
     found = row(done, "neighbors")
     if provided == apart_ft:
         assert found is None
@@ -213,15 +213,15 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
 
 def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_ng():
     """ASCE asks for 4 ft to an edge, however little an array moves."""
-    outline = {"x_from_m": 0.0, "x_to_m": 50.0, "y_from_m": 15 * stand_in.FOOT - 1.0,
+    outline = {"x_from_m": 0.0, "x_to_m": 50.0, "y_from_m": 15 * FOOT - 1.0,
                "y_to_m": 50.0}  # fmt: skip
     done = assessed(
         arrays=[stand_in.array("A1", 0.5, mu=1.4)], objects=[], clearances=[], roof=outline,
-        options={"peer_reviewed": True, **STATED}, site=stand_in.site(rule_set="ASCE 7-16"),
+        options=scenes.REVIEW, site=stand_in.site(rule_set="ASCE 7-16"),
     )  # fmt: skip
     (near,) = done.neighbors
     assert near.gap_m == pytest.approx(1.0)
-    assert near.reach_m < near.gap_m < near.required_m == pytest.approx(4 * stand_in.FOOT)
+    assert near.reach_m < near.gap_m < near.required_m == pytest.approx(4 * FOOT)
     assert row(done, "neighbors").verdict is Verdict.NG
     assert "nearer than is required" in row(done, "neighbors").remedy
 
@@ -229,7 +229,7 @@ def test_an_edge_beyond_twice_the_displacement_that_is_nearer_than_required_is_n
 def test_a_value_from_analysis_that_is_not_permitted_is_named_so():
     """The motions have no vertical component, and the friction is too small for prescription."""
     arrays = [stand_in.array("A1", 0.5, mu=0.3), stand_in.array("A2", 0.5, x=120)]
-    done = scenes.package(scenes.level(), arrays=arrays, clearances=[]).assessment
+    done = assessed(scenes.level(), arrays=arrays, clearances=[])
     low, high = done.arrays
     assert [low.source, high.source] == ["floor, not permitted", "prescriptive"]
     assert [low.is_permitted, high.is_permitted] == [False, True]
@@ -252,15 +252,14 @@ def test_no_slack_and_no_gap_of_the_plan_is_enough_for_a_displacement_that_is_no
     assert not any(item.title.startswith("Clearance A2 to S") for item in done.rows)
 
 
-def test_a_route_that_five_percent_less_friction_closes_is_a_condition():
-    for mu, is_closed in ((0.41, True), (0.43, False)):  # the limit is 0.40
-        arrays = [stand_in.array("A1", 0.5, mu=mu)]
-        done = scenes.package(scenes.level(), arrays=arrays, clearances=[]).assessment
-        found = row(done, "less_friction")
-        assert (found is not None) is is_closed
-        if is_closed:
-            assert found.title == "The prescriptive route with 5 % less friction"
-            assert found.verdict is Verdict.CONDITIONS
-            assert found.remedy == (
-                "With 5 % less friction no route is permitted: confirm the friction coefficient."
-            )
+@pytest.mark.parametrize(("mu", "is_closed"), [(0.41, True), (0.43, False)])  # the limit is 0.40
+def test_a_route_that_five_percent_less_friction_closes_is_a_condition(mu, is_closed):
+    arrays = [stand_in.array("A1", 0.5, mu=mu)]
+    found = row(assessed(scenes.level(), arrays=arrays, clearances=[]), "less_friction")
+    assert (found is not None) is is_closed
+    if is_closed:
+        assert found.title == "The prescriptive route with 5 % less friction"
+        assert found.verdict is Verdict.CONDITIONS
+        assert found.remedy == (
+            "With 5 % less friction no route is permitted: confirm the friction coefficient."
+        )

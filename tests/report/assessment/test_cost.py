@@ -4,18 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 from places import ROOT
 from report.assessment.cost import LONG_S, cost, expected_s
-from report.cli.main import main
-from sheets import make, project, read_workbook
+from report.beside import SameProcess
+from report.making import make
+from sheets import make as make_book
+from sheets import project, read_workbook
 from solver.model import InputError
 
 
 @pytest.fixture(scope="module")
 def book(tmp_path_factory):
-    return read_workbook(make(tmp_path_factory.mktemp("job")))
+    return read_workbook(make_book(tmp_path_factory.mktemp("job")))
 
 
 def lasting(book, samples):
@@ -58,21 +59,20 @@ def test_arrays_cost_runs_where_their_slope_or_friction_differs(book):
     assert more_s(steeper) == pytest.approx(0.45 + 0.3 * 7.3)
 
 
-def test_the_command_says_it_before_the_runs(tmp_path, monkeypatch):
+def test_a_report_says_it_before_the_runs(tmp_path, monkeypatch):
     one = project().model_dump()["arrays"][0]
     arrays = [
         one | {"id": f"A{k}", "x_from_m": 20.0 * k, "x_to_m": 20.0 * k + 10.0} for k in range(200)
     ]
-    path = make(tmp_path, arrays=arrays, objects=[], clearances=[])
+    path = make_book(tmp_path, arrays=arrays, objects=[], clearances=[])
 
     def stopped(*_):
         raise InputError("the runs begin")
 
     monkeypatch.setattr("report.assessment.project.assess", stopped)
-    monkeypatch.setattr("report.cli.terminal.QUIET_SECONDS", -1.0)
-    done = CliRunner().invoke(main, ["report", str(path)])
-    assert done.exit_code == 2
-    said, runs = done.output.index("about 2 minutes of processor"), done.output.index("runs begin")
-    assert said < runs
-    assert "200 arrays, 3 motions and 600 samples" in done.output
+    said = []
+    with SameProcess() as here, pytest.raises(InputError, match="the runs begin"):
+        make(path, None, None, said.append, here)
+    cost_words = "about 2 minutes of processor time for 200 arrays, 3 motions and 600 samples"
+    assert said[-1] == f"running the motions ({cost_words})"
     assert LONG_S == 60.0

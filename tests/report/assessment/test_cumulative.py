@@ -1,6 +1,5 @@
 """The displacements of the design event and of smaller ones add to what separate runs give."""
 
-import json
 import math
 from dataclasses import replace
 
@@ -9,44 +8,32 @@ import pytest
 
 import scenes
 import stand_in
+from one_by_one import prd_m
 from printed import printed
 from report.assessment.cumulative import cumulative
-from report.assessment.evidence import support
-from report.results.json import results_json
-from sheets import edit, make, problems, read_workbook
-from solver.sliding.checked import slide
+from sheets import at, make, problems, read_workbook, type_into
 from solver.sliding.least_model import DEFAULT
 
 FACTORS = "0.50, 0.50, 0.25"
 G = 9.80665
+CELL = "Options/Smaller events"
 
 
-def made(events=FACTORS, found=None):
+def made(events=FACTORS, found=None, **changes):
     options = {"peer_reviewed": True, "smaller_events": events}
-    return scenes.package(found, options=options).assessment
+    return scenes.package(found, options=options, **changes).assessment
+
+
+def scaled(motion, factor):
+    records = ("ax_mps2", "ay_mps2", "az_mps2")
+    return replace(motion, **{name: factor * getattr(motion, name) for name in records})
 
 
 def test_each_sum_is_that_of_separate_runs():
-    assessment = made()
-    for item in cumulative(assessment):
-        for run, total in zip(item.array.motions, item.sums_m, strict=True):
-            peaks = []
-            for factor in (1.0, 0.5, 0.5, 0.25):
-                alone = []
-                for heading in run.motion.headings:
-                    pair = (run.motion.ax_mps2, run.motion.ay_mps2)
-                    along, across = pair[::-1] if heading.swapped else pair
-                    alone.append(
-                        slide(
-                            factor * run.motion.scale * heading.sign * along,
-                            run.motion.dt_s,
-                            slope_rad=item.array.array.slope_rad,
-                            mu=item.array.array.mu,
-                            ay_mps2=factor * run.motion.scale * across if across.size else None,
-                            az_mps2=factor * run.motion.scale * run.motion.az_mps2,
-                        ).prd_m
-                    )
-                peaks.append(max(alone))
+    for item in cumulative(made()):
+        for motion, total in zip(scenes.motions(), item.sums_m, strict=True):
+            events = [scaled(motion, factor) for factor in (1.0, 0.5, 0.5, 0.25)]
+            peaks = [prd_m(event, item.array.array) for event in events]
             assert abs(total - sum(peaks)) <= sum(map(DEFAULT.bound_m, peaks))
         assert item.mean_m == pytest.approx(np.mean(item.sums_m))
         assert item.largest_m == max(item.sums_m)
@@ -57,16 +44,11 @@ def test_a_rectangular_pulse_gives_the_closed_form():
     mu, seconds, dt = 0.45, 0.5, 0.001
     pulse = np.zeros(4001)
     pulse[1000:1500] = 1.0 * G
-    motion = replace(stand_in.motion("P", pulse, dt_s=dt, signs=(1,)), scale=1.0)
-    assessment = made("0.60", (motion,))
-    for item in cumulative(assessment):
-        closed = 0.0
-        for factor in (1.0, 0.6):
-            a, resisting = factor * G, mu * G
-            speed = a * seconds
-            closed += speed**2 / 2 * (1 / resisting - 1 / a)
-        if item.array.array.slope_rad == 0.0:
-            assert item.sums_m[0] == pytest.approx(closed, rel=3e-3)
+    motion = stand_in.motion("P", pulse, dt_s=dt, signs=(1,))
+    level = [stand_in.array("A1", 0.0, mu=mu)]
+    (item,) = cumulative(made("0.60", (motion,), arrays=level, objects=[], clearances=[]))
+    closed = sum((a * seconds) ** 2 / 2 * (1 / (mu * G) - 1 / a) for a in (G, 0.6 * G))
+    assert item.sums_m[0] == pytest.approx(closed, rel=3e-3)
 
 
 def test_the_sums_carry_the_factor_of_the_design_value_beside_them():
@@ -89,19 +71,7 @@ def test_a_run_without_a_final_value_leaves_no_sum():
 
 
 def test_it_is_off_unless_the_workbook_names_events():
-    assessment = made("")
-    assert cumulative(assessment) == ()
-    assert "Cumulative displacement" not in printed(assessment, "how-sure")
-    assert "starts from the installed position." in printed(assessment, "basis")
-
-
-def test_results_have_what_is_added():
-    assessment = made()
-    document = json.loads(results_json(assessment, support(assessment)))
-    assert [item["array"] for item in document["cumulative"]] == [a.id for a in assessment.arrays]
-    first = document["cumulative"][0]
-    assert first["largest_m"] == max(first["sums_m"].values())
-    assert first["mean_m"] > assessment.arrays[0].analysis.mean_m
+    assert cumulative(made("")) == ()
 
 
 @pytest.mark.parametrize(
@@ -109,18 +79,11 @@ def test_results_have_what_is_added():
 )
 @pytest.mark.by_day(2)
 def test_factors_outside_of_the_range_are_refused_by_cell(tmp_path, typed):
-    path = edit(make(tmp_path), lambda book: found(book).__setattr__("value", typed))
-    (line,) = problems(path)
-    assert line.startswith("Options!")
+    (line,) = problems(type_into(make(tmp_path), {CELL: typed}))
+    assert line.startswith(at(CELL))
     assert "give up to 20 factors with decimal points, above 0.0 and up to 1.0" in line
 
 
 def test_factors_are_read_from_the_sheet(tmp_path):
-    path = edit(make(tmp_path), lambda book: found(book).__setattr__("value", FACTORS))
+    path = type_into(make(tmp_path), {CELL: FACTORS})
     assert read_workbook(path).input.options.smaller_factors == (0.5, 0.5, 0.25)
-
-
-def found(book):
-    """The cell of the factors."""
-    title, cell = book.defined_names["options_smaller_events"].attr_text.split("!")
-    return book[title.strip("'")][cell.replace("$", "")]

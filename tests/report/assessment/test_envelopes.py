@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,13 +12,11 @@ from hypothesis import strategies as st
 
 import scenes
 import stand_in
-from report.assessment.envelopes import (
-    design_envelope,
-    hull,
-    keep_clear_m,
-    runs_envelope,
-)
+from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
 from report.sheet.shapes import Polygon, Rectangle, closest, gap_m
+
+CIRCUMSCRIBED = 1.0 / math.cos(math.pi / 24)
+"""Of a circle, its polygon of 24 sides around it: 0.9 % outside."""
 
 
 @pytest.fixture(scope="module")
@@ -52,8 +51,7 @@ def test_the_envelope_of_the_runs_reaches_no_farther_than_their_largest_prd(done
     for array in done.arrays:
         largest = max(run.result.prd_m for m in array.motions for run in m.runs)
         reach = [point_gap(array.array.shape, point) for point in runs_envelope(array)]
-        # The circumscribed polygon of 24 sides is 0.9 % outside of its circle.
-        assert max(reach) <= largest / math.cos(math.pi / 24) + 1e-12
+        assert max(reach) <= largest * CIRCUMSCRIBED + 1e-12
 
 
 def point_gap(shape, point):
@@ -107,15 +105,12 @@ L_SHAPE = Polygon(((0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (4.0, 4.0), (4.0, 10.0)
 
 @pytest.mark.parametrize("design_m", [0.5, 2.0])
 def test_the_envelope_of_an_outline_is_as_far_away_as_it_moves_everywhere(done, design_m):
-    class Outlined:
-        shape = L_SHAPE
-
-    moved = replace(done.arrays[0], array=Outlined(), design_m=design_m)
+    outlined = SimpleNamespace(shape=L_SHAPE)
+    moved = replace(done.arrays[0], array=outlined, design_m=design_m)
     outline = Polygon(design_envelope(moved))
     reach = [point_gap(L_SHAPE, point) for point in outline.points]
     assert min(reach) >= design_m - 1e-9
-    # The circumscribed polygon of 24 sides is 0.9 % outside of its circle.
-    assert max(reach) <= design_m / math.cos(math.pi / 24) + 1e-9
+    assert max(reach) <= design_m * CIRCUMSCRIBED + 1e-9
     # Five corners round off; in the notch two strips of the width of the move overlap.
     exact = 64.0 + 40.0 * design_m + (5.0 * math.pi / 4.0 - 1.0) * design_m**2
     assert exact <= outline.area_m2 <= exact * 1.01

@@ -18,49 +18,50 @@ def runs(mus, velocities=VELOCITIES):
     ]
 
 
+def constant(mu):
+    return {"mu": mu, "mu_fast": None, "rate": None}
+
+
 def basis(given, mu=LAW.mu_slow, mu_fast=LAW.mu_fast, rate=LAW.rate_s_per_m):
     law = {"mu": mu, "mu_fast": mu_fast, "mu_rate_s_per_m": rate}
     data = stand_in.project(arrays=[stand_in.array("A1", 1.0, **law)], friction_runs=given)
     return basis_words(data, data.arrays[0])
 
 
-def test_the_fit_of_the_runs_alone_is_as_tested():
-    on_law = runs([LAW.at(v) for v in VELOCITIES])
-    assert basis(on_law) == f"as tested: the fit of the wet runs {RANGE}"
-    assert basis(on_law, mu=0.396, mu_fast=0.504) == f"as tested: the fit of the wet runs {RANGE}"
-    assert basis(on_law, mu=0.39) == f"entered, at or below the tests {RANGE}"
-    assert basis(on_law, mu_fast=0.48) == f"entered, at or below the tests {RANGE}"
-    above = runs([LAW.at(v) + 0.05 for v in VELOCITIES])
-    assert basis(above) == f"entered, at or below the tests {RANGE}"
-
-
-def test_too_few_velocities_for_a_fit_are_no_fit():
-    on_law = runs([LAW.at(v) for v in VELOCITIES[:3]], VELOCITIES[:3])
-    assert basis(on_law) == (
-        "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 2.00 in/s (50.8 mm/s)"
-    )
+ON_LAW = runs([LAW.at(v) for v in VELOCITIES])
+NEAR = runs((0.457, 0.495, 0.525, 0.527))  # mean 0.501
 
 
 @pytest.mark.parametrize(
-    ("mu", "says"),
+    ("given", "law", "says"),
     [
-        (0.45, "entered, at or below the tests"),
-        (0.48, "entered, on average at or below the tests"),
-        (0.501, "entered, on average at or below the tests"),
-        (0.504, "entered, on average within 0.005 of the tests"),
+        (ON_LAW, {}, "as tested: the fit of the wet runs"),
+        (ON_LAW, {"mu": 0.396, "mu_fast": 0.504}, "as tested: the fit of the wet runs"),
+        (ON_LAW, {"mu": 0.39}, "entered, at or below the tests"),
+        (ON_LAW, {"mu_fast": 0.48}, "entered, at or below the tests"),
+        (runs([LAW.at(v) + 0.05 for v in VELOCITIES]), {}, "entered, at or below the tests"),
+        (NEAR, constant(0.45), "entered, at or below the tests"),
+        (NEAR, constant(0.48), "entered, on average at or below the tests"),
+        (NEAR, constant(0.501), "entered, on average at or below the tests"),
+        (NEAR, constant(0.504), "entered, on average within 0.005 of the tests"),
     ],
 )
-def test_one_coefficient_is_entered_however_near_the_mean_it_is(mu, says):
-    given = runs((0.457, 0.495, 0.525, 0.527))  # mean 0.501
-    assert basis(given, mu, None, None) == f"{says} {RANGE}"
+def test_the_fit_alone_is_as_tested_and_one_coefficient_is_entered(given, law, says):
+    assert basis(given, **law) == f"{says} {RANGE}"
 
 
-def test_the_velocities_of_the_tests_are_said_as_far_as_they_are_given():
-    assert basis(runs((0.5,), (0.0254,)), 0.45, None, None) == (
-        "entered, at or below the tests at 1.00 in/s (25.4 mm/s)"
-    )
-    unknown = [{"surface": "wet", "number": 1, "mu": 0.5}]
-    assert basis(unknown, 0.45, None, None) == (
-        "entered, at or below the tests (velocities not given)"
-    )
-    assert basis([]) == "entered; no runs of friction tests are given"
+@pytest.mark.parametrize(
+    ("given", "law", "says"),
+    [
+        (runs([LAW.at(v) for v in VELOCITIES[:3]], VELOCITIES[:3]), {},
+         "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 2.00 in/s (50.8 mm/s)"),
+        (runs((0.5,), (0.0254,)), constant(0.45),
+         "entered, at or below the tests at 1.00 in/s (25.4 mm/s)"),
+        (runs((0.5,), (None,)), constant(0.45),
+         "entered, at or below the tests (velocities not given)"),
+        ([], {}, "entered; no runs of friction tests are given"),
+    ],
+    ids=["too few velocities for a fit", "one velocity", "no velocity", "no runs"],
+)  # fmt: skip
+def test_the_velocities_of_the_tests_are_said_as_far_as_they_are_given(given, law, says):
+    assert basis(given, **law) == says

@@ -28,12 +28,12 @@ def runs(mu=0.45, velocity_mps=0.0254, count=3):
     ]
 
 
-def assessed(arrays, tests, **changes):
-    return scenes.package(arrays=arrays, friction_runs=tests, **changes).assessment
+def assessed(arrays, tests, shaking=MOTIONS, **changes):
+    return scenes.package(shaking, arrays=arrays, friction_runs=tests, **changes).assessment
 
 
-def one(mu=0.45, slope=2.0, tests=(), **law):
-    return assessed([stand_in.array("A1", slope, mu=mu, **law)], tests, clearances=[])
+def one(mu=0.45, slope=2.0, tests=(), shaking=MOTIONS, **law):
+    return assessed([stand_in.array("A1", slope, mu=mu, **law)], tests, shaking, clearances=[])
 
 
 def rows(done):
@@ -43,20 +43,13 @@ def rows(done):
 @pytest.fixture(scope="module")
 def by_velocity():
     """A1 and A2 alike but for their friction: constant, and a law that begins with the same."""
-    arrays = [
-        stand_in.array("A1", 2.0, mu=0.30),
-        stand_in.array("A2", 2.0, x=120, **LAW),
-    ]
+    arrays = [stand_in.array("A1", 2.0, mu=0.30), stand_in.array("A2", 2.0, x=120, **LAW)]
     gaps = [
         stand_in.clearance("A1", "RTU-1", 0.4),
         stand_in.clearance("A1", "A2", 1.2),
         stand_in.clearance("A2", "S edge", 1.7, "down"),
     ]
-    reviewed = {
-        "peer_reviewed": True, "peer_reviewer": "R", "peer_license": "1", "peer_date": "2026-03-01"
-    }  # fmt: skip
-    tests = runs(0.45, 0.0254)
-    return assessed(arrays, tests, clearances=gaps, options=reviewed)
+    return assessed(arrays, runs(0.45, 0.0254), clearances=gaps, options=scenes.REVIEW)
 
 
 def test_the_velocity_is_the_largest_of_all_runs(by_velocity):
@@ -81,7 +74,7 @@ def test_friction_beyond_the_tests_above_their_smallest_is_a_condition(by_veloci
         {"surface": "wet", "number": 9, "mu": 0.40, "velocity_mps": 0.002},
         *runs(0.47, 0.0254),
     ]
-    done = one(0.30, mu_fast=0.45, mu_rate_s_per_m=20.0, tests=slower)
+    done = one(tests=slower, **LAW)
     row = rows(done)["A1"]
     assert row.verdict is Verdict.CONDITIONS
     assert "; tested to 1.00 in/s (25.4 mm/s); μ beyond 0.450" in row.found
@@ -103,12 +96,9 @@ def test_tests_as_fast_as_the_array_slides_leave_nothing_beyond():
 
 def test_an_array_that_does_not_slide_is_not_beyond_any_test():
     weak = [replace(motion, scale=1e-3 * motion.scale) for motion in MOTIONS]
-    arrays = [stand_in.array("A1", 0.5)]
-    data = stand_in.project(arrays=arrays, friction_runs=runs(0.2), clearances=[])
-    row = rows(stand_in.assess_input(data, weak))["A1"]
-    assert (row.is_satisfied, row.found) == (
-        True, "does not slide; tested to 1.00 in/s (25.4 mm/s)",
-    )  # fmt: skip
+    row = rows(one(slope=0.5, tests=runs(0.2), shaking=weak))["A1"]
+    assert row.is_satisfied
+    assert row.found == "does not slide; tested to 1.00 in/s (25.4 mm/s)"
 
 
 def test_tests_without_velocities_show_friction_up_to_their_smallest_mean():
@@ -148,9 +138,7 @@ def test_a_run_without_a_velocity_may_be_any_velocity():
     assert not replace(unknown, friction=coulomb(0.50)).is_satisfied
     assert unknown.is_satisfied  # within rounding
     up = tuple(replace(motion, az_mps2=2.0 * motion.ax_mps2) for motion in MOTIONS)
-    arrays = [stand_in.array("A1", 0.5)]
-    data = stand_in.project(arrays=arrays, friction_runs=runs(0.40), clearances=[])
-    row = rows(stand_in.assess_input(data, up))["A1"]
+    row = rows(one(slope=0.5, tests=runs(0.40), shaking=up))["A1"]
     assert row.found.startswith("a run gives no velocity; tested to")
     assert not row.is_satisfied
 
@@ -164,9 +152,9 @@ def test_the_low_velocity_coefficient_alone_gives_what_it_gives_when_entered(by_
     slow = by_velocity.low_velocity
     assert [item.id for item in slow.arrays] == ["A2"]
     entered = [stand_in.array("A1", 2.0, mu=0.30), stand_in.array("A2", 2.0, x=120, mu=0.30)]
+    arrays = stand_in.project(arrays=entered).arrays
     again = stand_in.assess_input(
-        by_velocity.project.model_copy(update={"arrays": stand_in.project(arrays=entered).arrays}),
-        MOTIONS,
+        by_velocity.project.model_copy(update={"arrays": arrays}), MOTIONS
     )
     assert slow.arrays[0].design_m == again.arrays[1].design_m
     assert slow.arrays[0].design_m > by_velocity.arrays[1].design_m
@@ -176,15 +164,10 @@ def test_the_low_velocity_coefficient_alone_gives_what_it_gives_when_entered(by_
     # The two arrays are as unlike as entered: their coefficients are equal in these runs alone.
     assert again.clearances[1].neighbor is Neighbor.LIKE
     assert slow.clearances[2].neighbor is Neighbor.UNLIKE
-    found = [gap.ok for gap in slow.gaps_of("A2")]
-    failed = [
-        f"{gap.clearance.array} to {gap.clearance.object}"
-        for gap in slow.gaps_of("A2")
-        if not gap.ok
-    ]
+    failed = [gap.clearance for gap in slow.gaps_of("A2") if not gap.ok]
     remedy = rows(by_velocity)["A2"].remedy
-    assert all(name in remedy for name in failed)
-    assert ("NG: " in remedy) is (not all(found))
+    assert all(f"{gap.array} to {gap.object}" in remedy for gap in failed)
+    assert ("NG: " in remedy) is bool(failed)
 
 
 def test_reruns_with_other_friction_have_none_of_their_own(by_velocity):

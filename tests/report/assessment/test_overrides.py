@@ -1,7 +1,5 @@
 """Overrides and departures that require less: a condition each, and a mark on what they change."""
 
-import datetime as dt
-
 import pytest
 
 import scenes
@@ -11,14 +9,6 @@ from report.assessment.overrides import OVERRIDDEN, override_rows
 from report.assessment.verdict import Verdict
 from report.sheet.fields import Place
 from solver.records.acceptance_row import Consequence
-
-DIRECTIONAL = {
-    "directional": True,
-    "directional_reason": "Agreed on 2026-02-10",
-    "directional_reviewer": "Reviewer of record",
-    "directional_license": "CA S0000",
-    "directional_date": dt.date(2026, 3, 1),
-}
 
 
 def overrides(**values):
@@ -79,7 +69,7 @@ def test_the_row_names_both_numbers_and_the_clause():
 
 
 def test_a_departure_is_a_condition():
-    (found,) = override_rows(stand_in.project(options=DIRECTIONAL))
+    (found,) = override_rows(stand_in.project(options=scenes.DEPARTURE))
     assert found.title == "Displacement by direction"
     assert "Agreed on 2026-02-10" in found.found
     assert found.verdict is Verdict.CONDITIONS
@@ -112,23 +102,19 @@ def marks(done):
     return [item.design_mark for item in done.arrays], [gap.mark for gap in done.clearances]
 
 
-def test_without_overrides_nothing_is_marked():
-    done = assessed()
-    assert marks(done) == (["", ""], ["", ""])
-    assert not done.is_overridden
-
-
 @pytest.mark.parametrize(("factor", "mark"), [(0.5, "‡"), (1.0, ""), (1.5, "‡")])
 def test_a_separation_carries_the_mark_of_its_factor(factor, mark):
     done = assessed(separation_fixed=factor)
     assert marks(done) == (["", ""], [mark, ""])
     gap = done.clearances[0]
+    assert gap.factor == factor
     assert (gap.design_mark, gap.ratio_words.endswith("‡")) == ("", bool(mark))
 
 
 def test_a_floor_that_is_lowered_marks_what_it_governed():
     """The value from analysis is between the two floors: without the override it would not do."""
     plain = assessed()
+    assert (marks(plain), plain.is_overridden) == ((["", ""], ["", ""]), False)
     assert [item.governs for item in plain.arrays] == ["floor", "floor"]
     done = assessed(analysis_floor=0.0)
     assert [item.governs for item in done.arrays] == ["analysis", "analysis"]
@@ -148,10 +134,12 @@ def test_a_floor_that_is_lowered_marks_nothing_where_it_did_not_govern():
 
 
 def test_a_route_that_an_override_alone_permits_is_marked():
-    arrays = [stand_in.array("A1", 8.0, mu=0.6)]
-    wide = overrides(analysis_max_slope_deg=9.0, ibc_max_slope_deg=9.0)
-    changes = {"arrays": arrays, "clearances": [], "overrides": wide}
-    done = scenes.package(scenes.motions(7), **changes).assessment
+    done = scenes.package(
+        scenes.motions(7),
+        arrays=[stand_in.array("A1", 8.0, mu=0.6)],
+        clearances=[],
+        overrides=overrides(analysis_max_slope_deg=9.0, ibc_max_slope_deg=9.0),
+    ).assessment
     assert done.arrays[0].is_permitted
     assert marks(done) == (["‡"], [])
 

@@ -4,45 +4,41 @@ import math
 import re
 import statistics
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import scenes
 import stand_in
-from report.assessment.arrays import DesignBasis
+from one_by_one import slid, slides
+from report.assessment.arrays import DesignBasis, assess_array
 from report.assessment.evidence import support
+from report.assessment.run_warnings import run_warnings
+from report.assessment.runs import motion_run
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction
 from solver.model import Status
 from solver.rules.provisions import Basis
 from solver.sliding import least_model
-from solver.sliding.checked import slide
 from solver.sliding.least_model import Rung
 
-
-def motions(count=7, seconds=12.0, **changes):
-    """Half a second less for a run of seven."""
-    return scenes.motions(count, seconds, **changes)
-
-
-G = 9.80665
-
-
-def assessed(shaking=None, **changes):
-    return scenes.package(shaking or motions(), **changes).assessment
+PEER = {"peer_reviewed": True}
+STEEP = [stand_in.array("A1", 4.0)]
+SHORT = scenes.motions()
+SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds
+RESTING = scenes.motions(7, 12.0, peak_g=0.05, vertical_peak_g=0.01)
+CUT = np.concatenate([np.zeros(100), np.full(100, -12.0)])
+"""Accelerations [m/s2] that end while an array slides."""
 
 
-def resting(count=7, **changes):
-    """Motions too weak to move anything."""
-    return motions(count, peak_g=0.05, vertical_peak_g=0.01, **changes)
+def assessed(shaking=SEVEN, **changes):
+    return scenes.package(shaking, **changes).assessment
 
 
-def lifting():
-    """A motion whose vertical component lifts the array."""
-    ax = np.zeros(400)
-    az = np.concatenate([np.zeros(200), np.full(200, -1.2 * G)])
-    return stand_in.motion("UP", ax, az)
+def alone(shaking=SEVEN, **changes):
+    """An assessment of arrays without clearances."""
+    return assessed(shaking, objects=[], clearances=[], **changes)
 
 
 @pytest.fixture(scope="module")
@@ -50,49 +46,27 @@ def done():
     return assessed()
 
 
-def slid(motion, along, across, slope_deg, mu):
-    return slide(
-        along,
-        motion.dt_s,
-        slope_rad=math.radians(slope_deg),
-        mu=mu,
-        ay_mps2=across,
-        az_mps2=motion.az_mps2,
-    )
-
-
-def four(motion, slope_deg, mu):
-    """The four combinations that are run, each by the solver itself."""
-    pairs = ((motion.ax_mps2, motion.ay_mps2), (motion.ay_mps2, motion.ax_mps2))
-    return [slid(motion, s * x, y, slope_deg, mu) for x, y in pairs for s in (1, -1)]
+def stated(slope_deg, mu):
+    return SimpleNamespace(slope_rad=math.radians(slope_deg), mu=mu)
 
 
 def test_each_motion_is_governed_by_its_worst_component_and_polarity(done):
     item = done.arrays[1]
-    peaks = [max(r.prd_m for r in four(motion, 2.0, 0.45)) for motion in motions()]
+    peaks = [max(run.prd_m for run in slides(motion, stated(2.0, 0.45))) for motion in SEVEN]
     assert [run.governing.result.prd_m for run in item.motions] == peaks
     assert item.analysis.mean_m == pytest.approx(sum(peaks) / 7)
     assert item.analysis.value_m == pytest.approx(1.1 * sum(peaks) / 7)
     assert item.worst.governing.result.prd_m == max(peaks)
+    assert item.variation == pytest.approx(statistics.stdev(peaks) / statistics.mean(peaks))
 
 
-def test_reversing_the_component_across_mirrors_the_motion_and_changes_no_displacement():
-    for motion in motions(2, seconds=12.0):
-        for along, across in (
-            (motion.ax_mps2, motion.ay_mps2),
-            (-motion.ay_mps2, motion.ax_mps2),
-        ):
-            first = slid(motion, along, across, 3.0, 0.4)
-            other = slid(motion, along, -across, 3.0, 0.4)
-            assert first.across_m > 0.0
-            for name in ("prd_m", "down_m", "up_m", "across_m", "residual_m", "t_prd_s"):
-                assert getattr(first, name) == pytest.approx(getattr(other, name), rel=1e-11)
-            assert first.residual_across_m == pytest.approx(-other.residual_across_m, rel=1e-10)
+def test_of_one_motion_there_is_no_variation():
+    assert math.isnan(alone(SEVEN[:1]).arrays[0].variation)
 
 
 def test_each_direction_has_the_farthest_of_all_runs_of_each_motion(done):
     item = done.arrays[2]
-    by_motion = [four(motion, 3.0, 0.55) for motion in motions()]
+    by_motion = [slides(motion, stated(3.0, 0.55)) for motion in SEVEN]
     for direction, name in (("down", "down_m"), ("up", "up_m"), ("across", "across_m")):
         peaks = [max(getattr(r, name) for r in results) for results in by_motion]
         assert [m.peak_m(Direction(direction)) for m in item.motions] == peaks
@@ -102,9 +76,9 @@ def test_each_direction_has_the_farthest_of_all_runs_of_each_motion(done):
 
 
 def test_a_reversed_motion_is_the_motion_on_the_opposite_slope(done):
-    motion = motions()[0]
+    motion = SEVEN[0]
     reversed_ = done.arrays[2].motions[0].runs[1].result
-    opposite = slid(motion, motion.ax_mps2, motion.ay_mps2, -3.0, 0.55)
+    opposite = slid(motion, motion.ax_mps2, motion.ay_mps2, stated(-3.0, 0.55))
     assert reversed_.prd_m == pytest.approx(opposite.prd_m, rel=1e-9)
     assert reversed_.down_m == pytest.approx(opposite.up_m, rel=1e-6)
 
@@ -115,9 +89,7 @@ def test_a_requested_model_is_run_and_compared_with_the_adequate_one():
         stand_in.array("A2", 2.0, x=120),
     ]
     for reviewed in (False, True):
-        done = assessed(
-            arrays=arrays, objects=[], clearances=[], options={"peer_reviewed": reviewed}
-        )
+        done = alone(arrays=arrays, options={"peer_reviewed": reviewed})
         asked, free = done.arrays
         assert {r.solution.rung for m in asked.motions for r in m.runs} == {Rung.ONE_AXIS_VERTICAL}
         assert asked.chosen == free.directions
@@ -129,37 +101,32 @@ def test_a_requested_model_is_run_and_compared_with_the_adequate_one():
 
 
 def test_friction_by_speed_reaches_the_solver():
-    arrays = [stand_in.array("A1", 2.0, mu=0.4, mu_fast=0.5, mu_rate_s_per_m=20.0)]
-    done = assessed(motions(3, seconds=8.0), arrays=arrays, objects=[], clearances=[])
-    constant = assessed(
-        motions(3, seconds=8.0),
-        arrays=[stand_in.array("A1", 2.0, mu=0.4)],
-        objects=[],
-        clearances=[],
+    law = {"mu_fast": 0.5, "mu_rate_s_per_m": 20.0}
+    by_speed, constant = (
+        alone(SHORT, arrays=[stand_in.array("A1", 2.0, mu=0.4, **given)]).arrays[0]
+        for given in (law, {})
     )
-    runs = [run for m in done.arrays[0].motions for run in m.runs]
-    assert {run.solution.rung for run in runs} == {Rung.SPEED_FRICTION}
-    assert done.arrays[0].analysis.mean_m < constant.arrays[0].analysis.mean_m
+    rungs = {run.solution.rung for motion in by_speed.motions for run in motion.runs}
+    assert rungs == {Rung.SPEED_FRICTION}
+    assert by_speed.analysis.mean_m < constant.analysis.mean_m
 
 
-def test_a_fixed_polarity_runs_once():
-    motion = replace(motions()[0], signs=(-1,))
-    done = assessed((motion,) * 3)
-    runs = done.arrays[0].motions[0].runs
-    assert [run.heading.name for run in runs] == ["record −", "transverse −"]
-
-
-def test_without_a_transverse_component_the_record_alone_is_run():
-    motion = replace(motions()[0], ay_mps2=np.empty(0))
-    done = assessed((motion,) * 3)
-    runs = done.arrays[0].motions[0].runs
-    assert [run.heading.name for run in runs] == ["record +", "record −"]
+@pytest.mark.parametrize(
+    ("changes", "names"),
+    [
+        ({"signs": (-1,)}, ["record −", "transverse −"]),
+        ({"ay_mps2": np.empty(0)}, ["record +", "record −"]),
+    ],
+    ids=["a fixed polarity", "no transverse component"],
+)
+def test_only_the_headings_that_a_motion_has_are_run(changes, names):
+    done = alone((replace(SHORT[0], **changes),) * 3)
+    assert [run.heading.name for run in done.arrays[0].motions[0].runs] == names
 
 
 def test_swapping_the_horizontal_components_changes_names_alone():
-    given = motions(3, seconds=8.0)
-    swapped = [replace(m, ax_mps2=m.ay_mps2, ay_mps2=m.ax_mps2) for m in given]
-    first, other = assessed(given), assessed(swapped)
+    swapped = [replace(m, ax_mps2=m.ay_mps2, ay_mps2=m.ax_mps2) for m in SHORT]
+    first, other = assessed(SHORT), assessed(swapped)
     for a, b in zip(first.arrays[1].motions, other.arrays[1].motions, strict=True):
         assert a.governing.result == b.governing.result
         assert a.governing.heading.swapped is not b.governing.heading.swapped
@@ -167,23 +134,15 @@ def test_swapping_the_horizontal_components_changes_names_alone():
         assert a.history().result == a.governing.result
 
 
-def test_the_variation_is_that_of_the_peaks(done):
-    item = done.arrays[1]
-    peaks = [run.governing.result.prd_m for run in item.motions]
-    assert item.variation == pytest.approx(statistics.stdev(peaks) / statistics.mean(peaks))
-    assert math.isnan(assessed(motions(1)).arrays[0].variation)
-
-
 def test_the_floor_governs_unless_peer_reviewed():
     for reviewed, governs in ((False, "floor"), (True, "analysis")):
-        done = assessed(resting(), options={"peer_reviewed": reviewed})
-        item = done.arrays[0]
+        item = assessed(RESTING, options={"peer_reviewed": reviewed}).arrays[0]
         assert item.governs == governs
         assert item.design_m == (0.0 if reviewed else 0.5 * item.prescriptive.value_m)
 
 
 def test_uplift_withholds_the_displacement_and_fails_every_clearance():
-    done = assessed((*motions(6), lifting()))
+    done = assessed((*SEVEN[:6], stand_in.lifting()))
     item = done.arrays[0]
     assert item.worst.motion.id == "UP"
     assert item.worst.governing.result.status is Status.UPLIFT
@@ -194,62 +153,55 @@ def test_uplift_withholds_the_displacement_and_fails_every_clearance():
     assert any("normal force falls below zero" in line and "(at " in line for line in done.warnings)
 
 
-def test_a_run_without_a_result_withholds_the_displacement(monkeypatch):
-    monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS", 10)
-    monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS_OF_SAMPLE", 0)
-    done = stand_in.assess_input(stand_in.project(), motions(3))
-    item = done.arrays[0]
-    assert item.worst.governing.result.status is Status.STEP_LIMIT
+@pytest.mark.parametrize("status", [one for one in Status if one is not Status.OK])
+def test_a_run_without_a_final_displacement_withholds_that_of_its_array(done, status):
+    first, *others = done.arrays[0].motions
+    run, *rest = first.runs
+    result = replace(run.result, status=status)
+    lost = replace(run, solution=replace(run.solution, result=result))
+    runs = (motion_run(first.motion, [lost, *rest]), *others)
+    item = assess_array(
+        done.project, done.rules, done.arrays[0].array, runs, runs, motions_qualify=True
+    )
+    assert item.worst.governing is lost
     assert math.isnan(item.design_m)
-    assert not any(gap.ok for gap in done.clearances)
-    assert not done.verdict.is_permitted
-    assert any("the run exceeded the limit on time steps" in line for line in done.warnings)
+    assert done.is_sound(done.arrays[0])
+    assert not done.is_sound(item)
+    (line,) = run_warnings([item], us_first=True)
+    assert line.startswith(f"Array A1, motion M1, record +: {status.sentence}")
 
 
 def test_two_motions_are_too_few():
-    done = assessed(motions(2))
-    item = done.arrays[0]
+    item = assessed(SEVEN[:2]).arrays[0]
     assert item.analysis.basis is Basis.TOO_FEW
     assert item.governs is DesignBasis.PRESCRIPTIVE
     assert item.design_m == item.prescriptive.value_m
 
 
 def test_without_either_route_there_is_no_value():
-    steep = stand_in.array("A1", 4.0)
-    done = assessed(motions(2), arrays=[steep], clearances=[])
+    done = alone(SEVEN[:2], arrays=STEEP)
     assert done.arrays[0].governs is DesignBasis.NO_VALUE
     assert done.array_verdict(done.arrays[0]) is Verdict.NG
 
 
+def test_too_few_motions_for_a_chosen_statistic_are_never_ok():
+    done = alone(SEVEN[:5], arrays=STEEP, options={"statistic": "mean"})
+    assert math.isnan(done.arrays[0].design_m)
+    assert not done.verdict.is_permitted
+
+
 def test_the_prescriptive_route_takes_no_less_than_a_computed_displacement():
-    done = assessed(motions(2, seconds=30.0, peak_g=6.0, vertical_peak_g=0.1), clearances=[])
+    done = alone(scenes.motions(2, 30.0, peak_g=6.0, vertical_peak_g=0.1))
     for item in done.arrays:
         largest = max(run.governing.prd_m for run in item.motions)
         assert item.design_m == max(item.prescriptive.value_m, largest)
     assert any(item.design_m > item.prescriptive.value_m for item in done.arrays)
 
 
-def test_too_few_motions_for_a_chosen_statistic_are_never_ok():
-    steep = stand_in.array("A1", 4.0)
-    done = assessed(motions(5), arrays=[steep], options={"statistic": "mean"}, clearances=[])
-    assert math.isnan(done.arrays[0].design_m)
-    assert not done.verdict.is_permitted
-
-
-def test_a_motion_that_ends_while_sliding_is_warned_of():
-    ax = np.concatenate([np.zeros(100), np.full(100, -12.0)])
-    cut = stand_in.motion("CUT", ax, signs=(1,))
-    done = assessed((*motions(6), cut))
-    assert any("CUT" in line and "still sliding" in line for line in done.warnings)
-    assert all(math.isnan(item.design_m) for item in done.arrays)
-    assert not done.verdict.is_permitted
-
-
 def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
-    ax = np.concatenate([np.zeros(100), np.full(100, -12.0)])
-    cut = [stand_in.motion(f"CUT{k}", ax, signs=(1,)) for k in range(11)]
+    cut = [stand_in.motion(f"CUT{k}", CUT, signs=(1,)) for k in range(11)]
     arrays = [stand_in.array("A1", 0.0), stand_in.array("A2", 0.0, x=120)]
-    (line,) = assessed(cut, arrays=arrays, objects=[], clearances=[]).warnings
+    (line,) = alone(cut, arrays=arrays).warnings
     # From rest, (12 - 0.45 g) m/s2 over 99 whole intervals of 0.01 s, and half the first.
     speed = (12.0 - 0.45 * 9.80665) * 0.99
     found = re.fullmatch(
@@ -260,30 +212,23 @@ def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
     assert float(found[1]) * 0.0254 == pytest.approx(speed, rel=0.01)
 
 
-def test_a_limit_of_the_building_fails_the_whole():
-    assert not assessed(site=stand_in.site(risk_category="IV", i_e=1.5)).verdict.is_permitted
-    assert not assessed(site=stand_in.site(stories=7)).verdict.is_permitted
-
-
-def test_an_override_changes_the_result_and_is_kept_with_its_reason():
-    change = {"provision": "separation_fixed", "value": 1.5, "reason": "plan check comment 4"}
-    done = assessed(overrides=[change])
-    assert done.clearances[1].factor == 1.5
-    assert done.rules.values["separation_fixed"].reason == "plan check comment 4"
+@pytest.mark.parametrize("changes", [{"risk_category": "IV", "i_e": 1.5}, {"stories": 7}], ids=str)
+def test_a_limit_of_the_building_fails_the_whole(changes):
+    assert assessed(options=PEER, clearances=[]).verdict.is_permitted
+    failed = assessed(options=PEER, clearances=[], site=stand_in.site(**changes))
+    assert not failed.verdict.is_permitted
 
 
 def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
     solved = []
     solve = least_model.solve
     monkeypatch.setattr(least_model, "solve", lambda *call: solved.append(call) or solve(*call))
-    given = motions(3, seconds=8.0)
 
     def found(*rows):
         solved.clear()
         gaps = [stand_in.clearance(row["id"], "RTU-1", 7 * stand_in.FOOT) for row in rows]
-        options = {"peer_reviewed": True}
-        data = stand_in.project(arrays=list(rows), clearances=gaps, options=options)
-        return stand_in.assess_input(data, given)
+        data = stand_in.project(arrays=list(rows), clearances=gaps, options=PEER)
+        return stand_in.assess_input(data, SHORT)
 
     def runs_of(assessment):
         support(assessment)

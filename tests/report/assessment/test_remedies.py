@@ -5,11 +5,10 @@ import pytest
 
 import scenes
 import stand_in
+from one_by_one import prd_m, slid
 from report.assessment.remedies import MOST_MU, RemedyKind, remedies
 from report.assessment.trials import above, below, reach
-from report.sheet.schema import RuleSetName
 from solver.model import Friction, Status
-from solver.sliding.checked import slide
 
 PEER = {"peer_reviewed": True}
 SHORT = scenes.motions()
@@ -19,37 +18,27 @@ def of(listed, kind, clearance=1):
     return [remedy for remedy in listed if remedy.kind is kind and remedy.clearance == clearance]
 
 
-def made(provided_m, *, arrays=None, options=PEER, motions=SHORT, near="A2", far="A3", **changes):
-    return scenes.package(
-        motions,
-        clearances=[stand_in.clearance(near, far, provided_m)],
-        options=options,
-        **({"arrays": arrays} if arrays else {}),
-        **changes,
-    ).assessment
+def made(provided_m, *, options=PEER, motions=SHORT, far="A3", **changes):
+    gap = stand_in.clearance("A2", far, provided_m)
+    return scenes.package(motions, clearances=[gap], options=options, **changes).assessment
 
 
-def peaks_m(array, motions, mu, share=1.0):
-    """The PRD of each motion over its headings, by the public solver."""
-    return [
-        max(
-            slide(
-                sign * along,
-                motion.dt_s,
-                slope_rad=array.slope_rad,
-                mu=mu,
-                ay_mps2=across,
-                az_mps2=motion.az_mps2,
-                scale=share,
-            ).prd_m
-            for along, across in (
-                (motion.ax_mps2, motion.ay_mps2),
-                (motion.ay_mps2, motion.ax_mps2),
-            )
-            for sign in motion.signs
-        )
-        for motion in motions
-    ]
+def tight(share, **changes):
+    """An assessment with a share of the required clearance, and the displacement that it allows."""
+    (roomy,) = made(9.0, **changes).clearances
+    done = made(share * roomy.required_m, **changes)
+    (gap,) = done.clearances
+    return done, gap.clearance.provided_m / gap.factor
+
+
+def analysis_m(array, mu, share=1.0):
+    """The value from analysis of an array with such friction, by the public solver."""
+    return 1.1 * max(prd_m(motion, array, mu=mu, scale=share) for motion in SHORT)
+
+
+@pytest.fixture(scope="module")
+def failing():
+    return tight(0.6)
 
 
 def test_nothing_is_tried_for_a_clearance_without_a_permitted_route():
@@ -90,54 +79,40 @@ def test_a_satisfied_package_needs_nothing():
     assert remedies(made(9.0)) == ()
 
 
-@pytest.fixture(scope="module")
-def failing():
-    roomy = made(9.0)
-    return made(0.6 * roomy.clearances[0].required_m)
-
-
 def test_the_least_friction_satisfies_there_and_beyond_and_not_below(failing):
-    listed = of(remedies(failing), RemedyKind.FRICTION)
-    gap = failing.clearances[0]
-    by_id = {array.array.id: array.array for array in failing.arrays}
+    done, allowed = failing
+    by_id = {item.array.id: item.array for item in done.arrays}
+    listed = of(remedies(done), RemedyKind.FRICTION)
     assert listed
     for remedy in listed:
         array = by_id[remedy.array]
-        allowed = gap.clearance.provided_m / gap.factor
-
-        def design(mu, array=array):
-            return 1.1 * max(peaks_m(array, SHORT, mu))
-
-        assert design(array.mu) > allowed
+        assert analysis_m(array, array.mu) > allowed
         assert remedy.value > array.mu == remedy.given
-        assert design(remedy.value) <= allowed
-        assert design(remedy.value - remedy.resolution) > allowed
+        assert analysis_m(array, remedy.value) <= allowed
+        assert analysis_m(array, remedy.value - remedy.resolution) > allowed
         for mu in np.arange(remedy.value, MOST_MU + 0.01, 0.07):
-            assert design(mu) <= allowed
+            assert analysis_m(array, mu) <= allowed
         assert remedy.verified == (remedy.value, MOST_MU)
         assert remedy.n_values >= (MOST_MU - remedy.value) / 0.05
 
 
 def test_the_separation_is_the_required_one(failing):
-    (remedy,) = of(remedies(failing), RemedyKind.SEPARATION)
-    assert remedy.value == failing.clearances[0].required_m
-    assert remedy.given == failing.clearances[0].clearance.provided_m
+    (gap,) = failing[0].clearances
+    (remedy,) = of(remedies(failing[0]), RemedyKind.SEPARATION)
+    assert remedy.value == gap.required_m
+    assert remedy.given == gap.clearance.provided_m
     assert remedy.resolution == 0.0
 
 
 @pytest.mark.parametrize("options", [PEER, {}])
 def test_the_largest_s_ds_satisfies_with_all_arrays_and_not_above(options):
-    roomy = made(9.0, options=options)
-    failing = made(0.6 * roomy.clearances[0].required_m, options=options)
-    (remedy,) = of(remedies(failing), RemedyKind.S_DS)
-    gap = failing.clearances[0]
-    allowed = gap.clearance.provided_m / gap.factor
-    arrays = [array.array for array in failing.arrays if array.array.id in ("A2", "A3")]
+    done, allowed = tight(0.6, options=options)
+    (remedy,) = of(remedies(done), RemedyKind.S_DS)
+    arrays = [item.array for item in done.arrays if item.array.id in ("A2", "A3")]
 
     def design(s_ds):
         floor = 0.0 if options else 0.5 * max(60 * 0.0254 * max(s_ds - 0.4, 0) ** 2, 6 * 0.0254)
-        share = s_ds / 1.566
-        return max(floor, *(1.1 * max(peaks_m(a, SHORT, a.mu, share)) for a in arrays))
+        return max(floor, *(analysis_m(array, array.mu, s_ds / 1.566) for array in arrays))
 
     assert design(1.566) > allowed
     assert remedy.value < remedy.given == 1.566
@@ -158,8 +133,8 @@ def test_a_floor_that_forbids_leaves_no_friction_but_an_s_ds():
 
 
 def test_a_minimum_separation_that_forbids_leaves_neither():
-    site = stand_in.project().site.model_copy(update={"rule_set": RuleSetName("ASCE 7-16")})
-    failing = made(0.2, near="A2", far="S edge", site=site)
+    site = stand_in.site(rule_set="ASCE 7-16")
+    failing = made(0.2, far="S edge", site=site)
     listed = remedies(failing)
     (friction,) = of(listed, RemedyKind.FRICTION)
     assert "minimum separation" in friction.basis
@@ -171,34 +146,27 @@ def test_a_friction_law_is_scaled_as_a_whole():
         stand_in.array("A2", 2.0, mu=0.3, mu_fast=0.36, mu_rate_s_per_m=20.0),
         stand_in.array("A3", 3.0, mu=0.9, y=90),
     ]
-    roomy = made(9.0, arrays=arrays)
-    failing = made(0.7 * roomy.clearances[0].required_m, arrays=arrays)
-    remedy = next(r for r in of(remedies(failing), RemedyKind.FRICTION) if r.array == "A2")
-    gap = failing.clearances[0]
-    array = failing.arrays[0].array
+    done, allowed = tight(0.7, arrays=arrays)
+    remedy = next(r for r in of(remedies(done), RemedyKind.FRICTION) if r.array == "A2")
 
     def design(mu):
         law = Friction(mu_slow=mu, mu_fast=1.2 * mu, rate_s_per_m=20.0, mu_static=mu)
-        return 1.1 * max(peaks_m(array, SHORT, law))
+        return analysis_m(done.arrays[0].array, law)
 
-    allowed = gap.clearance.provided_m / gap.factor
     assert design(remedy.value) <= allowed < design(remedy.value - 0.01)
     assert "scaled as a whole" in remedy.basis
 
 
 def test_an_array_that_slides_at_the_end_needs_friction_or_a_weaker_motion():
-    cut = tuple(
-        stand_in.motion(m.id, readonly(m.ax_mps2[:700] / 3), dt_s=m.dt_s, signs=(1,)) for m in SHORT
-    )
+    cut = tuple(stand_in.motion(m.id, m.ax_mps2[:700] / 3, dt_s=m.dt_s, signs=(1,)) for m in SHORT)
     arrays = [stand_in.array("B1", 1.0, mu=0.08)]
-    data = stand_in.project(arrays=arrays, objects=[], clearances=[], options=PEER)
-    failing = stand_in.assessed(stand_in.book(data, cut))
+    failing = scenes.package(cut, arrays=arrays, objects=[], clearances=[], options=PEER).assessment
     (remedy,) = of(remedies(failing), RemedyKind.FRICTION, clearance=0)
     (weaker,) = of(remedies(failing), RemedyKind.S_DS, clearance=0)
-    slope_rad = failing.arrays[0].array.slope_rad
+    array = failing.arrays[0].array
 
     def finishes(mu, share=1.0):
-        runs = (slide(m.ax_mps2, m.dt_s, slope_rad=slope_rad, mu=mu, scale=share) for m in cut)
+        runs = (slid(m, m.ax_mps2, m.ay_mps2, array, mu=mu, scale=share) for m in cut)
         return all(run.status is Status.OK for run in runs)
 
     assert not finishes(0.08)
@@ -208,28 +176,18 @@ def test_an_array_that_slides_at_the_end_needs_friction_or_a_weaker_motion():
     assert not finishes(0.08, (weaker.value + 0.01) / 1.566)
 
 
-def readonly(values):
-    values.setflags(write=False)
-    return values
-
-
 def test_a_block_that_lifts_off_has_no_friction_that_helps():
-    up = np.zeros(400)
-    up[100:200] = -1.4 * stand_in.G
-    up.setflags(write=False)
-    flat = np.zeros(400)
-    flat.setflags(write=False)
-    lifted = tuple(stand_in.motion(f"L{k}", flat, up, signs=(1,)) for k in range(3))
-    failing = made(0.5, motions=lifted)
-    listed = remedies(failing)
-    frictions = of(listed, RemedyKind.FRICTION)
-    assert frictions
-    assert not any(remedy.exists for remedy in frictions)
-    assert "prescriptive displacement alone requires more" in frictions[0].basis
-    roomy = of(remedies(made(9.0, motions=lifted)), RemedyKind.FRICTION)
-    assert roomy
-    assert not any(remedy.exists for remedy in roomy)
-    assert "up to 1.5" in roomy[0].basis
+    lifted = tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))
+    listed = remedies(made(0.5, motions=lifted))
+    narrow, roomy = (
+        of(found, RemedyKind.FRICTION) for found in (listed, remedies(made(9.0, motions=lifted)))
+    )
+    for frictions, reason in (
+        (narrow, "prescriptive displacement alone requires more"),
+        (roomy, "up to 1.5"),
+    ):
+        assert reason in frictions[0].basis
+        assert not any(remedy.exists for remedy in frictions)
     (separation,) = of(listed, RemedyKind.SEPARATION)
     assert not separation.exists
     (s_ds,) = of(listed, RemedyKind.S_DS)

@@ -3,13 +3,13 @@
 The exact runs are those of `reassess`.
 """
 
-import datetime as dt
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.clearances import facing
 from report.assessment.friction import SHIFT, with_friction
@@ -17,20 +17,8 @@ from report.assessment.project import reassess
 from report.assessment.rough import ROUGH, design_off_m
 from solver.sliding.least_model import Rung
 
-DATE = dt.date(2026, 3, 1)
-REVIEWED = {
-    "peer_reviewed": True,
-    "peer_reviewer": "Reviewer of record",
-    "peer_license": "CA S0000",
-    "peer_date": DATE,
-}
-BY_DIRECTION = REVIEWED | {
-    "directional": True,
-    "directional_reason": "A study",
-    "directional_reviewer": "Reviewer of record",
-    "directional_license": "CA S0000",
-    "directional_date": DATE,
-}
+SHORT = scenes.motions()
+BY_DIRECTION = scenes.REVIEW | scenes.DEPARTURE
 G = 9.80665
 
 
@@ -53,14 +41,13 @@ def weaker(motion, share):
 
 
 def test_a_verdict_with_less_friction_is_that_of_exact_runs_at_the_limit_and_beside_it():
-    motions = stand_in.motions(3, seconds=8.0)
     wide = [stand_in.clearance(name, "RTU-1", 30.0) for name in ("A1", "A2")]
-    given = assess_with(motions, options=REVIEWED, clearances=wide)
+    given = assess_with(SHORT, options=scenes.REVIEW, clearances=wide)
     rough, exact = gaps(given.less), gaps(exactly(given))
     assert all(0.0 < abs(r / e - 1.0) < ROUGH for r, e in zip(rough, exact, strict=True))
     for share in (-1e-2, -1e-3, -1e-9, 0.0, 1e-9, 1e-3, 1e-2):
         close = wide[0] | {"provided_m": exact[0] * (1.0 + share)}
-        less = assess_with(motions, options=REVIEWED, clearances=[close, wide[1]]).less
+        less = assess_with(SHORT, options=scenes.REVIEW, clearances=[close, wide[1]]).less
         assert less.clearances[0].ok is (share >= 0.0)
         assert gaps(less)[1] == rough[1]
         if abs(share) <= 1e-9:
@@ -69,7 +56,7 @@ def test_a_verdict_with_less_friction_is_that_of_exact_runs_at_the_limit_and_bes
 
 def test_where_one_axis_is_exact_its_prd_stands_across_for_rough_runs_as_well():
     """The choice of model is near its criterion in some runs: two axes alone would say OK."""
-    motions = [weaker(motion, 0.01) for motion in stand_in.motions(3, seconds=8.0)]
+    motions = [weaker(motion, 0.01) for motion in SHORT]
     arrays = [stand_in.array("A1", 4.0, mu=0.3)]
     make = partial(assess_with, motions, arrays=arrays, options=BY_DIRECTION)
     wide = make(clearances=[stand_in.clearance("A1", "RTU-1", 30.0, "across")])
@@ -92,19 +79,19 @@ def scene_of(seed):
     faint = rng.choice([1.0, 0.3, 0.03, 0.01, 0.003])
     motions = [weaker(motion, faint * rng.uniform(0.5, 1.5)) for motion in motions]
     arrays = []
-    for at, name in enumerate(("A1", "A2")):
+    for name, x in (("A1", 20), ("A2", 120)):
         mu = rng.uniform(0.2, 0.8)
-        law = {} if rng.random() < 0.7 else {"mu_fast": mu * rng.uniform(0.7, 1.5)}
-        law |= {"mu_rate_s_per_m": 20.0} if law else {}
+        law = {"mu_fast": mu * rng.uniform(0.7, 1.5), "mu_rate_s_per_m": 20.0}
         slope = float(rng.choice([0.0, 0.5, 2.0, 4.0, 7.0]))
-        arrays.append(stand_in.array(name, slope, mu=mu, x=20 + 100 * at, **law))
+        law = law if rng.random() >= 0.7 else {}
+        arrays.append(stand_in.array(name, slope, mu=mu, x=x, **law))
     to = (("A1", "RTU-1"), ("A1", "A2"), ("A2", "S edge"))
     ways = ("any", "down", "up", "across")
     return assess_with(
         motions,
         arrays=arrays,
         clearances=[stand_in.clearance(*pair, 30.0, way) for pair in to for way in ways],
-        options=BY_DIRECTION if rng.random() < 0.6 else REVIEWED,
+        options=BY_DIRECTION if rng.random() < 0.6 else scenes.REVIEW,
     )
 
 
@@ -118,30 +105,28 @@ def test_rough_runs_are_off_by_less_than_the_bound(seed):
         assert abs(rough.required_m - exact.required_m) <= off_m
 
 
-def pulses(seconds, dt_s, *, push, amplitude_g, width_s, vertical):
-    t = np.arange(0.0, seconds, dt_s)
-    ax = -amplitude_g * G * np.clip(1.0 - np.abs(t - push) / width_s, 0.0, 1.0)
-    parts = {"ax": ax, "az": -vertical * np.abs(ax), "ay": 1e-6 * ax}
-    for part in parts.values():
+def pulse(name, amplitude_g, width_s, vertical):
+    t = np.arange(0.0, 6.0, 0.01)
+    ax = -amplitude_g * G * np.clip(1.0 - np.abs(t - 1.3) / width_s, 0.0, 1.0)
+    az, ay = -vertical * np.abs(ax), 1e-6 * ax
+    for part in (ax, az, ay):
         part.setflags(write=False)
-    return stand_in.motion("M", parts["ax"], parts["az"], ay=parts["ay"], signs=(1,))
+    return stand_in.motion(name, ax, az, ay=ay, signs=(1,))
 
 
 def test_what_a_model_may_neglect_in_each_of_seven_motions_does_not_add_up_past_the_bound():
     """One PRD is large and six are small, all of a vertical component that one axis neglects."""
-    large = pulses(6.0, 0.01, push=1.3, amplitude_g=1.2, width_s=0.25, vertical=2e-3)
-    small = pulses(6.0, 0.01, push=1.3, amplitude_g=0.6, width_s=0.1, vertical=2e-2)
-    motions = [replace(large, id="B"), *(replace(small, id=f"S{k}") for k in range(6))]
+    motions = [pulse("B", 1.2, 0.25, 2e-3), *(pulse(f"S{k}", 0.6, 0.1, 2e-2) for k in range(6))]
     given = assess_with(
         motions,
         arrays=[stand_in.array("A1", 4.0, mu=0.4)],
         clearances=[stand_in.clearance("A1", "RTU-1", 30.0)],
-        options=REVIEWED,
+        options=scenes.REVIEW,
     )
     less, exact = given.less, exactly(given)
     neglecting = [run.governing.solution.rung for run in exact.arrays[0].motions]
     assert set(neglecting) == {Rung.ONE_AXIS}
-    off_m = design_off_m(less.rules, *facing(less.project, less.arrays,
-                                             less.clearances[0].clearance)[0])  # fmt: skip
+    (side,) = facing(less.project, less.arrays, less.clearances[0].clearance)
+    off_m = design_off_m(less.rules, *side)
     rough_m, exact_m = (done.arrays[0].design_m for done in (less, exact))  # the factor is 1.0
     assert abs(rough_m - exact_m) <= off_m < 1e-4

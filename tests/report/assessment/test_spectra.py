@@ -30,22 +30,25 @@ def page(assessment, *parts):
 ACHIEVED, ORDINATES = "Achieved / target", "Pseudo-acceleration"
 
 
-def under(assessment, motions, places=()):
+HALVED = tuple(replace(motion, scale=0.5) for motion in scenes.motions())
+
+
+def under(assessment, motions=HALVED, places=()):
     """An assessment as if it were of other motions."""
     book = stand_in.book(shaking=tuple(motions)).having(prepared=tuple(places))
     return replace(assessment, shaking=book.shaking)
 
 
-def given():
-    return [replace(motion, scale=0.5) for motion in scenes.motions()]
+def of_rows(rows, motions=HALVED):
+    """An assessment with a project-specific spectrum."""
+    return stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), motions))
 
 
 def test_all_three_components_are_taken_as_run(assessment):
-    motions = given()
-    parts = spectra(under(assessment, motions))
+    parts = spectra(under(assessment))
     assert [part.title for part in parts] == ["Horizontal", "Transverse", "Vertical"]
     for part, name in zip(parts, ("ax_mps2", "ay_mps2", "az_mps2"), strict=True):
-        for motion, row in zip(motions, part.sa_g, strict=True):
+        for motion, row in zip(HALVED, part.sa_g, strict=True):
             alone = response_spectrum(0.5 * getattr(motion, name), motion.dt_s, part.periods_s)
             assert row == pytest.approx(alone / G, rel=1e-12)
     assert parts[0].target is parts[1].target is assessment.targets.roof
@@ -53,7 +56,7 @@ def test_all_three_components_are_taken_as_run(assessment):
 
 
 def test_motions_without_a_component_are_omitted_there(assessment):
-    first, second, third = given()
+    first, second, third = HALVED
     bare = [replace(first, ay_mps2=np.empty(0), az_mps2=np.empty(0)), second, third]
     parts = spectra(under(assessment, bare))
     assert [part.ids for part in parts] == [("M1", "M2", "M3"), ("M2", "M3"), ("M2", "M3")]
@@ -61,7 +64,7 @@ def test_motions_without_a_component_are_omitted_there(assessment):
 
 
 def test_the_band_is_from_the_first_to_the_last_corner_of_ac156(assessment):
-    part = spectra(under(assessment, given()))[0]
+    part = spectra(under(assessment))[0]
     band = np.sort(1.0 / part.periods_s[part.in_band])
     assert (band[0], band[-1]) == pytest.approx((0.1, 33.3), rel=1e-12)
     assert np.log2(band[1:] / band[:-1]).max() <= 1 / 24 + 1e-12
@@ -77,19 +80,15 @@ def test_the_smallest_ratio_of_the_table_is_that_of_the_limits(assessment):
 
 
 def test_the_table_names_the_motion_and_frequency_of_the_extremes(assessment):
-    motions = given()
-    part = spectra(under(assessment, motions))[1]
+    part = spectra(under(assessment))[1]
     (row,) = page(assessment, part).table(ACHIEVED).cells
     least, of_least, largest, of_largest = row[-4:]
-    ratios = {
-        (motion.id, freq): response_spectrum(
-            0.5 * motion.ay_mps2, motion.dt_s, np.array([1 / freq])
-        )[0]
-        / G
-        / assessment.horizontal_target.at(np.array([freq]))[0]
-        for motion in motions
-        for freq in POINTS_HZ
-    }
+    target_g = assessment.horizontal_target.at(POINTS_HZ)
+    ratios = {}
+    for motion in HALVED:
+        sa = response_spectrum(0.5 * motion.ay_mps2, motion.dt_s, 1 / POINTS_HZ)
+        named = [(motion.id, freq) for freq in POINTS_HZ]
+        ratios |= dict(zip(named, sa / G / target_g, strict=True))
     for text, where, pick in ((least, of_least, min), (largest, of_largest, max)):
         name, freq = pick(ratios, key=ratios.get)
         assert text == f"{ratios[name, freq]:.2f}"
@@ -97,7 +96,7 @@ def test_the_table_names_the_motion_and_frequency_of_the_extremes(assessment):
 
 
 def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment):
-    part = spectra(under(assessment, given()))[0]
+    part = spectra(under(assessment))[0]
     head, target, mean, over, least, largest = page(assessment, part).table(ORDINATES).rows
     assert part.title in head["Period"]
     at = int(np.argmin(np.abs(part.periods_s - 1.0)))
@@ -108,11 +107,9 @@ def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment
 
 
 def test_a_project_spectrum_applies_only_where_it_is_given():
-    points = [(0.1, 2.0), (2.0, 0.5)]
-    rows = [{"period_s": t, "horizontal_g": a} for t, a in points]
-    data = stand_in.project(spectrum=rows)
-    done = stand_in.assessed(stand_in.book(data, scenes.motions()))
-    part = spectra(under(done, given()))[0]
+    rows = [{"period_s": t, "horizontal_g": a} for t, a in ((0.1, 2.0), (2.0, 0.5))]
+    done = of_rows(rows, scenes.motions())
+    part = spectra(under(done))[0]
     periods = part.periods_s[part.in_band]
     assert 0.1 <= periods.min() <= 0.11
     assert 1.9 <= periods.max() <= 2.0
@@ -128,19 +125,18 @@ def test_a_project_spectrum_applies_only_where_it_is_given():
 
 def test_a_project_spectrum_of_long_periods_alone_gives_no_ratios_in_the_band():
     rows = [{"period_s": t, "horizontal_g": 0.1} for t in (12.0, 18.0)]
-    done = stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), given()))
-    parts = spectra(under(done, given()))
+    done = of_rows(rows)
+    parts = spectra(under(done))
     assert page(done, *parts).table(ACHIEVED).column("Component") == ["Vertical"]
 
 
 def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
-    motions = given()
-    preparations = [stand_in.prepared(m, recorded_at=RecordedAt.GROUND) for m in motions]
-    done = stand_in.assessed(stand_in.book(stand_in.project(spectrum=[]), motions))
-    *_, across, transverse = spectra(under(done, motions, preparations))
+    preparations = [stand_in.prepared(m, recorded_at=RecordedAt.GROUND) for m in HALVED]
+    done = of_rows([])
+    *_, across, transverse = spectra(under(done, places=preparations))
     assert (across.title, transverse.title) == ("Ground, horizontal", "Ground, transverse")
     assert across.is_ground
-    alone = response_spectrum(0.5 * motions[1].ax_mps2, motions[1].dt_s, across.periods_s)
+    alone = response_spectrum(0.5 * HALVED[1].ax_mps2, HALVED[1].dt_s, across.periods_s)
     assert across.sa_g[1] == pytest.approx(alone / G, rel=1e-12)
     shown = page(done, across)
     _, mean = shown.table(ORDINATES).cells

@@ -8,19 +8,17 @@ import threading
 from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, HTTPServer
 
+import pikepdf
 import pytest
 import yaml
 from asn1crypto import tsp
-from certomancer.registry import (
-    ArchLabel,
-    CertLabel,
-    CertomancerConfig,
-    ServiceLabel,
-)
+from certomancer.registry import ArchLabel, CertLabel, CertomancerConfig, ServiceLabel
 from click.testing import CliRunner
 from cryptography.hazmat.primitives import serialization
 from cryptography.hazmat.primitives.asymmetric import rsa
 from pyhanko.keys import load_certs_from_pemder_data
+from pyhanko.pdf_utils import generic
+from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
 from pyhanko.pdf_utils.reader import PdfFileReader
 from pyhanko.sign.validation import validate_pdf_signature
 from pyhanko_certvalidator import ValidationContext
@@ -47,7 +45,7 @@ pki-architectures:
       engineer: {common-name: "Jane Doe, S.E."}
       clock: {common-name: Clock}
     certs:
-      root:
+      root: &issued
         subject: root
         issuer: root
         validity: {valid-from: "2020-01-01T00:00:00+0000", valid-to: "2100-01-01T00:00:00+0000"}
@@ -56,16 +54,14 @@ pki-architectures:
           - {id: key_usage, critical: true,
              smart-value: {schema: key-usage, params: [key_cert_sign, crl_sign]}}
       engineer:
+        <<: *issued
         subject: engineer
-        issuer: root
-        validity: {valid-from: "2020-01-01T00:00:00+0000", valid-to: "2100-01-01T00:00:00+0000"}
         extensions:
           - {id: key_usage, critical: true,
              smart-value: {schema: key-usage, params: [digital_signature, non_repudiation]}}
       clock:
+        <<: *issued
         subject: clock
-        issuer: root
-        validity: {valid-from: "2020-01-01T00:00:00+0000", valid-to: "2100-01-01T00:00:00+0000"}
         extensions:
           - {id: key_usage, critical: true,
              smart-value: {schema: key-usage, params: [digital_signature]}}
@@ -203,22 +199,31 @@ def test_what_is_appended_after_the_signature_is_found(signed, found):
         assert "appended: bytes that no signature covers" in found(content + more).others
 
 
-def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, data, found):
-    import pikepdf
-    from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+@pytest.fixture
+def updated(data):
+    """A function that appends to the package what a change with pyHanko's writer gives."""
 
-    writer = IncrementalPdfFileWriter(io.BytesIO(data))
-    page = writer.root["/Pages"]["/Kids"][3]
-    contents = page.raw_get("/Contents")
-    stream = contents.get_object()
-    stream._data = stream.data.replace(b"BT", b"BT 2 0 0 2 0 0 Tm", 1)
-    stream._encoded_data = None
-    writer.mark_update(contents)
-    out = io.BytesIO()
-    writer.write(out)
-    with pikepdf.open(io.BytesIO(out.getvalue())) as pdf:
+    def update(change):
+        writer, out = IncrementalPdfFileWriter(io.BytesIO(data)), io.BytesIO()
+        change(writer)
+        writer.write(out)
+        return out.getvalue()
+
+    return update
+
+
+def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, updated, found):
+    def change(writer):
+        contents = writer.root["/Pages"]["/Kids"][3].raw_get("/Contents")
+        stream = contents.get_object()
+        stream._data = stream.data.replace(b"BT", b"BT 2 0 0 2 0 0 Tm", 1)
+        stream._encoded_data = None
+        writer.mark_update(contents)
+
+    given = updated(change)
+    with pikepdf.open(io.BytesIO(given)) as pdf:
         assert b"2 0 0 2 0 0 Tm" in pdf.pages[3].Contents.read_bytes()
-    done, content = sign(content=out.getvalue())
+    done, content = sign(content=given)
     assert done.exit_code == 0, done.output
     later = found(content)
     assert [one.field for one in later.signed] == [FIELD]
@@ -238,27 +243,22 @@ def test_a_signature_that_does_not_fit_is_a_difference(signed, found):
 
 @pytest.mark.parametrize("entry", ["/AA", "/A", "/Lock"])
 @pytest.mark.by_day(1)
-def test_a_hidden_field_with_an_action_is_found_though_it_is_signed(sign, data, found, entry):
-    from pyhanko.pdf_utils import generic
-    from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
-
-    def name(text):
-        return generic.NameObject(text)
-
-    writer = IncrementalPdfFileWriter(io.BytesIO(data))
-    script = {name("/S"): name("/JavaScript"), name("/JS"): generic.pdf_string("app.alert(1)")}
+def test_a_hidden_field_with_an_action_is_found_though_it_is_signed(sign, updated, found, entry):
+    name, text = generic.NameObject, generic.pdf_string
+    script = {name("/S"): name("/JavaScript"), name("/JS"): text("app.alert(1)")}
     field = generic.DictionaryObject({
         name("/Type"): name("/Annot"), name("/Subtype"): name("/Widget"), name("/FT"): name("/Sig"),
-        name("/T"): generic.pdf_string("other"), name("/F"): generic.NumberObject(132),
+        name("/T"): text("other"), name("/F"): generic.NumberObject(132),
         name("/Rect"): generic.ArrayObject(map(generic.NumberObject, (0, 0, 0, 0))),
         name(entry): generic.DictionaryObject(script),
     })  # fmt: skip
-    page = writer.root["/Pages"]["/Kids"][0]
-    page["/Annots"].append(writer.add_object(field))
-    writer.update_container(page)
-    out = io.BytesIO()
-    writer.write(out)
-    _, content = sign(content=out.getvalue())
+
+    def change(writer):
+        page = writer.root["/Pages"]["/Kids"][0]
+        page["/Annots"].append(writer.add_object(field))
+        writer.update_container(page)
+
+    _, content = sign(content=updated(change))
     is_found = any("/Annots" in text for text in found(content).others)
     assert is_found == (entry != "/Lock")  # which a field may have
 

@@ -10,12 +10,14 @@ import pikepdf
 import pytest
 from click.testing import CliRunner
 
-import report.cli.verify_package
+import packages
 import tampering
 from report.cli.main import main
-from report.making import OUTPUTS, make
+from report.making import OUTPUTS
 from report.proof.package import open_package, take_out
 from solver.model import InputError
+
+RECORD = "records/RM1-x.csv"
 
 
 @pytest.fixture(scope="module")
@@ -27,51 +29,56 @@ def run(path, *options):
     return CliRunner().invoke(main, ["verify-package", str(path), *options])
 
 
-def changed_manifest(data, change):
-    """Return a package whose manifest is another one."""
+@pytest.fixture(scope="module")
+def given(tmp_path_factory):
+    """A function that writes a package after a change to its objects, and returns its path."""
 
-    def write(pdf):
-        manifest = json.loads(tampering.file_of(pdf, "roofslip.json"))
-        change(manifest)
-        tampering.set_file(pdf, "roofslip.json", json.dumps(manifest).encode())
+    def write(data, change):
+        path = tmp_path_factory.mktemp("given") / "given.pdf"
+        path.write_bytes(tampering.rewritten(data, change))
+        return path
 
-    return tampering.rewritten(data, write)
+    return write
+
+
+def with_file(name, content):
+    """A change of an attachment, and of its hash in the manifest."""
+
+    def change(pdf):
+        tampering.set_file(pdf, name, content)
+        tampering.relisted(pdf)
+
+    return change
 
 
 @pytest.fixture(scope="module")
-def after_record_changed(data, tmp_path_factory):
+def after_record_changed(data, given):
     """How the command ends for a package of which a record was changed, and its hash."""
-    path = tmp_path_factory.mktemp("changed") / "given.pdf"
 
     def change(pdf):
-        name = "records/RM1-x.csv"
-        lines = tampering.file_of(pdf, name).split(b"\n")
+        lines = tampering.file_of(pdf, RECORD).split(b"\n")
         lines[500:700] = [line.replace(b",0.", b",0.9", 1) for line in lines[500:700]]
-        tampering.set_file(pdf, name, b"\n".join(lines))
-        tampering.relisted(pdf)
+        with_file(RECORD, b"\n".join(lines))(pdf)
 
-    path.write_bytes(tampering.rewritten(data, change))
-    return run(path, "--json")
+    return run(given(data, change), "--json")
 
 
 @pytest.mark.nightly("report/proof/", "report/provenance/")
 def test_a_package_is_the_same_to_the_last_bit_and_nothing_is_left_behind(
-    job, after_record_changed, monkeypatch
+    job, after_record_changed
 ):
     """A process beside another wrote it; this one is alone, and has laid out a package before."""
-    written = {}
-
-    def kept(*call):
-        made = make(*call)
-        written.update(made[2])
-        return made
-
-    monkeypatch.setattr(report.cli.verify_package, "make", kept)
     done = run(job / "out" / "calc-package.pdf")
     assert done.exit_code == 0, done.output
     assert "Same: the input in the package gives this package, to the last bit." in done.output
     assert sorted(path.name for path in job.iterdir()) == ["input.xlsx", "out", "records"]
-    assert written == {name: (job / "out" / name).read_bytes() for name in OUTPUTS}
+
+
+@pytest.mark.nightly("report/proof/", "report/provenance/")
+def test_this_process_alone_writes_every_file_as_two_do(job, tmp_path_factory):
+    alone = packages.reported(tmp_path_factory, job.name).out
+    for name in OUTPUTS:
+        assert (alone / name).read_bytes() == (job / "out" / name).read_bytes(), name
 
 
 def test_a_record_that_was_changed_with_its_hash_gives_other_numbers(after_record_changed):
@@ -83,15 +90,8 @@ def test_a_record_that_was_changed_with_its_hash_gives_other_numbers(after_recor
     assert any(text.startswith("sheet 1: ") for text in said["differences"])
 
 
-def test_an_input_that_no_longer_runs_differs(data, tmp_path):
-    path = tmp_path / "given.pdf"
-
-    def change(pdf):
-        tampering.set_file(pdf, "records/RM1-x.csv", b"none")
-        tampering.relisted(pdf)
-
-    path.write_bytes(tampering.rewritten(data, change))
-    done = run(path)
+def test_an_input_that_no_longer_runs_differs(data, given):
+    done = run(given(data, with_file(RECORD, b"none")))
     assert done.exit_code == 3, done.output
     assert "its input: " in done.output
 
@@ -114,24 +114,11 @@ def test_a_pdf_without_the_input_is_an_input_error(tmp_path):
     assert "holds no roofslip.json" in done.output
 
 
-BAD = {
-    "deep": b"[" * 100_000 + b"]" * 100_000,
-    "a key twice": b'{"schema_version": 1, "schema_version": 1}',
-    "infinite": b'{"schema_version": 1e999}',
-    "not UTF-8": b"\xff",
-}
-"""What is no JSON of ours, under why."""
-
-
 @pytest.mark.parametrize("name", ["roofslip.json", "results.json"])
-@pytest.mark.parametrize("why", BAD)
-@pytest.mark.by_day(2)
-def test_an_attachment_that_is_no_json_of_ours_makes_no_package(tmp_path, few_sheets, name, why):
-    path = tmp_path / "given.pdf"
-    path.write_bytes(
-        tampering.rewritten(few_sheets, lambda pdf: tampering.set_file(pdf, name, BAD[why]))
-    )
-    done = run(path)
+@pytest.mark.by_day(1)
+def test_an_attachment_that_is_no_json_of_ours_makes_no_package(few_sheets, given, name):
+    twice = b'{"schema_version": 1, "schema_version": 1}'
+    done = run(given(few_sheets, lambda pdf: tampering.set_file(pdf, name, twice)))
     assert done.exit_code == 2, done.output
     assert f"{name} is damaged" in done.output
     assert "Traceback" not in done.output
@@ -144,10 +131,8 @@ def test_an_attachment_that_is_no_json_of_ours_makes_no_package(tmp_path, few_sh
     ids=str,
 )  # fmt: skip
 @pytest.mark.by_day(2)
-def test_an_entry_of_another_type_makes_no_package(tmp_path, few_sheets, entries):
-    path = tmp_path / "given.pdf"
-    path.write_bytes(changed_manifest(few_sheets, lambda manifest: manifest.update(entries)))
-    done = run(path)
+def test_an_entry_of_another_type_makes_no_package(few_sheets, given, entries):
+    done = run(given(few_sheets, tampering.of_manifest(lambda manifest: manifest.update(entries))))
     assert done.exit_code == 2, done.output
     assert "roofslip.json" in done.output
 
@@ -158,13 +143,8 @@ def test_a_package_larger_than_any_is_not_unpacked(proof, few_sheets, monkeypatc
         proof(tampering.rewritten(few_sheets, tampering.turned), few_sheets)
 
 
-def test_an_attachment_that_unpacks_to_a_thousand_times_its_size_is_refused(tmp_path, few_sheets):
-    path = tmp_path / "given.pdf"
-
-    def change(pdf):
-        tampering.set_file(pdf, "records/RM1-x.csv", bytes(90_000_000))
-
-    path.write_bytes(tampering.rewritten(few_sheets, change))
+def test_an_attachment_that_unpacks_to_a_thousand_times_its_size_is_refused(few_sheets, given):
+    path = given(few_sheets, lambda pdf: tampering.set_file(pdf, RECORD, bytes(90_000_000)))
     assert path.stat().st_size < 2_000_000
     assert run(path).exit_code == 2
 
@@ -181,15 +161,12 @@ def test_a_package_that_needs_no_password_and_is_encrypted_differs(proof, few_sh
 
 
 @pytest.mark.nightly
-def test_drawings_that_cannot_be_compared_end_with_a_code_of_their_own(tmp_path, data):
-    path = tmp_path / "given.pdf"
-
+def test_drawings_that_cannot_be_compared_end_with_a_code_of_their_own(data, given):
     def change(pdf):
         tampering.of_other_software(pdf)
         tampering.painted_over(pdf)
 
-    path.write_bytes(tampering.rewritten(data, change))
-    done = run(path)
+    done = run(given(data, change))
     assert done.exit_code == 4, done.output
     assert "It names other versions than those here: harfbuzz 0.9 (here " in done.output
     assert "Nothing differs in what could be compared: words" in done.output
@@ -221,41 +198,44 @@ def test_tampering_is_found(proof, data, few_sheets, kind):
         assert found.differences
 
 
-def test_another_type_of_an_attachment_is_found(proof, data):
+def test_another_type_of_an_attachment_is_found(tampered, data):
     def change(pdf):
-        pdf.attachments["records/RM1-x.csv"].obj.EF.F.Subtype = pikepdf.Name("/text/plain")
+        pdf.attachments[RECORD].obj.EF.F.Subtype = pikepdf.Name("/text/plain")
 
-    assert not proof(tampering.rewritten(data, change)).is_same
-
-
-def test_every_other_entry_of_the_information_of_the_document_is_found(proof, data):
-    keys = ("/Title", "/Author", "/Creator", "/Producer", "/CreationDate")
-
-    def change(pdf):
-        for key in keys:
-            pdf.docinfo[key] = "Another one"
-
-    found = proof(tampering.rewritten(data, change))
-    assert set(found.differences) >= {f"document /Info {key}" for key in keys}
+    assert not tampered(data, change).is_same
 
 
-def test_information_that_was_added_or_taken_away_is_found(proof, data):
-    def add(pdf):
-        pdf.docinfo["/Subject"] = "Approved"
-
-    def remove(pdf):
-        del pdf.trailer["/Info"]
-
-    assert "document /Info /Subject" in proof(tampering.rewritten(data, add)).differences
-    assert "document /Info" in proof(tampering.rewritten(data, remove)).differences
+INFO = ("/Title", "/Author", "/Creator", "/Producer", "/CreationDate")
 
 
-def test_other_metadata_are_found(proof, data):
-    def change(pdf):
-        stream = pdf.Root.Metadata
-        stream.write(stream.read_bytes().replace(b"Warehouse", b"Hospital"))
+def other_information(pdf):
+    pdf.docinfo.update(dict.fromkeys(INFO, "Another one"))
 
-    assert "document /Metadata" in proof(tampering.rewritten(data, change)).differences
+
+def more_information(pdf):
+    pdf.docinfo["/Subject"] = "Approved"
+
+
+def no_information(pdf):
+    del pdf.trailer["/Info"]
+
+
+def other_metadata(pdf):
+    stream = pdf.Root.Metadata
+    stream.write(stream.read_bytes().replace(b"Warehouse", b"Hospital"))
+
+
+@pytest.mark.parametrize(
+    ("change", "places"),
+    [
+        (other_information, {f"/Info {key}" for key in INFO}),
+        (more_information, {"/Info /Subject"}),
+        (no_information, {"/Info"}),
+        (other_metadata, {"/Metadata"}),
+    ],
+)
+def test_what_the_document_says_of_itself_is_compared(tampered, few_sheets, change, places):
+    assert set(tampered(few_sheets, change).differences) >= {f"document {at}" for at in places}
 
 
 def test_a_changed_digit_is_told_with_its_sheet_and_its_words(proof, data):
@@ -266,17 +246,15 @@ def test_a_changed_digit_is_told_with_its_sheet_and_its_words(proof, data):
     )
 
 
-def test_a_changed_number_is_told_with_its_place_and_by_how_much(proof, data):
+def test_a_changed_number_is_told_with_its_place_and_by_how_much(tampered, few_sheets):
     def change(pdf):
         results = json.loads(tampering.file_of(pdf, "results.json"))
         results["arrays"][0]["design_m"] *= 1.001
-        tampering.set_file(pdf, "results.json", json.dumps(results).encode())
-        tampering.relisted(pdf)
+        with_file("results.json", json.dumps(results).encode())(pdf)
 
-    found = proof(tampering.rewritten(data, change))
-    told = [text for text in found.differences if "arrays[0].design_m" in text]
-    assert told
-    assert told[0].endswith("(1.0e-03 of it)")
+    found = tampered(few_sheets, change).differences
+    told = next(text for text in found if "arrays[0].design_m" in text)
+    assert told.endswith("(1.0e-03 of it)")
 
 
 @pytest.mark.parametrize(
@@ -291,25 +269,21 @@ def test_no_attachment_is_taken_out_of_the_folder(tmp_path, package, path):
     assert not (tmp_path / "x.csv").exists()
 
 
-def test_attachments_beyond_the_limits_are_refused(tmp_path, data, monkeypatch):
-    given = tmp_path / "given.pdf"
-    given.write_bytes(data)
+def test_attachments_beyond_the_limits_are_refused(job, monkeypatch):
     monkeypatch.setattr("report.proof.package.MAX_TOTAL", 1000)
     with pytest.raises(InputError, match="unpack to more than"):
-        open_package(given)
+        open_package(job / "out" / "calc-package.pdf")
 
 
 def test_records_that_were_left_out_are_taken_from_a_folder_and_their_hash_is_checked(
-    job, data, tmp_path
+    job, data, given, tmp_path
 ):
-    given = tmp_path / "given.pdf"
-    given.write_bytes(changed_manifest(data, lambda manifest: manifest.update(has_records=False)))
-    package = open_package(given)
+    change = tampering.of_manifest(lambda manifest: manifest.update(has_records=False))
+    package = open_package(given(data, change))
     with pytest.raises(InputError, match="--records"):
         take_out(package, tmp_path / "one")
     workbook, _ = take_out(package, tmp_path / "two", job)
-    taken = workbook.parent / "records" / "RM1-x.csv"
-    assert taken.read_bytes() == (job / "records" / "RM1-x.csv").read_bytes()
+    assert (workbook.parent / RECORD).read_bytes() == (job / RECORD).read_bytes()
     shutil.copytree(job / "records", tmp_path / "other" / "records")
     with (tmp_path / "other" / "records" / "RM2-x.csv").open("a") as file:
         file.write("\n")
@@ -317,12 +291,7 @@ def test_records_that_were_left_out_are_taken_from_a_folder_and_their_hash_is_ch
         take_out(package, tmp_path / "three", tmp_path / "other")
 
 
-def test_two_workbooks_or_none_are_refused(tmp_path, data):
-    given = tmp_path / "given.pdf"
-
-    def change(manifest):
-        manifest["files"][1]["kind"] = "workbook"
-
-    given.write_bytes(changed_manifest(data, change))
+def test_two_workbooks_or_none_are_refused(data, given):
+    change = tampering.of_manifest(lambda manifest: manifest["files"][1].update(kind="workbook"))
     with pytest.raises(InputError, match="no workbook, or more than one"):
-        open_package(given)
+        open_package(given(data, change))

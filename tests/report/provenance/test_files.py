@@ -25,49 +25,43 @@ EXAMPLE = ROOT / "projects" / "example"
 
 
 @pytest.fixture(scope="module")
-def job(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("job")
-    shutil.copy(EXAMPLE / "input.xlsx", folder)
-    shutil.copytree(EXAMPLE / "records", folder / "records")
-    sheet = read(folder)
-    return folder, sheet, prepare(sheet)
+def job():
+    sheet = read(EXAMPLE)
+    return sheet, prepare(sheet)
 
 
-def manifest_of(attached):
-    return json.loads(next(file for file in attached if file.name == "roofslip.json").content)
+def attached(found):
+    """The contents of the attachments by name, and the manifest among them."""
+    contents = {file.name: file.content for file in attachments(found, b"{}", "abc")}
+    return contents, json.loads(contents["roofslip.json"])
 
 
 def test_workbook_and_records_are_attached_as_they_lie(job):
-    folder, sheet, shaking = job
-    found = sources(sheet, shaking)
+    found = sources(*job)
     assert [source.path for source in found[:2]] == ["input.xlsx", "records/RM1-x.csv"]
     assert len(found) == 22
-    assert all(source.content == (folder / source.path).read_bytes() for source in found)
-    attached = attachments(found, b"{}", "abc")
-    assert {file.name for file in attached} == {
-        *(source.path for source in found), "results.json", "roofslip.json"
-    }  # fmt: skip
-    listed = manifest_of(attached)
+    contents, listed = attached(found)
+    assert contents.keys() == {*(source.path for source in found), "results.json", "roofslip.json"}
     assert listed["roofslip_version"] == version("roofslip")
-    assert listed["hash"] == "abc"
-    assert listed["has_records"] is True
-    for entry in listed["files"][:-1]:
-        content = (folder / entry["path"]).read_bytes()
+    assert (listed["hash"], listed["has_records"]) == ("abc", True)
+    for source, entry in zip(found, listed["files"][:-1], strict=True):
+        content = (EXAMPLE / entry["path"]).read_bytes()
+        assert content == source.content == contents[entry["name"]]
         assert entry["sha256"] == hashlib.sha256(content).hexdigest()
         assert entry["bytes"] == len(content)
 
 
 def test_the_hash_follows_workbook_records_their_order_and_the_version(job, monkeypatch):
-    _, sheet, shaking = job
+    sheet, shaking = job
     first, second, *others = shaking.records
+    other = replace(first, sha256="0" * 64)
+    swapped = replace(first, sha256=second.sha256), replace(second, sha256=first.sha256)
     given = [
         (sheet, shaking),
         (replace(sheet, sha256="0" * 64), shaking),
-        (sheet, replace(shaking, records=(replace(first, sha256="0" * 64), second, *others))),
-        (sheet, replace(shaking, records=(
-            replace(first, sha256=second.sha256), replace(second, sha256=first.sha256), *others
-        ))),
-    ]  # fmt: skip
+        (sheet, replace(shaking, records=(other, second, *others))),
+        (sheet, replace(shaking, records=(*swapped, *others))),
+    ]
     hashes = [fingerprint(*pair) for pair in given]
     monkeypatch.setattr(files, "version", lambda name: "9.9")
     hashes.append(fingerprint(sheet, shaking))
@@ -75,21 +69,19 @@ def test_the_hash_follows_workbook_records_their_order_and_the_version(job, monk
     assert all(len(short) == 12 for short in hashes)
 
 
-def test_a_file_that_changed_during_the_run_is_an_input_error(job, tmp_path):
-    _, sheet, shaking = job
+def test_a_file_that_changed_during_the_run_is_an_input_error(job):
+    sheet, shaking = job
     changed = replace(shaking.records[0], sha256="0" * 64)
     with pytest.raises(InputError, match="changed while the report ran"):
         sources(sheet, replace(shaking, records=(changed,)))
 
 
 def test_records_beyond_the_limit_are_left_out_and_hashed(job, monkeypatch):
-    _, sheet, shaking = job
+    sheet, shaking = job
     monkeypatch.setattr(files, "MOST_RECORDS", 1_000_000)
     assert not holds_records(shaking.records)
-    found = sources(sheet, shaking)
-    attached = attachments(found, b"{}", "abc")
-    assert {file.name for file in attached} == {"input.xlsx", "results.json", "roofslip.json"}
-    listed = manifest_of(attached)
+    contents, listed = attached(sources(sheet, shaking))
+    assert contents.keys() == {"input.xlsx", "results.json", "roofslip.json"}
     assert listed["has_records"] is False
     assert sum(entry["kind"] == "record" for entry in listed["files"]) == 21
 
@@ -106,34 +98,32 @@ def test_a_file_with_several_channels_counts_once():
     assert not holds_records([*rows, replace(row, name="b.csv", size=1)])
 
 
+RENAMED = {
+    "Results.json": "renamed/1/Results.json",
+    "a.csv": "a.csv",
+    "A.csv": "renamed/3/A.csv",
+    "sub/a.csv": "sub/a.csv",
+}
+
+
 def test_names_that_collide_are_renamed_with_a_map(job, tmp_path):
-    folder, sheet, shaking = job
-    for name in ("Results.json", "a.csv", "A.csv", "sub/a.csv"):
+    sheet, shaking = job
+    rows = []
+    for row, name in zip(shaking.records, RENAMED, strict=False):
         path = tmp_path / name
         path.parent.mkdir(exist_ok=True)
         path.write_text(name)
-    rows = tuple(
-        replace(row, name=name, sha256=hashlib.sha256(name.encode()).hexdigest())
-        for row, name in zip(
-            shaking.records, ("Results.json", "a.csv", "A.csv", "sub/a.csv"), strict=False
-        )
-    )
-    shutil.copy(folder / "input.xlsx", tmp_path)
-    moved = replace(sheet, book=replace(sheet.book, path=tmp_path / "input.xlsx"),
-                    path=tmp_path / "input.xlsx")  # fmt: skip
-    found = sources(moved, replace(shaking, records=rows))
-    listed = manifest_of(attachments(found, b"{}", "abc"))["files"]
-    names = {entry["path"]: entry["name"] for entry in listed if entry["kind"] == "record"}
-    assert names == {
-        "Results.json": "renamed/1/Results.json",
-        "a.csv": "a.csv",
-        "A.csv": "renamed/3/A.csv",
-        "sub/a.csv": "sub/a.csv",
-    }
+        rows.append(replace(row, name=name, sha256=hashlib.sha256(name.encode()).hexdigest()))
+    path = tmp_path / "input.xlsx"
+    shutil.copy(EXAMPLE / "input.xlsx", path)
+    moved = replace(sheet, book=replace(sheet.book, path=path), path=path)
+    _, listed = attached(sources(moved, replace(shaking, records=tuple(rows))))
+    records = [entry for entry in listed["files"] if entry["kind"] == "record"]
+    assert {entry["path"]: entry["name"] for entry in records} == RENAMED
 
 
 def test_a_former_revision_is_attached_under_a_name_of_its_own(job, tmp_path):
-    _, sheet, shaking = job
+    sheet, shaking = job
     (tmp_path / "results.json").write_text("{}")
     found = sources(sheet, shaking, tmp_path / "results.json")
     assert (found[-1].path, found[-1].content) == ("since/results.json", b"{}")

@@ -8,16 +8,8 @@ from report.provenance.software import distributions, environment, sbom, sbom_sh
 
 def test_the_bill_lists_what_the_command_needs_and_no_tool():
     names = set(distributions())
-    assert {
-        "roofslip",
-        "numpy",
-        "numba",
-        "llvmlite",
-        "weasyprint",
-        "pydyf",
-        "openpyxl",
-        "brotli",
-    } <= names
+    needed = "roofslip numpy numba llvmlite weasyprint pydyf openpyxl brotli"
+    assert names >= set(needed.split())
     assert not names & {"pytest", "ruff", "mypy", "pikepdf", "scipy"}
     document = json.loads(sbom())
     assert document["bomFormat"] == "CycloneDX"

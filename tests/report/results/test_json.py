@@ -5,28 +5,32 @@ import math
 
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.evidence import support
 from report.results.json import results_json
 from report.sheet.schema import Direction
 
 
+def made(assessment):
+    return json.loads(results_json(assessment, support(assessment)))
+
+
+def run(shaking=None, **changes):
+    """An assessment with its document."""
+    assessment = scenes.package(shaking, **changes).assessment
+    return assessment, made(assessment)
+
+
 @pytest.fixture(scope="module")
 def document():
-    book = stand_in.book()
-    return json.loads(made(stand_in.assessed(book)))
-
-
-def made(assessment):
-    return results_json(assessment, support(assessment))
+    return made(scenes.usual())
 
 
 def test_json_has_the_assessment_in_si(document):
-    book = stand_in.book()
-    assessment = stand_in.assessed(book)
-    assert [array["design_m"] for array in document["arrays"]] == [
-        item.design_m for item in assessment.arrays
-    ]
+    assessment = scenes.usual()
+    designs = [array["design_m"] for array in document["arrays"]]
+    assert designs == [item.design_m for item in assessment.arrays]
     assert document["arrays"][0]["prescriptive_m"] == pytest.approx(1.166**2 * 60 * 0.0254)
     assert len(document["arrays"][1]["runs"]) == 28
     assert document["clearances"][4]["required_m"] == assessment.clearances[4].required_m
@@ -35,26 +39,23 @@ def test_json_has_the_assessment_in_si(document):
 
 
 def test_json_has_the_model_of_each_run_and_the_peaks_in_each_direction(document):
-    assessment = stand_in.assessed(stand_in.book())
-    array, item = document["arrays"][2], assessment.arrays[2]
+    array, item = document["arrays"][2], scenes.usual().arrays[2]
     for direction in Direction:
         values = array["directions"][direction]
         assert values["design_m"] == item.directional_m(direction)
         peaks = [motion[f"{direction}_m"] for motion in array["peaks"]]
         assert values["mean_m"] == pytest.approx(sum(peaks) / len(peaks))
-    run, solution = array["runs"][0], item.motions[0].runs[0].solution
-    assert (run["rung"], run["model"]) == (3, "two axes with vertical")
-    assert (run["reason"], run["error_m"]) == (solution.reason, solution.result.error_m)
-    assert run["across_m"] == solution.result.across_m
-    assert run["next_effect_m"] is None
+    found, solution = array["runs"][0], item.motions[0].runs[0].solution
+    assert (found["rung"], found["model"]) == (3, "two axes with vertical")
+    assert (found["reason"], found["error_m"]) == (solution.reason, solution.result.error_m)
+    assert found["across_m"] == solution.result.across_m
+    assert found["next_effect_m"] is None
     gap = document["clearances"][3]
-    assert gap["governing_direction"] == "any"
-    assert gap["design_m"] == item.design_m
+    assert (gap["governing_direction"], gap["design_m"]) == ("any", item.design_m)
 
 
 def test_json_has_the_prescriptive_value_in_every_direction_where_it_governs():
-    assessment = stand_in.assessed(stand_in.book(shaking=stand_in.motions(2, seconds=4.0)))
-    for array in json.loads(made(assessment))["arrays"]:
+    for array in run(scenes.motions(2))[1]["arrays"]:
         assert array["route"] == "prescriptive"
         values = {way["design_m"] for way in array["directions"].values()}
         assert values == {array["design_m"]}
@@ -66,14 +67,11 @@ def test_json_has_velocities_and_what_the_low_velocity_coefficient_alone_gives()
         stand_in.array("A3", 3.0, y=90, mu=0.30, mu_fast=0.45, mu_rate_s_per_m=20.0),
     ]
     gaps = [stand_in.clearance("A1", "RTU-1", 2.0), stand_in.clearance("A3", "T-1", 2.0)]
-    data = stand_in.project(arrays=arrays, clearances=gaps)
-    assessment = stand_in.assessed(stand_in.book(data, stand_in.motions(3, seconds=8.0)))
-    document = json.loads(made(assessment))
+    assessment, document = run(arrays=arrays, clearances=gaps)
     for array in document["arrays"]:
-        assert array["peak_speed_mps"] == max(run["peak_speed_mps"] for run in array["runs"])
-    assert [array["friction_as_run"] for array in document["arrays"]] == [
-        "0.45", "0.30 to 0.45, by velocity",
-    ]  # fmt: skip
+        assert array["peak_speed_mps"] == max(one["peak_speed_mps"] for one in array["runs"])
+    laws = [array["friction_as_run"] for array in document["arrays"]]
+    assert laws == ["0.45", "0.30 to 0.45, by velocity"]
     (alone,), (gap,) = document["low_velocity"]["arrays"], document["low_velocity"]["clearances"]
     assert (alone["id"], alone["mu"]) == ("A3", 0.30)
     assert alone["design_m"] == assessment.low_velocity.arrays[0].design_m
@@ -81,12 +79,8 @@ def test_json_has_velocities_and_what_the_low_velocity_coefficient_alone_gives()
 
 
 def test_json_has_rows_of_linked_blocks_with_their_runs():
-    data = stand_in.project(links=[stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)])
-    book = stand_in.book(data, stand_in.motions(3, seconds=8.0))
-    assessment, document = (
-        stand_in.assessed(book),
-        json.loads(made(stand_in.assessed(book))),
-    )
+    links = [stand_in.links("A2", "0.40, 0.50", 50, damping_ratio=0.05)]
+    assessment, document = run(links=links)
     (item,), (row,) = assessment.linked, document["linked"]
     assert (row["array"], row["mus"], row["damping_ratio"]) == ("A2", [0.4, 0.5], 0.05)
     assert (row["ratio"], row["estimated_m"]) == (item.ratio, item.estimated_m)
@@ -94,7 +88,7 @@ def test_json_has_rows_of_linked_blocks_with_their_runs():
     assert row["rigid_is_enough"] is item.is_rigid_enough
     assert len(row["runs"]) == 12
     assert tuple(row["runs"][5]["prd_m"]) == item.motions[1].runs[1].row.prd_m
-    assert max(run["link_force_n"] for run in row["runs"]) == row["link_force_n"]
+    assert max(one["link_force_n"] for one in row["runs"]) == row["link_force_n"]
     check_units(document)
 
 
@@ -102,57 +96,50 @@ def test_every_number_in_json_states_its_unit_or_has_none(document):
     check_units(document)
 
 
-def check_units(document):
-    units = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
-    plain = {
-        "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
-        "f_v", "stories", "slope_value", "found", "limit", "scale_value", "value",
-        "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
-        "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
-        "demand", "capacity", "held_ratio", "sliding_ratio", "times", "mus", "ratio",
-        "least_mu", "lowest_mu_tried", "given", "resolution", "verified", "n_values",
-        "n_unfinished", "n_runs", "damping_ratio", "schema_version", "i_p", "force_factor",
-        "force_divisor", "importance",
-    }  # fmt: skip
+UNITS = ("_m", "_s", "_g", "_n", "_rad", "_deg", "_mps", "_mps2", "_hz", "_percent")
+PLAIN = {
+    "mu", "scale", "polarity", "n_stops", "factor", "demand_capacity", "npts", "i_e", "f_a",
+    "f_v", "stories", "slope_value", "found", "limit", "scale_value", "value",
+    "prd_variation", "order", "stiffness_ratio", "n_modes", "next_mode_share",
+    "left_out_share", "mu_slow", "mu_fast", "mu_static", "rung", "next_rung", "friction_demand",
+    "demand", "capacity", "held_ratio", "sliding_ratio", "times", "mus", "ratio",
+    "least_mu", "lowest_mu_tried", "given", "resolution", "verified", "n_values",
+    "n_unfinished", "n_runs", "damping_ratio", "schema_version", "i_p", "force_factor",
+    "force_divisor", "importance",
+}  # fmt: skip
 
-    def walk(value, key=""):
-        if isinstance(value, dict):
-            for name, item in value.items():
-                walk(item, name)
-        elif isinstance(value, list):
-            for item in value:
-                walk(item, key)
-        elif isinstance(value, (int, float)) and not isinstance(value, bool):
-            assert key.endswith(units) or key in plain, key
 
-    walk(document)
+def check_units(value, key=""):
+    if isinstance(value, dict):
+        for name, item in value.items():
+            check_units(item, name)
+    elif isinstance(value, list):
+        for item in value:
+            check_units(item, key)
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        assert key.endswith(UNITS) or key in PLAIN, key
 
 
 def test_a_missing_value_is_null_in_json():
-    book = stand_in.book(stand_in.steep(), stand_in.motions(2))
-    document = json.loads(made(stand_in.assessed(book)))
+    document = made(stand_in.assess_input(stand_in.steep(), scenes.motions(2)))
     assert document["arrays"][0]["design_m"] is None
-    assert document["clearances"][0]["required_m"] is None
-    assert document["clearances"][0]["verdict"] == "none"
+    gap = document["clearances"][0]
+    assert (gap["required_m"], gap["verdict"]) == (None, "none")
     assert document["verdict"] == "NG"
 
 
 def test_infinite_demand_over_zero_clearance_is_null():
-    data = stand_in.project(clearances=[stand_in.clearance("A1", "RTU-1", 0.0)])
-    book = stand_in.book(data)
-    assessment = stand_in.assessed(book)
+    assessment, document = run(clearances=[stand_in.clearance("A1", "RTU-1", 0.0)])
     assert math.isinf(assessment.clearances[0].demand_capacity)
-    document = json.loads(made(assessment))
-    assert document["clearances"][0]["demand_capacity"] is None
-    assert document["clearances"][0]["verdict"] == "NG"
+    (gap,) = document["clearances"]
+    assert (gap["demand_capacity"], gap["verdict"]) == (None, "NG")
 
 
 @pytest.fixture(scope="module")
 def supported():
     """A clearance that is NG beside one that contradicts the plan, with the evidence."""
     gaps = [stand_in.clearance("A1", "RTU-1", 0.5), stand_in.clearance("A1", "A3", 4.572)]
-    book = stand_in.book(stand_in.project(clearances=gaps), stand_in.motions(3, seconds=4.0))
-    assessment = stand_in.assessed(book)
+    assessment = scenes.package(clearances=gaps).assessment
     evidence = support(assessment)
     return assessment, evidence, json.loads(results_json(assessment, evidence))
 
@@ -181,26 +168,23 @@ def test_json_has_the_margins_and_the_angles(supported):
     angles = document["certainty"]["angles"]
     assert [row["angle_deg"] for row in angles["turned"]][:3] == [22.5, 45.0, 67.5]
     assert len(angles["turned"]) == 12
-    assert angles["prd_m"] == max(
-        run.prd_m for motion in assessment.governing.motions for run in motion.runs
-    )
+    runs = [one for motion in assessment.governing.motions for one in motion.runs]
+    assert angles["prd_m"] == max(one.prd_m for one in runs)
 
 
 def test_json_has_neighbors_that_are_missing_or_contradict_and_the_limits_on_motions(supported):
     assessment, _, document = supported
-    rows = document["neighbors"]
-    assert [row["is_missing"] for row in rows] == [n.is_missing for n in assessment.neighbors]
-    assert any(
-        row["contradictions"] for row in rows if (row["array"], row["other"]) == ("A1", "RTU-1")
-    )
-    assert [row["ok"] for row in document["acceptance"]] == [
-        row.satisfied for row in assessment.acceptance.rows
-    ]
+    rows = {(row["array"], row["other"]): row for row in document["neighbors"]}
+    missing = [row["is_missing"] for row in rows.values()]
+    assert missing == [near.is_missing for near in assessment.neighbors]
+    assert rows["A1", "RTU-1"]["contradictions"]
+    satisfied = [row["ok"] for row in document["acceptance"]]
+    assert satisfied == [row.satisfied for row in assessment.acceptance.rows]
     assert {"found_s", "limit_s"} <= {key for row in document["acceptance"] for key in row}
 
 
 def test_json_has_no_verdict_where_no_route_is_permitted():
-    document = json.loads(made(stand_in.unpermitted()))
+    document = made(stand_in.unpermitted())
     first, _ = document["arrays"]
     assert (first["design_m"], first["design_permitted"], first["verdict"]) == (0.0, False, "NG")
     for gap in document["clearances"][:2]:
@@ -208,3 +192,13 @@ def test_json_has_no_verdict_where_no_route_is_permitted():
         assert gap["verdict"] == "none"
     assert document["clearances"][2]["verdict"] == "OK"
     assert document["verdict"] == "NG"
+
+
+def test_json_has_the_sums_over_smaller_events():
+    options = {"peer_reviewed": True, "smaller_events": "0.50, 0.50, 0.25"}
+    assessment, document = run(options=options)
+    rows = document["cumulative"]
+    assert [row["array"] for row in rows] == [item.id for item in assessment.arrays]
+    for row, item in zip(rows, assessment.arrays, strict=True):
+        assert row["largest_m"] == max(row["sums_m"].values())
+        assert row["mean_m"] > item.analysis.mean_m

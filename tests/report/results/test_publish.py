@@ -7,11 +7,10 @@ import hashlib
 import os
 import random
 import shutil
-import signal
 import subprocess
 import sys
-import threading
 import time
+from contextlib import contextmanager
 
 import pytest
 
@@ -32,54 +31,69 @@ def is_whole(folder):
     )
 
 
-def test_files_are_published_together(tmp_path):
-    publish({"a.txt": b"1", "b.txt": b"2"}, tmp_path / "out")
-    assert names_in(tmp_path / "out") == ["a.txt", "b.txt", STAMP]
-    publish({"a.txt": b"3", "b.txt": b"4"}, tmp_path / "out")
-    assert (tmp_path / "out" / "a.txt").read_bytes() == b"3"
-
-
-def test_a_locked_file_changes_nothing_and_is_named(tmp_path, monkeypatch):
-    publish({"a.txt": b"old a"}, tmp_path)
+@pytest.fixture
+def before_each_replacement(monkeypatch):
+    """A context in which a function is called before each replacement, with its two paths."""
     replace = os.replace
 
-    def opened(source, target):
-        if str(target).endswith("c.txt"):
-            raise PermissionError(13, "Permission denied")
-        replace(source, target)
+    @contextmanager
+    def calling(function):
+        def replaced(source, target):
+            function(str(source), str(target))
+            replace(source, target)
 
-    monkeypatch.setattr(os, "replace", opened)
+        with monkeypatch.context() as patch:
+            patch.setattr(os, "replace", replaced)
+            yield
+
+    return calling
+
+
+class Killed(BaseException):
+    """The end of a process at one moment."""
+
+
+OLD = {"a.txt": b"old a", "b.txt": b"old b"}
+NEW = {"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in folder.glob("*.txt") if path.is_file()}
+
+
+def test_files_are_published_together(tmp_path):
+    publish(OLD, tmp_path / "out")
+    assert names_in(tmp_path / "out") == ["a.txt", "b.txt", STAMP]
+    publish(NEW, tmp_path / "out")
+    assert contents(tmp_path / "out") == NEW
+
+
+def test_a_file_that_cannot_be_replaced_changes_nothing_and_is_named(tmp_path):
+    publish(OLD, tmp_path)
+    (tmp_path / "c.txt").mkdir()
     with pytest.raises(InputError, match=r"c\.txt: cannot be replaced .*close it"):
-        publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
-    assert names_in(tmp_path) == ["a.txt", STAMP]
-    assert (tmp_path / "a.txt").read_bytes() == b"old a"
+        publish(NEW, tmp_path)
+    assert names_in(tmp_path) == ["a.txt", "b.txt", "c.txt", STAMP]
+    assert contents(tmp_path) == OLD
     assert is_whole(tmp_path)
 
 
 @pytest.mark.parametrize("at", ["forward.json", "a.txt", "b.txt", STAMP])
-def test_ctrl_c_while_files_are_replaced_leaves_one_whole_set(tmp_path, monkeypatch, at):
-    publish({"a.txt": b"old a", "b.txt": b"old b"}, tmp_path)
-    replace, interrupts = os.replace, [KeyboardInterrupt]
+def test_ctrl_c_while_files_are_replaced_leaves_one_whole_set(
+    tmp_path, before_each_replacement, at
+):
+    publish(OLD, tmp_path)
+    interrupts = [KeyboardInterrupt]
 
-    def interrupted(source, target):
-        if str(target).endswith(at) and interrupts:
+    def interrupted(_, target):
+        if target.endswith(at) and interrupts:
             raise interrupts.pop()
-        replace(source, target)
 
-    monkeypatch.setattr(os, "replace", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        publish({"a.txt": b"new a", "b.txt": b"new b"}, tmp_path)
-    assert names_in(tmp_path) == ["a.txt", "b.txt", STAMP]
+    with before_each_replacement(interrupted), pytest.raises(KeyboardInterrupt):
+        publish(NEW, tmp_path)
+    assert contents(tmp_path) == (OLD if at == "forward.json" else NEW)
+    assert names_in(tmp_path) == [*sorted(contents(tmp_path)), STAMP]
     assert is_whole(tmp_path)
-    found = {(tmp_path / name).read_bytes()[:3] for name in ("a.txt", "b.txt")}
-    assert found == {b"old" if at == "forward.json" else b"new"}
-
-
-def test_a_folder_in_place_of_a_file_is_reported(tmp_path):
-    (tmp_path / "a.txt").mkdir()
-    with pytest.raises(InputError, match=r"a\.txt: cannot be replaced"):
-        publish({"a.txt": b"1"}, tmp_path)
-    assert (tmp_path / "a.txt").is_dir()
 
 
 def test_a_folder_that_cannot_be_created_is_reported(tmp_path):
@@ -120,9 +134,14 @@ for n in range(start, 10**6, step):
 
 
 def writer(folder, start, step, pause_s=0.0):
-    arguments = [sys.executable, "-c", WRITER, str(folder), str(start), str(step)]
-    arguments.append(str(pause_s))
-    return subprocess.Popen(arguments, stdout=subprocess.PIPE)
+    words = map(str, (folder, start, step, pause_s))
+    return subprocess.Popen([sys.executable, "-c", WRITER, *words], stdout=subprocess.PIPE)
+
+
+def end(child):
+    child.kill()
+    child.wait()
+    child.stdout.close()
 
 
 def numbers_of(folder):
@@ -140,9 +159,7 @@ def test_a_run_killed_at_any_moment_leaves_the_old_set_or_the_new_one(tmp_path):
         child = writer(tmp_path, 1000 * trial, 1)
         child.stdout.readline()
         time.sleep(rng.uniform(0.0, 0.02))
-        child.send_signal(signal.SIGKILL)
-        child.wait()
-        child.stdout.close()
+        end(child)
         # A reader who checks the stamp never takes a mixture for a set.
         assert not is_whole(tmp_path) or len(numbers_of(tmp_path)) == 1
         finish(tmp_path)
@@ -156,60 +173,45 @@ def test_a_run_killed_at_any_moment_leaves_the_old_set_or_the_new_one(tmp_path):
 
 
 @pytest.mark.parametrize("step", range(1, 12))
-def test_a_run_killed_after_any_rename_is_finished_by_the_next(tmp_path, monkeypatch, step):
-    publish({"a.txt": b"old a", "b.txt": b"old b"}, tmp_path)
-    left, replace = [step], os.replace
+def test_a_run_killed_after_any_rename_is_finished_by_the_next(
+    tmp_path, before_each_replacement, step
+):
+    publish(OLD, tmp_path)
+    left = [step]
 
-    class Killed(BaseException):
-        pass
-
-    def counted(source, target):
+    def counted(*_):
         left[0] -= 1
         if left[0] <= 0:  # nothing is done from there on
             raise Killed
-        replace(source, target)
 
-    monkeypatch.setattr(os, "replace", counted)
     try:
-        publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
+        with before_each_replacement(counted):
+            publish(NEW, tmp_path)
     except Killed:
-        monkeypatch.undo()
         finish(tmp_path)
     else:
         assert step > 5
-        monkeypatch.undo()
     assert is_whole(tmp_path)
-    contents = {name: (tmp_path / name).read_bytes() for name in ("a.txt", "b.txt")}
-    if step == 1:  # the journal was not in place
-        assert contents == {"a.txt": b"old a", "b.txt": b"old b"}
-        assert not (tmp_path / "c.txt").exists()
-    else:
-        assert contents == {"a.txt": b"new a", "b.txt": b"new b"}
-        assert (tmp_path / "c.txt").read_bytes() == b"new c"
+    # The first one puts the journal in place.
+    assert contents(tmp_path) == (OLD if step == 1 else NEW)
 
 
-def test_a_set_half_put_back_is_put_back_by_the_next_run(tmp_path, monkeypatch):
-    publish({"a.txt": b"old a", "b.txt": b"old b", "c.txt": b"old c"}, tmp_path)
-    replace = os.replace
-
-    class Killed(BaseException):
-        pass
+def test_a_set_half_put_back_is_put_back_by_the_next_run(tmp_path, before_each_replacement):
+    former = OLD | {"c.txt": b"old c"}
+    publish(former, tmp_path)
 
     def failing(source, target):
-        if str(target) == str(tmp_path / "c.txt"):
+        if target == str(tmp_path / "c.txt"):
             raise PermissionError(13, "Permission denied")
-        if str(target) == str(tmp_path / "b.txt") and "old" in str(source):
+        if target == str(tmp_path / "b.txt") and "old" in source:
             raise Killed
-        replace(source, target)
 
-    monkeypatch.setattr(os, "replace", failing)
-    with pytest.raises(Killed):
-        publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, tmp_path)
-    monkeypatch.undo()
+    with before_each_replacement(failing), pytest.raises(Killed):
+        publish(NEW, tmp_path)
     assert not is_whole(tmp_path)
     finish(tmp_path)
     assert is_whole(tmp_path)
-    assert (tmp_path / "a.txt").read_bytes() == b"old a"
+    assert contents(tmp_path) == former
 
 
 def test_two_runs_at_once_never_mix_their_sets(tmp_path):
@@ -225,30 +227,17 @@ def test_two_runs_at_once_never_mix_their_sets(tmp_path):
             assert len(numbers) == 1
             seen |= numbers
     for child in children:
-        child.kill()
-        child.wait()
-        child.stdout.close()
+        end(child)
     finish(tmp_path)
     assert is_whole(tmp_path)
     assert len(seen) > 2
 
 
 def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path):
-    with locked(tmp_path):
-        errors = []
-
-        def second():
-            try:
-                publish({"a.txt": b"1"}, tmp_path, wait_s=0.2)
-            except InputError as error:
-                errors.append(str(error))
-
-        other = threading.Thread(target=second)
-        other.start()
-        other.join()
-    assert len(errors) == 1
-    assert "another run has been writing there" in errors[0]
-    assert not (tmp_path / "a.txt").exists()
+    words = "another run has been writing there for 0.2 s"
+    with locked(tmp_path), pytest.raises(InputError, match=words):
+        publish(OLD, tmp_path, wait_s=0.2)
+    assert contents(tmp_path) == {}
 
 
 @pytest.mark.parametrize("way", ["the same", "another spelling", "a link", "a hard link"])

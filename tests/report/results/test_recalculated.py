@@ -1,12 +1,12 @@
 """results.xlsx in LibreOffice: what an engineer changes there, and how it prints."""
 
-import datetime as dt
 import io
 
 import openpyxl
 import pytest
 from pypdf import PdfReader
 
+import scenes
 import stand_in
 from cells import cell
 from recalculated import converted, recalculated
@@ -17,17 +17,11 @@ from sheets import of, put
 INCH = 0.0254
 GOVERNING = "Governing array, direction"
 SITE = stand_in.site()
-REVIEWED = {
-    "peer_reviewed": True,
-    "peer_reviewer": "Reviewer of record",
-    "peer_license": "CA S0000",
-    "peer_date": dt.date(2026, 3, 1),
-    "statistic": "1.1 x largest",
-}
+REVIEWED = scenes.REVIEW | {"statistic": "1.1 x largest"}
 
 
 def assessed(**changes):
-    return stand_in.assessed(stand_in.book(stand_in.project(**changes)))
+    return scenes.package(scenes.motions(7), **changes).assessment
 
 
 def written(assessment):
@@ -48,7 +42,7 @@ def reviewed():
     return assessed(options=REVIEWED)
 
 
-NARROW_M = 10 * INCH
+NARROW_M = 5 * INCH
 
 
 def change_inputs(book):
@@ -97,19 +91,16 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
     assert cell(book, "Design/Verdict").value == after.verdict.value
     lengths = ("Prescriptive", "Mean PRD", "Largest PRD", "Computed", "Floor [in]", "Design [in]")
     for item in after.arrays:
-        row = f"Design/{item.id}"
+        row, found = f"Design/{item.id}", item.analysis
         wanted = (
-            item.prescriptive.value_m, item.analysis.mean_m, item.analysis.largest_m,
-            item.analysis.value_m, item.floor_m, item.design_m,
+            item.prescriptive.value_m, found.mean_m, found.largest_m, found.value_m,
+            item.floor_m, item.design_m,
         )  # fmt: skip
-        assert compared(book, row, lengths) == pytest.approx(
-            [value / INCH for value in wanted], rel=1e-9
-        )
-        assert compared(book, row, ("Number of motions", "Verdict", "Statistic")) == [
-            item.analysis.n_motions,
-            after.array_verdict(item).value,
-            item.analysis.basis.value,
-        ]
+        in_inches = [value / INCH for value in wanted]
+        assert compared(book, row, lengths) == pytest.approx(in_inches, rel=1e-9)
+        verdict = after.array_verdict(item).value
+        headings = ("Number of motions", "Verdict", "Statistic")
+        assert compared(book, row, headings) == [found.n_motions, verdict, found.basis.value]
     for number, gap in enumerate(after.clearances, start=1):
         row = f"Clearances/{number}"
         lengths = (gap.design_m, gap.factor * INCH, gap.required_m, gap.clearance.provided_m)

@@ -1,6 +1,5 @@
 """results.xlsx: its formulas, evaluated here independently, give its values."""
 
-import datetime as dt
 import io
 import itertools
 import math
@@ -10,12 +9,16 @@ from dataclasses import replace
 import openpyxl
 import pytest
 
+import scenes
 import stand_in
 from cells import address, cell
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
 from report.sheet.schema import Direction
 from sheets import formula_cells
+
+GOVERNING = "Governing array, direction"
+SEVEN = scenes.motions(7)
 
 
 def xlsx(assessment):
@@ -27,30 +30,31 @@ def opened(content):
     return [openpyxl.load_workbook(io.BytesIO(content), data_only=flag) for flag in (False, True)]
 
 
+def made(shaking=SEVEN, **changes):
+    """An assessment with the formulas and the values of its workbook."""
+    assessment = scenes.package(shaking, **changes).assessment
+    return assessment, *opened(xlsx(assessment))
+
+
 def of(book, name):
     """The address of a cell within its sheet."""
     return cell(book, name).coordinate
 
 
-GOVERNING = "Governing array, direction"
+def valued(book, row, *headings):
+    """The values of a row by heading."""
+    return [cell(book, f"{row}/{heading}").value for heading in headings]
 
 
-def short():
-    return stand_in.motions(seconds=10.0)
-
-
-def made(book):
-    return opened(xlsx(stand_in.assessed(book)))
-
-
-@pytest.fixture(scope="module")
-def assessment():
-    return stand_in.assessed(stand_in.book())
+def rows_of(sheet, head_row=1):
+    """The rows of a sheet below its headings, by heading."""
+    head, *rows = sheet.iter_rows(min_row=head_row, values_only=True)
+    return [dict(zip(head, row, strict=True)) for row in rows]
 
 
 @pytest.fixture(scope="module")
-def content(assessment):
-    return xlsx(assessment)
+def content():
+    return xlsx(scenes.usual())
 
 
 @pytest.fixture(scope="module")
@@ -171,7 +175,7 @@ CASES = {
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_formula_gives_the_value_written_with_it(case):
-    formulas, values = made(stand_in.book(stand_in.project(**CASES[case]), short()))
+    _, formulas, values = made(**CASES[case])
     assert check_formulas(formulas, values) > 50
 
 
@@ -188,9 +192,7 @@ def check_formulas(formulas, values):
 
 
 def test_the_effect_of_links_follows_from_their_runs():
-    data = stand_in.project(**CASES["a row of linked blocks"])
-    assessment = stand_in.assessed(stand_in.book(data, short()))
-    formulas, values = opened(xlsx(assessment))
+    assessment, formulas, values = made(**CASES["a row of linked blocks"])
     first, second = assessment.linked
     rows = list(values["LinkRuns"].iter_rows(min_row=2, values_only=True))
     assert len(rows) == 2 * 28
@@ -201,25 +203,21 @@ def test_the_effect_of_links_follows_from_their_runs():
         row = f"Links/{n}"
         linked = cell(values, f"{row}/Design with links").value
         assert linked == pytest.approx(linked_m / 0.0254)
-        assert [cell(values, f"{row}/{head}").value for head in ("Array", "Result")] == [
-            name,
-            result,
-        ]
-        ratio, used = (cell(formulas, f"{row}/{head}").value for head in ("Ratio", "Design used"))
+        assert valued(values, row, "Array", "Result") == [name, result]
+        ratio, used = valued(formulas, row, "Ratio", "Design used")
         assert ratio == f"={of(formulas, f'{row}/Row')}/{of(formulas, f'{row}/Rigid')}"
         assert used == f"={address(formulas, f'Design/{name}/Design [in]')}"
 
 
 def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets(usual):
-    formulas, _ = usual
-    assert not {"Links", "LinkRuns"} & set(formulas.sheetnames)
+    assert not {"Links", "LinkRuns"} & set(usual[0].sheetnames)
 
 
 def test_a_row_without_a_value_is_ng_in_the_workbook():
-    data = stand_in.project(links=[stand_in.links("A1", "0.40, 0.50", 50)])
-    _, values = made(stand_in.book(data, stand_in.motions(2, seconds=8.0)))
-    wanted = {"Array": "A1", "Design with links": "none", "Result": "NG"}
-    assert {head: cell(values, f"Links/1/{head}").value for head in wanted} == wanted
+    links = [stand_in.links("A1", "0.40, 0.50", 50)]
+    _, _, values = made(scenes.motions(2), links=links)
+    row = valued(values, "Links/1", "Array", "Design with links", "Result")
+    assert row == ["A1", "none", "NG"]
 
 
 def test_the_prescriptive_value_is_a_live_formula(usual):
@@ -234,103 +232,82 @@ def test_the_prescriptive_value_is_a_live_formula(usual):
 
 
 def test_a_clearance_follows_from_the_runs_through_its_direction():
-    options = {
-        "peer_reviewed": True,
-        "directional": True,
-        "directional_reason": "test",
-        "directional_reviewer": "Reviewer of record",
-        "directional_license": "CA S0000",
-        "directional_date": dt.date(2026, 3, 1),
-    }
-    assessment = stand_in.assessed(stand_in.book(stand_in.project(options=options)))
-    formulas, values = opened(xlsx(assessment))
+    options = scenes.REVIEW | scenes.DEPARTURE
+    assessment, formulas, values = made(options=options)
     gap = assessment.clearances[3]
     assert (gap.governing_array, gap.governing_direction) == ("A3", Direction.UP)
     assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, up"
+    own = "Directions/10"  # the third array's second
     source = cell(formulas, "Clearances/4/Design").value
-    own = address(formulas, "Directions/10/In this direction")  # the third array's second
-    assert source.replace("$", "") == f"={own}"
-    row = {head: cell(values, f"Directions/10/{head}").value for head in ("Array", "Direction")}
-    assert row == {"Array": "A3", "Direction": "up"}
-    design = cell(values, "Directions/10/In this direction").value
+    assert source.replace("$", "") == f"={address(formulas, f'{own}/In this direction')}"
+    assert valued(values, own, "Array", "Direction") == ["A3", "up"]
+    design = cell(values, f"{own}/In this direction").value
     assert design == pytest.approx(gap.design_m / 0.0254)
-    mean = cell(formulas, "Directions/10/Mean of peaks").value
     first, last = (of(formulas, f"Peaks/{n}/Upslope") for n in (15, 21))  # of the third array
-    assert mean == f"=AVERAGE(Peaks!{first}:{last})"
+    assert cell(formulas, f"{own}/Mean of peaks").value == f"=AVERAGE(Peaks!{first}:{last})"
     assert cell(formulas, "Peaks/15/Upslope").value.startswith("=MAX(Runs!")
 
 
-def test_a_clearance_takes_the_full_displacement_of_the_sheet_design(assessment, usual):
+def test_a_clearance_takes_the_full_displacement_of_the_sheet_design(usual):
     formulas, values = usual
-    gap = assessment.clearances[3]
+    gap = scenes.usual().clearances[3]
     assert cell(values, f"Clearances/4/{GOVERNING}").value == "A3, any"
     source = cell(formulas, "Clearances/4/Design").value
     assert source.replace("$", "") == f"={address(formulas, 'Design/A3/Design [in]')}"
     assert cell(values, "Design/A3/Design [in]").value == pytest.approx(gap.design_m / 0.0254)
 
 
-def test_the_model_of_every_run_is_listed(usual):
-    _, values = usual
-    head, first, *_ = values["Runs"].iter_rows(values_only=True)
-    assert first[head.index("Model")] == "3, two axes with vertical"
-    assert "second horizontal component" in first[head.index("Reason")]
-    assert first[head.index("Cross-slope [in]")] > 0.0
+def test_every_run_is_listed_with_its_model(usual):
+    rows = rows_of(usual[1]["Runs"])
+    assert len(rows) == 3 * 7 * 4
+    assert sum(row["Governs"] == "yes" for row in rows) == 3 * 7
+    assert rows[0]["Model"] == "3, two axes with vertical"
+    assert "second horizontal component" in rows[0]["Reason"]
+    assert rows[0]["Cross-slope [in]"] > 0.0
 
 
 def test_without_a_value_the_workbook_states_no_value_and_no_verdict():
-    _, values = made(stand_in.book(stand_in.steep(), stand_in.motions(2)))
-    for name, wanted in {
-        "Design/1/Design [in]": "none",
-        "Design/1/Verdict": "NG",
-        "Clearances/1/Required [in]": "none",
-        "Clearances/1/Result": "none",
-    }.items():
-        assert cell(values, name).value == wanted
+    steep = stand_in.steep()
+    values = opened(xlsx(stand_in.assess_input(steep, scenes.motions(2))))[1]
+    assert valued(values, "Design/1", "Design [in]", "Verdict") == ["none", "NG"]
+    assert valued(values, "Clearances/1", "Required [in]", "Result") == ["none", "none"]
+    assert cell(values, "Design/Verdict").value == "NG"
+    rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
+    assert any(row[0] == "Motions" and row[5] == "NG" for row in rows)
 
 
 def test_text_that_looks_like_a_formula_stays_text():
-    data = stand_in.project(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
-    formulas, _ = made(stand_in.book(data, short()))
+    _, formulas, _ = made(arrays=[stand_in.array("=1+1", 1.0)], clearances=[])
     for sheet in ("Design", "Runs"):
         name = cell(formulas, f"{sheet}/1/Array")
         assert (name.value, name.data_type) == ("=1+1", "s")
 
 
-def test_every_run_is_listed(usual):
-    _, values = usual
-    rows = list(values["Runs"].iter_rows(min_row=2, values_only=True))
-    assert len(rows) == 3 * 7 * 4
-    assert sum(row[4] == "yes" for row in rows) == 3 * 7
-
-
 def test_the_spectrum_of_every_motion_is_listed_by_component(usual):
-    _, values = usual
-    head = [at.value for at in values["Spectra"][1]]
+    head = [at.value for at in usual[1]["Spectra"][1]]
     assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
     assert len(head) == 1 + 3 * 8
     assert "Transverse, M7 [g]" in head
 
 
-def test_two_runs_give_the_same_bytes(assessment, content, usual):
-    assert xlsx(assessment) == content
-    formulas, _ = usual
-    assert formulas.properties.created.date() == assessment.sheet.project.project.date
+def test_two_runs_give_the_same_bytes(content, usual):
+    assert xlsx(scenes.usual()) == content
+    assert usual[0].properties.created.date() == scenes.usual().project.project.date
 
 
 def test_the_processing_of_each_component_is_listed(usual):
-    _, values = usual
-    head, *rows = values["Motions"].iter_rows(values_only=True)
+    rows = rows_of(usual[1]["Motions"])
     assert len(rows) == 7 * 3
-    assert rows[1][:5] == ("M1", "transverse", "roof", "as recorded", "as recorded")
-    assert rows[0][head.index("PGA [g]")] == pytest.approx(1.7)
+    first = ["M1", "transverse", "roof", "as recorded", "as recorded"]
+    assert [*rows[1].values()][:5] == first
+    assert rows[0]["PGA [g]"] == pytest.approx(1.7)
 
 
 @pytest.mark.parametrize("count", [2, 3])
 def test_the_prescriptive_route_has_one_design_value_in_every_direction(count):
     """Of two motions there is no value from analysis; three give one that lacks components."""
-    shaking = [replace(motion, ay_mps2=stand_in.NO_RECORD) for motion in stand_in.motions(count)]
-    assessment = stand_in.assessed(stand_in.book(shaking=tuple(shaking)))
-    formulas, values = opened(xlsx(assessment))
+    shaking = [replace(motion, ay_mps2=stand_in.NO_RECORD) for motion in scenes.motions(count)]
+    assessment, formulas, values = made(shaking)
     for row, item in enumerate(assessment.arrays):
         assert item.governs == "prescriptive"
         for k, head in itertools.product(range(1, 5), ("In this direction", "By Roofslip")):
@@ -340,8 +317,8 @@ def test_the_prescriptive_route_has_one_design_value_in_every_direction(count):
         assert source == f"={address(formulas, f'Design/{item.id}/Design [in]')}"
 
 
-def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(assessment, usual):
-    _, values = usual
+def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual):
+    assessment, values = scenes.usual(), usual[1]
     assert values.sheetnames[0] == "Design"
     assert cell(values, "Design/Verdict").value == assessment.verdict.value
     for item in assessment.arrays:
@@ -362,28 +339,15 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(assess
     assert found[5] == ("OK" if slope.ok else "NG")
 
 
-def test_a_limit_that_is_not_satisfied_is_ng_in_the_workbook():
-    _, values = made(stand_in.book(stand_in.steep(), stand_in.motions(2, seconds=4.0)))
-    assert cell(values, "Design/Verdict").value == "NG"
-    rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
-    assert any(row[0] == "Motions" and row[5] == "NG" for row in rows)
-
-
 def test_the_workbook_has_no_verdict_where_no_route_is_permitted():
-    assessment = stand_in.unpermitted(links=[stand_in.links("A1", "0.3, 0.3", 50)])
-    formulas, values = opened(xlsx(assessment))
+    links = [stand_in.links("A1", "0.3, 0.3", 50)]
+    formulas, values = opened(xlsx(stand_in.unpermitted(links=links)))
     check_formulas(formulas, values)
-    rows = rows_of(values["Clearances"])
-    assert [row["Governing array, direction"] for row in rows[:2]] == ["A1, any"] * 2
-    for row in rows[:2]:
-        headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Result")
+    headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Result")
+    first, second, third = rows_of(values["Clearances"], 4)
+    for row in (first, second):
+        assert row[GOVERNING] == "A1, any"
         assert [row[heading] for heading in headings] == ["none"] * 5
-    assert rows[2]["Result"] == "OK"
-    assert [row["Verdict"] for row in rows_of(values["Design"])] == ["NG", "NG"]
-    assert rows_of(values["Links"])[0]["Result"] == "NG"
-
-
-def rows_of(sheet):
-    """The rows of a sheet below its headings, by heading."""
-    head, *rows = sheet.iter_rows(min_row=4, values_only=True)
-    return [dict(zip(head, row, strict=True)) for row in rows]
+    assert third["Result"] == "OK"
+    assert [row["Verdict"] for row in rows_of(values["Design"], 4)] == ["NG", "NG"]
+    assert rows_of(values["Links"], 4)[0]["Result"] == "NG"
