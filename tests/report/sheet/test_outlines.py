@@ -1,16 +1,15 @@
-"""Outlines in the workbook: read back as written, checked by cell, optional."""
+"""Outlines and the roof in the workbook: read back as written, checked by cell, optional."""
 
 import pytest
 from openpyxl import load_workbook
 
-from inputs import FT, NO_SIDES
+from inputs import FT, NO_SIDES, SIDES
 from report.sheet.read import read
 from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
 from sheets import (
     arrays,
     at,
     blank,
-    edit,
     make,
     of,
     problems,
@@ -42,6 +41,18 @@ def in_meters(points):
     return [pytest.approx((x * FT, y * FT)) for x, y in points]
 
 
+ROOF_SIDES = dict(zip(SIDES, (0.0, 300 * FT, 0.0, 120 * FT), strict=True))
+
+
+def test_a_rectangular_roof_is_read_back_as_written_and_without_one_north_is_up(tmp_path):
+    roof = ROOF_SIDES | {"north_deg": 60.0}
+    data = read_workbook(make(tmp_path, roof=roof)).input
+    assert same(data, project(roof=roof))
+    assert data.roof.placed.x_to_m == pytest.approx(300 * FT)
+    bare = read_workbook(make(tmp_path)).input.roof
+    assert (bare.placed, bare.north_deg) == (None, 90.0)
+
+
 @pytest.mark.parametrize("units", list(UnitsFirst))
 def test_outlines_are_read_back_as_written(tmp_path, units):
     changes = outlined(roof=ROOF_FT)
@@ -57,11 +68,6 @@ def test_a_closed_or_clockwise_outline_is_the_same_shape(tmp_path):
     data = read_workbook(make(tmp_path, **outlined(backwards))).input
     first, *rest = L_FT[::-1]
     assert list(data.arrays[0].shape.points) == in_meters([first, *rest[::-1]])
-
-
-def test_a_workbook_without_the_sheet_is_read(tmp_path):
-    path = edit(make(tmp_path), lambda book: book.remove(book["Outlines"]))
-    assert same(read_workbook(path).input, project())
 
 
 def test_the_blank_sheet_asks_for_sides_or_an_outline(tmp_path):
@@ -92,9 +98,8 @@ def test_an_unknown_name_is_told_by_its_cell(tmp_path):
 def test_two_vertices_are_no_outline(tmp_path):
     headings = ("Outline of", "x", "y")
     cleared = {f"{row}/{heading}": None for heading in headings for row in range(3, 7)}
-    assert changed(tmp_path, cleared) == said(
-        f"{FIRST}: A1 has 2 vertices; give at least 3, one to a row"
-    )
+    line = at(f"{FIRST}: A1 has 2 vertices; give at least 3, one to a row")
+    assert changed(tmp_path, cleared) == (line,)
 
 
 def test_an_outline_that_crosses_itself_is_told_with_the_point(tmp_path):
@@ -150,7 +155,7 @@ def test_an_array_that_spans_the_notch_of_the_roof_is_outside(tmp_path):
 
 
 def test_an_outlined_array_outside_of_a_rectangular_roof_is_told_at_its_outline(tmp_path):
-    roof = {"x_from_m": 0.0, "x_to_m": 300 * FT, "y_from_m": 0.0, "y_to_m": 74 * FT}
+    roof = ROOF_SIDES | {"y_to_m": 74 * FT}
     changes = outlined() | {"arrays": arrays(**NO_SIDES)[:1], "roof": roof}
     (found,) = problems(make(tmp_path, **changes))
     assert found.startswith(at(f"{FIRST}: A1 is outside the roof near x "))
