@@ -4,6 +4,7 @@ import importlib.util
 import itertools
 import math
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import pytest
 from openpyxl import Workbook, load_workbook
@@ -13,7 +14,7 @@ from cells import cell
 from inputs import FT, INCH, NO_SIDES
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
-from report.assessment.clearances import _importance, _neighbor, are_alike
+from report.assessment.clearances import check_clearance
 from report.pages.section import weight_per_area_pa
 from report.sheet.schema import ProjectInput, SiteClass, UnitsFirst
 from report.sheet.template import write_template
@@ -88,7 +89,6 @@ def edge_cases() -> dict[str, ProjectInput]:
 
 
 HEAD_ROW = 7
-RATIO = "D/C, prescriptive"
 
 
 @dataclass(frozen=True)
@@ -276,30 +276,30 @@ def test_the_four_separations_are_those_of_the_package(case):
 
 
 def test_the_ratio_of_each_clearance_is_that_of_the_package(case):
-    data, rules = case.data, case.rules
-    arrays = {row.id: row for row in data.arrays}
-    others = {row.id: row for row in data.objects} | arrays
+    arrays = [
+        SimpleNamespace(
+            id=array.id,
+            array=array,
+            adopted=None,
+            opened_mark="",
+            is_permitted=True,
+            permitted_toward_m=lambda direction: case.prescriptive_m,
+        )
+        for array in case.data.arrays
+    ]
     heading = next(h for h in case.headings("Clearances") if h.startswith("Required"))
     unit = Quantity.SIZE.us if "[in]" in heading else Quantity.SIZE.si
-    shown = zip(
-        *(case.column("Clearances", h) for h in ("Neighbor", heading.partition(" [")[0], RATIO)),
-        strict=True,
+    neighbors, required, ratios = (
+        case.column("Clearances", name)
+        for name in ("Neighbor", "Required, prescriptive", "D/C, prescriptive")
     )
-    for row, (neighbor_of_sheet, required, of_sheet) in zip(data.clearances, shown, strict=False):
-        near, other = arrays[row.array], others[row.object]
-        if row.object in arrays:
-            neighbor = Neighbor.LIKE if are_alike(near, other) else Neighbor.UNLIKE
-        else:
-            neighbor = _neighbor(rules, other, near)
-        i_p = max(near.i_p, other.i_p)
-        importance = _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
-        wanted = required_separation(
-            rules, neighbor, design_m=case.prescriptive_m, importance=importance
-        )
-        assert neighbor_of_sheet == neighbor.value
-        assert number(required, unit.decimals) == number(wanted / unit.si, unit.decimals)
-        of_package = wanted / row.provided_m if row.provided_m > 0.0 else math.inf
-        assert (of_sheet if of_sheet == "∞" else number(of_sheet, 2)) == ratio(of_package)
+    for count, row in enumerate(case.data.clearances):
+        wanted = check_clearance(case.data, case.rules, arrays, row)
+        wanted_length = number(wanted.required_m / unit.si, unit.decimals)
+        assert neighbors[count] == wanted.neighbor.value
+        assert number(required[count], unit.decimals) == wanted_length
+        shown = ratios[count]
+        assert (shown if shown == "∞" else number(shown, 2)) == ratio(wanted.demand_capacity)
 
 
 def test_weight_per_area_is_that_of_the_package(case):

@@ -5,6 +5,7 @@ import shutil
 
 from click.testing import CliRunner
 
+from cells import cell
 from places import DATA, ROOT
 from report.cli.main import main
 from report.sheet import formerly
@@ -40,24 +41,25 @@ def test_check_prints_the_note_once(tmp_path):
     assert done.output.count("of version 0.1") == 1
 
 
+def present():
+    return [(section, entry) for section in SECTIONS for entry in entries(section.model)]
+
+
 def earlier_labels(book):
     """Replace each renamed label and heading by its oldest name, and remove all defined names."""
     oldest = {
         (section.sheet, entry.cell.label): formerly.LABELS[section.key, entry.name][0]
-        for section in SECTIONS
-        for entry in entries(section.model)
+        for section, entry in present()
         if (section.key, entry.name) in formerly.LABELS
     }
-    for name in list(book.defined_names):
-        del book.defined_names[name]
+    book.defined_names.clear()
     changed = set()
-    for sheet in book.worksheets:
-        for row in sheet.iter_rows():
-            for cell in row:
-                label, bracket, unit = str(cell.value).removesuffix(" *").partition(" [")
-                if (sheet.title, label) in oldest:
-                    cell.value = oldest[sheet.title, label] + bracket + unit
-                    changed.add((sheet.title, label))
+    for found in (found for sheet in book.worksheets for row in sheet.iter_rows() for found in row):
+        label, bracket, unit = str(found.value).removesuffix(" *").partition(" [")
+        place = found.parent.title, label
+        if place in oldest:
+            found.value = oldest[place] + bracket + unit
+            changed.add(place)
     assert changed == oldest.keys()
 
 
@@ -65,30 +67,28 @@ def test_every_earlier_label_is_read_as_the_present_one(tmp_path):
     assert same(read(edit(make(tmp_path), earlier_labels)).project, project())
 
 
-def without(section, field):
-    """Remove the label and the name of a single cell, as a workbook from before it has none."""
-    (label,) = (e.cell.label for e in entries(section.model) if e.name == field)
+SITE = next(section for section in SECTIONS if section.key == "site")
+
+
+def without(field):
+    """Remove the label and the name of a cell of the site: workbooks from before it lack them."""
+    (label,) = (e.cell.label for e in entries(SITE.model) if e.name == field)
 
     def change(book):
-        del book.defined_names[section.cell_name(field)]
-        (cell,) = (
-            cell for row in book[section.sheet].iter_rows() for cell in row if cell.value == label
-        )
-        cell.value = None
+        del book.defined_names[SITE.cell_name(field)]
+        cell(book, f"Site/{label}").offset(column=-1).value = None
 
     return change
 
 
 def test_a_workbook_from_before_the_report_on_the_hazard_is_read_as_it_is(tmp_path):
-    site = next(section for section in SECTIONS if section.key == "site")
-    book = read(edit(make(tmp_path), without(site, "hazard_report")))
+    book = read(edit(make(tmp_path), without("hazard_report")))
     assert book.problems == ()
     assert same(book.project, project())
 
 
 def test_a_workbook_that_lost_one_of_the_cells_that_came_together_is_refused(tmp_path):
-    site = next(section for section in SECTIONS if section.key == "site")
-    (problem,) = read(edit(make(tmp_path), without(site, "hazard_date"))).problems
+    (problem,) = read(edit(make(tmp_path), without("hazard_date"))).problems
     assert "date of hazard is missing" in problem[1]
 
 
@@ -101,23 +101,14 @@ def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
 def test_an_earlier_choice_is_read_as_the_present_one(tmp_path, monkeypatch):
     monkeypatch.setitem(formerly.CHOICES, "old name", "fixed object")
 
-    def change(book):
-        for row in book["Objects"].iter_rows():
-            for cell in row:
-                if cell.value == "fixed object":
-                    cell.value = "Old name"
-
-    assert read(edit(make(tmp_path), change)).project.objects[0].kind == "fixed object"
+    path = type_into(make(tmp_path), {"Objects/RTU-1/Kind": "Old name"})
+    assert read(path).project.objects[0].kind == "fixed object"
 
 
 def test_every_earlier_name_belongs_to_a_present_one():
-    known = {(section.key, entry.name) for section in SECTIONS for entry in entries(section.model)}
+    known = {(section.key, entry.name) for section, entry in present()}
     assert formerly.LABELS.keys() | formerly.FIELDS.keys() <= known
-    labels = {
-        (section.key, other.cell.label): other.name
-        for section in SECTIONS
-        for other in entries(section.model)
-    }
+    labels = {(section.key, other.cell.label): other.name for section, other in present()}
     for (section, field), earlier in formerly.LABELS.items():
         for label in earlier:
             assert labels.get((section, label), field) == field
