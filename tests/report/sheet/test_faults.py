@@ -4,14 +4,13 @@ import datetime as dt
 import re
 
 import pytest
-from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
 from cells import address, cell
 from places import ROOT
 from report.sheet.read import read
 from report.sheet.schema import PROVISION_KEYS, UnitsFirst
-from sheets import at, edit, make, problems, read_workbook, said, type_into
+from sheets import at, edit, make, of, problems, read_workbook, said, type_into
 from solver.model import InputError
 
 
@@ -130,6 +129,8 @@ def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(of_cells, nu
     assert at(CONTENTS[number][2]) in of_cells[number]
 
 
+NO_CLEARANCE = dict.fromkeys(("Array", "Object", "Direction", "Provided clearance"))
+
 # Cells that are changed together, and all resulting lines.
 CONTRADICTIONS = [
     ({"Arrays/A2/ID": "a1", "Clearances/1/Object": "RTU-1"},
@@ -170,11 +171,9 @@ CONTRADICTIONS = [
      "<Clearances/1/Provided clearance>: provided clearance is 120.0 in (3048 mm), but A1 and A2"
      " overlap in plan; correct their rectangles in <Arrays/A1/x from:y to> and <Arrays/A2/x"
      " from:y to>"),
-    ({"Arrays/A1/x to": 120, "Clearances/1/Array": None, "Clearances/1/Object": None,
-      "Clearances/1/Direction": None, "Clearances/1/Provided clearance": None},
+    ({"Arrays/A1/x to": 120} | of("Clearances/1", NO_CLEARANCE),
      "<Arrays/A1/x from>: A1 and A2 at <Arrays/A2/x from> overlap in plan; correct one of them"),
-    ({"Objects/RTU-1/y from": 70, "Clearances/3/Array": None, "Clearances/3/Object": None,
-      "Clearances/3/Direction": None, "Clearances/3/Provided clearance": None},
+    ({"Objects/RTU-1/y from": 70} | of("Clearances/3", NO_CLEARANCE),
      "<Arrays/A2/x from>: A2 and RTU-1 at <Objects/RTU-1/x from> overlap in plan; correct one of"
      " them"),
     ({"Site/Risk category": "IV", "Site/Importance factor I_e": 1.25},
@@ -243,7 +242,7 @@ CONTRADICTIONS = [
     ({"Building/Period T1": 0.2, "Motions/M2/Recorded at": "ground", "Site/Number of stories": 101},
      "<Site/Number of stories>: number of stories is 101, more than the 100 of the building"
      " model; give roof motions"),
-    ({"Spectrum/1/Period": 1, "Spectrum/1/Horizontal": 1},
+    (of("Spectrum/1", {"Period": 1, "Horizontal": 1}),
      "<Spectrum/heading/Period>: one row is given; give at least two, or none"),
     ({"Spectrum/1/Period": 1, "Spectrum/1/Horizontal": 1, "Spectrum/2/Period": 1,
       "Spectrum/2/Horizontal": 1},
@@ -470,11 +469,6 @@ def test_a_unit_must_be_valid(tmp_path, units):
         assert line.startswith(f"{at(name)}: unit of {wanted}")
 
 
-def test_a_unit_that_cannot_be_chosen_may_be_blank(tmp_path):
-    cells = {"Site/S_DS/Unit": None, "Building/Period T1/Unit": " S "}
-    read_workbook(type_into(make(tmp_path), cells))
-
-
 def remove(sheet):
     return lambda book: book.remove(book[sheet])
 
@@ -488,17 +482,6 @@ def forget_number(book):
     del book.defined_names["project_number"]
     number = cell(book, "Project/Project number")
     number.offset(column=-1).value = None
-
-
-def area(name, *ends):
-    """The cells from one to another, given by rows and columns beside the first."""
-    row, column = coordinate_to_tuple(at(name).partition("!")[2])
-    corners = sorted((row + down, column + right) for down, right in ends)
-    return ":".join(f"{get_column_letter(c)}{r}" for r, c in corners)
-
-
-def merged(path, sheet, cells):
-    return edit(path, lambda book: book[sheet].merge_cells(cells))
 
 
 # What is changed in a workbook, and the resulting line.
@@ -527,12 +510,6 @@ def test_what_is_missing_or_in_percent_is_reported_once(tmp_path, change, line):
     assert problems(edit(make(tmp_path), change)) == said(line)
 
 
-def test_an_optional_column_may_be_deleted(tmp_path):
-    source = cell(load_workbook(make(tmp_path)), "Motions/M1/Source").column
-    path = edit(tmp_path / "input.xlsx", lambda book: book["Motions"].delete_cols(source))
-    assert [motion.source for motion in read_workbook(path).input.motions] == ["", "", ""]
-
-
 @pytest.mark.parametrize(
     ("name", "to"),
     [("Arrays/A1/Friction test report", (1, 0)), ("Site/Structure height h", (1, 0)),
@@ -540,19 +517,13 @@ def test_an_optional_column_may_be_deleted(tmp_path):
     ids=["table", "below", "unit", "label"],
 )  # fmt: skip
 def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, name, to):
-    sheet, cells = name.partition("/")[0], area(name, (0, 0), to)
-    path = merged(make(tmp_path), sheet, cells)
+    sheet, first = at(name).split("!")
+    row, column = coordinate_to_tuple(first)
+    (top, bottom), (left, right) = (sorted((0, step)) for step in to)
+    corners = ((row + top, column + left), (row + bottom, column + right))
+    cells = ":".join(f"{get_column_letter(across)}{down}" for down, across in corners)
+    path = edit(make(tmp_path), lambda book: book[sheet].merge_cells(cells))
     assert problems(path) == (f"{sheet}!{cells}: cells are merged; unmerge them",)
-
-
-def test_cells_merged_beside_a_single_field_do_not_matter(tmp_path):
-    path = merged(make(tmp_path), "Project", area("Project/Project name", (0, 0), (0, 3)))
-    assert read_workbook(path).input.project.name == "Alameda Warehouse"
-
-
-def test_characters_of_no_width_at_the_ends_of_a_text_are_not_read(tmp_path):
-    book = type_into(make(tmp_path), {"Motions/M1/ID": "\ufeffM7\u200b \u200b"})
-    assert read_workbook(book).input.motions[0].id == "M7"
 
 
 @pytest.mark.parametrize(

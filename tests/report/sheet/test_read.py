@@ -201,6 +201,9 @@ SPELLINGS = {
     "a number as a text": ("Project/Revision", 1),
     "a logical value for a yes": ("Options/Peer review", True),
     "notes in a computed column": ("Arrays/A2/Kind of array", "ask the client"),
+    "no width at the ends of a text": ("Motions/M1/ID", "\ufeffM1\u200b \u200b"),
+    "no unit where none can be chosen": ("Site/S_DS/Unit", None),
+    "a unit in capitals": ("Building/Period T1/Unit", " S "),
     "notes far to the right": ("Arrays!GR9", "ask the client"),  # the last column that is allowed
 }
 
