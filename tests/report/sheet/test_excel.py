@@ -11,7 +11,6 @@ from pypdf import PdfReader
 import sheets
 from cells import cell
 from recalculated import converted, recalculated_sheets
-from report.sheet.fields import Place
 from report.sheet.marks import AMBER, VIOLET
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
@@ -326,24 +325,6 @@ def test_nothing_is_read_from_the_answers(tmp_path):
     after = read(type_into(path, answers))
     assert same(after.project, before.project)
     assert after.echo == before.echo
-
-
-def test_a_row_that_has_formulas_only_is_blank(tmp_path):
-    sheet = read(make(tmp_path))
-    assert len(sheet.project.arrays) == 2
-    assert Place("arrays", 2, "id") not in sheet.addresses
-
-
-def test_a_second_reading_and_writing_keeps_formulas_marks_and_names(tmp_path):
-    before = load_workbook(make(tmp_path))
-    before.save(tmp_path / "again.xlsx")
-    after = load_workbook(tmp_path / "again.xlsx")
-    assert set(after.defined_names) == set(before.defined_names)
-    status = [cell(book, "Arrays/A1/Status").value for book in (before, after)]
-    assert status[0] == status[1]
-    for name in ("Arrays", "Site"):
-        assert len(after[name].conditional_formatting) == len(before[name].conditional_formatting)
-    assert len(after["Start"]._images) == 1
 
 
 def test_rare_columns_are_folded_until_one_is_filled(tmp_path):

@@ -3,22 +3,10 @@
 import pytest
 from openpyxl import load_workbook
 
-from inputs import FT, NO_SIDES, SIDES
+from inputs import FT, NO_SIDES, SIDES, clearance, sides
 from report.sheet.read import read
 from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
-from sheets import (
-    arrays,
-    at,
-    blank,
-    make,
-    of,
-    problems,
-    project,
-    read_workbook,
-    said,
-    same,
-    type_into,
-)
+from sheets import arrays, at, blank, make, of, problems, project, read_workbook, same, type_into
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))
 ROOF_FT = ((0, -1), (300, -1), (300, 121), (150, 121), (150, 140), (0, 140))
@@ -108,7 +96,7 @@ def test_an_outline_that_crosses_itself_is_told_with_the_point(tmp_path):
     assert found.endswith("; give its vertices in order, none of them twice")
 
 
-@pytest.mark.parametrize("typed", ["abc", "inf", "nan", None])
+@pytest.mark.parametrize("typed", ["nan", None])
 def test_a_coordinate_that_is_no_number_is_told_by_its_cell(tmp_path, typed):
     (found,) = changed(tmp_path, {"2/y": typed})
     assert found.startswith(at("<Outlines/2/y>: y is "))
@@ -116,11 +104,9 @@ def test_a_coordinate_that_is_no_number_is_told_by_its_cell(tmp_path, typed):
 
 
 def test_an_outline_in_two_places_is_refused(tmp_path):
-    line = at(
-        "<Outlines/5/Outline of>: outline of 'A1' goes on here after <Outlines/3/Outline of>; put"
-        " all of its rows together"
-    )
-    assert line in changed(tmp_path, {"4/Outline of": "A2"})
+    here, before = "<Outlines/5/Outline of>", "<Outlines/3/Outline of>"
+    line = f"outline of 'A1' goes on here after {before}; put all of its rows together"
+    assert at(f"{here}: {line}") in changed(tmp_path, {"4/Outline of": "A2"})
 
 
 def test_a_rectangle_and_an_outline_of_the_same_name_are_refused(tmp_path):
@@ -137,21 +123,18 @@ def test_the_roof_is_no_id_where_it_has_an_outline(tmp_path):
     changes = outlined(roof=ROOF_FT)
     item = project().objects[0].model_dump() | {"id": "Roof"}
     found = problems(make(tmp_path, **changes | {"objects": [item]}))
-    assert found == said(
+    assert found == (at(
         "<Outlines/7/Outline of>: outline of 'roof', which is also the ID of an array or object;"
         " give that another ID"
-    )
+    ),)  # fmt: skip
 
 
 def test_an_array_that_spans_the_notch_of_the_roof_is_outside(tmp_path):
     roof = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
-    found = problems(make(tmp_path, **outlined(roof=roof)))
-    assert len(found) == 1  # A2 spans the notch; A1, an L, is beside it
-    assert found[0].startswith("Arrays!")
-    assert "A2 is outside the roof near x " in found[0]
-    assert found[0].endswith(
-        at("; correct it, or the outline of the roof at <Outlines/7/Outline of>")
-    )
+    (found,) = problems(make(tmp_path, **outlined(roof=roof)))  # A1, an L, is beside the notch
+    assert found.startswith("Arrays!")
+    assert "A2 is outside the roof near x " in found
+    assert found.endswith(at("; correct it, or the outline of the roof at <Outlines/7/Outline of>"))
 
 
 def test_an_outlined_array_outside_of_a_rectangular_roof_is_told_at_its_outline(tmp_path):
@@ -163,16 +146,11 @@ def test_an_outlined_array_outside_of_a_rectangular_roof_is_told_at_its_outline(
 
 def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
     # RTU-1 stands in the notch of A1: 10 ft from one leg, 5 ft from the other.
-    unit = project().objects[0].model_dump()
-    unit |= {"x_from_m": 70 * FT, "x_to_m": 80 * FT, "y_from_m": 50 * FT, "y_to_m": 60 * FT}
-
-    def row(feet):
-        return {"array": "A1", "object": "RTU-1", "direction": "any", "provided_m": feet * FT}
-
-    changes = outlined(clearances=[row(5.0)]) | {"objects": [unit]}
-    assert read(make(tmp_path / "fits", **changes)).problems == ()
-    changes = outlined(clearances=[row(6.0)]) | {"objects": [unit]}
-    (found,) = problems(make(tmp_path / "short", **changes))
+    unit = project().objects[0].model_dump() | sides(70, 80, 50, 60)
+    row = clearance("A1", "RTU-1", 5 * FT)
+    path = make(tmp_path, **outlined(clearances=[row]) | {"objects": [unit]})
+    assert read(path).problems == ()
+    (found,) = problems(type_into(path, {"Clearances/1/Provided clearance": 72}))
     assert "A1 and RTU-1 are 60.0 in (1524 mm) apart in plan" in found
     assert found.endswith(
         at(f"reduce it, or correct the outlines in {FIRST} and <Objects/RTU-1/x from:y to>")

@@ -68,38 +68,24 @@ def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
     assert cell.startswith(f"{sheet}!")
 
 
-def no_height(book, sheet, letter, row):
-    book[sheet].row_dimensions[row].height = 0.75  # one pixel
+def test_a_cell_in_a_row_or_column_without_size_is_hidden(tmp_path):
+    """Each on a sheet of its own."""
+    places = ("Project/Project number", "Site/Structure height h/Unit",
+              "Arrays/A1/Importance factor I_p", "Objects/RTU-1/Height")  # fmt: skip
+    number, unit, factor, height = map(cell_of, places)
 
+    def change(book):
+        book["Project"].row_dimensions[number[2]].height = 0.75  # one pixel
+        book["Site"].column_dimensions[unit[1]].hidden = True
+        # As Excel saves it; what Roofslip itself types into a folded column, it unfolds.
+        named(book, "Arrays/A1/Importance factor I_p").value = 1.5
+        book["Objects"].column_dimensions[height[1]].width = 0.1
 
-def no_width(book, sheet, letter, row):
-    book[sheet].column_dimensions[letter].width = 0.1
-
-
-def hidden_column(book, sheet, letter, row):
-    book[sheet].column_dimensions[letter].hidden = True
-
-
-def value_in_a_folded_column(book, sheet, letter, row):
-    """As Excel saves it; what Roofslip itself types into a folded column, it unfolds."""
-    book[sheet][f"{letter}{row}"] = 1.5
-
-
-@pytest.mark.parametrize(
-    ("place", "change"),
-    [
-        ("Project/Project number", no_height),
-        ("Project/Project number", no_width),
-        ("Site/Structure height h/Unit", hidden_column),
-        ("Arrays/A1/Importance factor I_p", value_in_a_folded_column),
-    ],
-)
-def test_a_cell_in_a_row_or_column_without_size_is_hidden(tmp_path, place, change):
-    sheet, letter, row = cell_of(place)
-    path = edit(make(tmp_path), lambda book: change(book, sheet, letter, row))
-    ((name, _, text),) = told(path)
-    assert name == f"hidden {sheet}"
-    assert has(text, f"{letter}{row}")
+    for (name, _, text), (sheet, letter, row) in zip(
+        told(edit(make(tmp_path), change)), (number, unit, factor, height), strict=True
+    ):
+        assert name == f"hidden {sheet}"
+        assert has(text, f"{letter}{row}")
 
 
 def filter_table(book, sheet):
@@ -140,11 +126,6 @@ def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_p
         " and remove the strikethrough from the rest"
     )
     assert told(edit(path, change)) == [(f"struck through {sheet}", f"{sheet}!B{row}", text)]
-
-
-WHITE_FILL = PatternFill("solid", start_color="FFFFFF", end_color="FFFFFF")
-NO_FILL = PatternFill()
-THEME = Color(theme=0)
 
 
 def looking(path, look):
