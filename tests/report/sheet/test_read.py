@@ -237,10 +237,9 @@ def test_a_blank_choice_takes_its_default(tmp_path):
 
 def test_an_unknown_heading_is_listed_in_the_echo(tmp_path):
     def note(book):
-        beside = book["Arrays"].max_column + 1
-        last = cell(book, "Arrays/heading/ID").row
-        book["Arrays"].cell(last, beside).value = "Color"
-        book["Arrays"].cell(last + 1, beside).value = "black"
+        sheet, row = book["Arrays"], cell(book, "Arrays/heading/ID").row
+        beside = sheet.max_column + 1
+        sheet.cell(row, beside).value, sheet.cell(row + 1, beside).value = "Color", "black"
 
     book = read_workbook(edit(make(tmp_path), note))
     (row,) = [row for row in book.echo if row.value.startswith("not an input")]
@@ -294,10 +293,16 @@ def test_an_array_formula_without_a_value_is_reported_like_any_other(tmp_path):
 # Motions.
 
 
-def test_motions_are_scaled_and_signed_as_requested(tmp_path):
-    book = read_workbook(make(tmp_path))
-    m1, m2, m3 = book.motions
-    assert [m.id for m in book.motions] == ["M1", "M2", "M3"]
+@pytest.fixture(scope="module")
+def shaken(tmp_path_factory):
+    """The project, its first motion with a transverse record: with the slashes of Windows."""
+    path = recorded(make(tmp_path_factory.mktemp("shaken")), y="0.1\n" * 200)
+    return read_workbook(type_into(path, {"Motions/M1/Transverse record": "records\\y.csv"}))
+
+
+def test_motions_are_scaled_and_signed_as_requested(shaken):
+    m1, m2, m3 = shaken.motions
+    assert [m.id for m in shaken.motions] == ["M1", "M2", "M3"]
     assert (m1.scale, m1.signs, m1.has_vertical, m1.source) == (1.0, (1, -1), True, "made")
     assert (m2.scale, m2.signs, m2.has_vertical) == (2.0, (-1,), False)
     assert m3.signs == (1,)
@@ -305,42 +310,28 @@ def test_motions_are_scaled_and_signed_as_requested(tmp_path):
     assert (m1.dt_s, m3.dt_s) == (0.01, 0.02)
 
 
-def test_a_record_is_given_with_the_slashes_of_windows_and_is_read_only(tmp_path):
-    path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": "records\\x.csv"})
-    motions = read_workbook(path).motions
-    assert len(motions) == 3
-    for motion in motions:
-        assert not motion.ax_mps2.flags.writeable
-        assert not motion.az_mps2.flags.writeable
-
-
-def test_a_transverse_record_is_run_beside_the_horizontal_one(tmp_path):
-    motions = [motion.model_dump() for motion in project().motions]
-    motions[0] |= {"transverse": "records/y.csv"}
-    path = make(tmp_path, motions=motions)
-    (path.parent / "records" / "y.csv").write_text("0.1\n" * 200)
-    book = read_workbook(path)
-    m1, m2, _ = book.motions
+def test_a_transverse_record_is_run_beside_the_horizontal_one_and_all_are_read_only(shaken):
+    m1, m2, _ = shaken.motions
     assert np.allclose(m1.ay_mps2, 0.980665)
     names = [[heading.name for heading in motion.headings] for motion in (m1, m2)]
     assert names == [["record +", "record −", "transverse +", "transverse −"], ["record −"]]
-    assert [r.component for r in book.records[:3]] == ["horizontal", "transverse", "vertical"]
-    assert not m2.ay_mps2.flags.writeable
+    for motion in shaken.motions:
+        for a in (motion.ax_mps2, motion.ay_mps2, motion.az_mps2):
+            assert not a.flags.writeable
 
 
-def test_records_are_listed_with_their_hashes(tmp_path):
-    path = make(tmp_path)
-    records = read_workbook(path).records
-    assert [(r.motion_id, r.component, r.name) for r in records] == [
+def test_records_are_listed_with_their_hashes(shaken):
+    assert [(r.motion_id, r.component, r.name) for r in shaken.records] == [
         ("M1", "horizontal", "records/x.csv"),
+        ("M1", "transverse", "records\\y.csv"),
         ("M1", "vertical", "records/z.csv"),
         ("M2", "horizontal", "records/x2.csv"),
         ("M3", "horizontal", "records/x3.csv"),
     ]
-    data = (path.parent / "records" / "z.csv").read_bytes()
-    assert records[1].sha256 == hashlib.sha256(data).hexdigest()
-    assert records[1].npts == 200
-    assert records[1].peak_g == pytest.approx(0.25, abs=1e-4)
+    z = shaken.records[2]
+    data = (shaken.path.parent / "records" / "z.csv").read_bytes()
+    assert (z.sha256, z.npts) == (hashlib.sha256(data).hexdigest(), 200)
+    assert z.peak_g == pytest.approx(0.25, abs=1e-4)
 
 
 WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
@@ -506,15 +497,14 @@ def test_records_are_processed_as_their_row_requests(tmp_path):
     row = {"Start time": 0.5, "End time": 1.5, "Baseline": "mean", "New time step": 0.005}
     cells = of("Motions/M1", row | {"Zero padding": 1})
     book = read_workbook(type_into(make(tmp_path), cells))
-    first = book.motions[0]
+    first, prepared = book.motions[0], book.prepared[0]
     x = np.loadtxt(book.path.parent / "records" / "x.csv")[50:151] * 9.80665
-    level = x - x.mean()
     assert first.dt_s == 0.005
-    assert first.ax_mps2[:201:2] == pytest.approx(level)
+    assert first.ax_mps2[:201:2] == pytest.approx(x - x.mean())
     assert not first.ax_mps2[201:].any()
     assert len(first.ax_mps2) == len(first.az_mps2) == 201 + 200
-    assert book.prepared[0].done.startswith("cut to 0.5 s to 1.5 s; mean removed")
-    assert book.prepared[0].unfiltered == ()
+    assert prepared.done.startswith("cut to 0.5 s to 1.5 s; mean removed")
+    assert prepared.unfiltered == ()
 
 
 def test_the_motion_without_its_high_pass_is_preserved_for_comparison(tmp_path):
