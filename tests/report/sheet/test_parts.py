@@ -112,12 +112,19 @@ def test_a_cell_that_is_not_there_is_added_in_order(book, row, column):
         assert columns == sorted(set(columns))
 
 
-@pytest.mark.parametrize("value", [3, 2.5, np.float64(0.1), 1e-12, None])
-def test_any_number_is_written_as_one_and_a_cleared_cell_keeps_its_format(book, value):
-    path, _ = book
-    it = cell(opened(after(path, {place(HEIGHT): value})), HEIGHT)
-    assert it.value == value
-    assert it.fill.fgColor.rgb == style.INPUT_FILL.fgColor.rgb
+def test_any_number_is_written_as_one_and_a_cleared_cell_keeps_its_format(book):
+    values = {
+        HEIGHT: 3,
+        "Arrays/A2/CG height": 2.5,
+        "Arrays/A1/x to": np.float64(0.1),
+        "Arrays/A2/x to": 1e-12,
+        WEIGHT: None,
+    }
+    now = opened(after(book[0], {place(name): value for name, value in values.items()}))
+    for name, value in values.items():
+        it = cell(now, name)
+        assert it.value == value
+        assert it.fill.fgColor.rgb == style.INPUT_FILL.fgColor.rgb
 
 
 def test_a_table_grows_to_the_rows_below_it(tmp_path):
