@@ -20,7 +20,10 @@ from openpyxl.utils import coordinate_to_tuple
 import inputs
 from cells import address, addressed, cell
 from inputs import FT, INCH, clearance, motion, roof_object
+from places import DATA
+from report.assessment.foresight import findings
 from report.motions.prepare import Shaking, prepare
+from report.sheet.findings import located
 from report.sheet.parts import changed
 from report.sheet.positions import CellPosition
 from report.sheet.read import Sheet, read
@@ -123,6 +126,15 @@ def make(folder: Path, units: UnitsFirst = UnitsFirst.US, **changes: object) -> 
     path = folder / "input.xlsx"
     path.write_bytes(_book(units, project(**changes)))
     return path
+
+
+def saved_by_libreoffice(folder: Path) -> Path:
+    """Write the project as LibreOffice saved it, with two formulas and their values."""
+    path = make(folder)
+    path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
+    # Its motions were one record.
+    names = {f"Motions/M{n}/Horizontal record": f"records/x{n}.csv" for n in (2, 3)}
+    return type_into(path, names)
 
 
 def blank(path: Path, units: UnitsFirst = UnitsFirst.US) -> Path:
@@ -237,6 +249,14 @@ def problems(path: Path) -> tuple[str, ...]:
     with pytest.raises(InputError) as caught:
         read_workbook(path)
     return caught.value.problems
+
+
+def told(path: Path) -> list[tuple[str, str, str]]:
+    """Return name, cell and text of each warning and note on a workbook."""
+    book = read_workbook(path)
+    found = findings(book.sheet, book.shaking)
+    cells = located(found, book.sheet.addresses)
+    return [(f.id, cell, f.text) for f, cell in zip(found, cells, strict=True)]
 
 
 def same(actual: ProjectInput, wanted: ProjectInput) -> bool:

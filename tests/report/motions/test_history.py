@@ -24,24 +24,26 @@ def row(**changes):
     return {"id": "M1", "record": "x", "transverse": "y", "vertical": "z"} | changes
 
 
+FIELDS = ("record", "transverse", "vertical")
+
+
+def components(motion):
+    return (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
+
+
 def records(count=3, seconds=6.0):
     """Components of one motion, by the fields of the sheet."""
     (given,) = stand_in.motions(1, seconds=seconds, peak_g=0.6)
-    values = (given.ax_mps2, given.ay_mps2, given.az_mps2)[:count]
-    fields = ("record", "transverse", "vertical")
     return {
         field: Record(name=field, dt_s=given.dt_s, a_mps2=a)
-        for field, a in zip(fields, values, strict=False)
+        for field, a in zip(FIELDS[:count], components(given), strict=False)
     }
-
-
-def prepared(records, unfiltered=None):
-    return Components(files=(), records=records, unfiltered=unfiltered or {}, whole={})
 
 
 def shaken(records, data_changes=None, unfiltered=None, **changes):
     data = stand_in.project(motions=[row(**changes)], **(data_changes or {}))
-    (pair,) = shake(data, [prepared(records, unfiltered)])
+    given = Components(files=(), records=records, unfiltered=unfiltered or {}, whole={})
+    (pair,) = shake(data, [given])
     return pair
 
 
@@ -49,9 +51,7 @@ def test_as_recorded_nothing_is_changed():
     given = records()
     motion, prepared = shaken(given)
     assert motion.scale == 1.0
-    for a, record in zip(
-        (motion.ax_mps2, motion.ay_mps2, motion.az_mps2), given.values(), strict=True
-    ):
+    for a, record in zip(components(motion), given.values(), strict=True):
         assert np.array_equal(a, record.a_mps2)
     assert (prepared.done, prepared.scaling, prepared.roof) == ("as recorded", "as recorded", {})
 
@@ -93,9 +93,9 @@ def test_a_ground_motion_goes_through_the_building_component_by_component():
         buildings,
     )
     assert motion.dt_s == wanted.dt_s
-    assert np.array_equal(motion.ax_mps2, wanted.horizontal[0].a_mps2)
-    assert np.array_equal(motion.ay_mps2, wanted.horizontal[1].a_mps2)
-    assert np.array_equal(motion.az_mps2, wanted.vertical_mps2)
+    across = [roof.a_mps2 for roof in wanted.horizontal]
+    for a, other in zip(components(motion), (*across, wanted.vertical_mps2), strict=True):
+        assert np.array_equal(a, other)
     assert list(prepared.roof) == ["horizontal", "transverse"]
 
 
@@ -111,26 +111,22 @@ def test_a_ground_motion_is_scaled_where_it_was_recorded():
 
 def test_a_horizontal_component_alone_stays_alone_at_the_roof():
     motion, _ = shaken(records(1), {"building": {"period_s": 0.4}}, **GROUND)
-    assert not motion.has_transverse
-    assert not motion.has_vertical
+    assert (motion.has_transverse, motion.has_vertical) == (False, False)
 
 
 def test_the_period_is_as_given_or_approximate_by_structure_and_height():
     height_ft = 36.0
-    cases = (
+    for building, period in (
         ({"period_s": 0.7, "structure": "other"}, 0.7),
         ({"structure": "other"}, 0.02 * height_ft**0.75),
         ({"structure": "steel moment frame"}, 0.028 * height_ft**0.8),
-    )
-    for building, period in cases:
+    ):
         assert first_period_s(stand_in.project(building=building)) == pytest.approx(period)
     assert math.isnan(first_period_s(stand_in.project()))
 
 
 def test_drift_is_measured_after_scaling():
-    drifting = {
-        field: replace(record, a_mps2=record.a_mps2 + 0.02) for field, record in records().items()
-    }
+    drifting = {f: replace(r, a_mps2=r.a_mps2 + 0.02) for f, r in records().items()}
     _, prepared = shaken(drifting, scaling="factor", scale_value=2.0)
     scaled = replace(drifting["record"], a_mps2=2.0 * drifting["record"].a_mps2)
     assert prepared.measures["horizontal"] == measures(scaled)
@@ -145,35 +141,14 @@ def test_the_motion_without_its_high_pass_has_the_same_factor():
     assert np.array_equal(bare.ax_mps2, given["record"].a_mps2)
 
 
-def test_each_processing_cell_sets_its_parameter():
-    asked = MotionInput(
-        **row(
-            from_s=1.0,
-            to_s=5.0,
-            baseline="quadratic",
-            highpass_hz=0.2,
-            lowpass_hz=20.0,
-            order=6,
-            new_dt_s=0.0025,
-            pad_s=3.0,
-        )
-    )
-    assert processing_of(asked) == Processing(
-        from_s=1.0,
-        to_s=5.0,
-        baseline=2,
-        highpass_hz=0.2,
-        lowpass_hz=20.0,
-        order=6,
-        dt_s=0.0025,
-        pad_s=3.0,
-    )
-    assert processing_of(MotionInput(**row())) == Processing()
+def test_each_processing_cell_sets_its_parameter_and_blank_cells_leave_a_record_as_it_is():
+    asked = {"from_s": 1.0, "to_s": 5.0, "highpass_hz": 0.2, "lowpass_hz": 20.0, "order": 6}
+    asked |= {"pad_s": 3.0}
+    typed = MotionInput(**row(**asked, baseline="quadratic", new_dt_s=0.0025))
+    assert processing_of(typed) == Processing(**asked, baseline=2, dt_s=0.0025)
     degrees = {"none": -1, "mean": 0, "linear": 1, "quadratic": 2, "cubic": 3}
     for name, degree in degrees.items():
         assert processing_of(MotionInput(**row(baseline=name))).baseline == degree
-
-
-def test_blank_cells_leave_a_record_as_it_is():
     record = records()["record"]
+    assert processing_of(MotionInput(**row())) == Processing()
     assert np.array_equal(process(record, Processing()).a_mps2, record.a_mps2)

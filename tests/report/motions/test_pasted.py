@@ -23,11 +23,8 @@ def timed(times, header="time_s"):
 @pytest.fixture(scope="module")
 def with_sheet(tmp_path_factory):
     """The bytes of the usual workbook with a sheet Pasted."""
-
-    def change(book):
-        book.create_sheet("Pasted")["B1"] = "from the laboratory"
-
-    return edit(make(tmp_path_factory.mktemp("pasted")), change).read_bytes()
+    path = make(tmp_path_factory.mktemp("pasted"))
+    return edit(path, lambda book: book.create_sheet("Pasted").append(["laboratory"])).read_bytes()
 
 
 @pytest.fixture
@@ -44,12 +41,10 @@ def paste(tmp_path, with_sheet):
 
 @pytest.mark.parametrize("name", ["Pasted!North", "pasted!north", "'Pasted'!North"])
 def test_a_pasted_column_is_a_record(paste, name):
-    cells = [0.1, "0.2", -0.3, 0] * 26
-    book = read_workbook(paste(pasted(cells, name=name)))
+    book = read_workbook(paste(pasted([0.1, "0.2", -0.3, 0] * 26, name=name)))
     expected = np.array([0.1, 0.2, -0.3, 0] * 26) * 9.80665
     assert book.motions[1].ax_mps2 == pytest.approx(expected)
-    assert book.records[2].name == name
-    assert book.records[2].npts == 104
+    assert (book.records[2].name, book.records[2].npts) == (name, 104)
 
 
 @pytest.mark.parametrize(
@@ -67,15 +62,13 @@ PASTED = f"<{RECORD}>: horizontal record:"
 
 @pytest.mark.parametrize(
     ("cell", "code", "line"),
-    [
-        ("B6", '0.0" m/s²"', "Pasted!B6 is 0.1, shown in m/s² by its number format"),
-        ("A6", '0.00" ms"', "Pasted!A6 is 0.02, shown in ms by its number format"),
-    ],
+    [("B6", '0.0" m/s²"', "0.1, shown in m/s²"), ("A6", '0.00" ms"', "0.02, shown in ms")],
 )
 def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
     cells = timed([0.01 * i for i in range(104)], "t [s]")
     path = edit(paste(cells), lambda book: setattr(book["Pasted"][cell], "number_format", code))
-    assert problems(path)[0].startswith(at(f"{PASTED} {line}"))
+    line = at(f"{PASTED} Pasted!{cell} is {line} by its number format")
+    assert problems(path)[0].startswith(line)
 
 
 def test_a_pasted_column_may_be_shown_with_its_units(paste):

@@ -1,36 +1,37 @@
 """Records are bounded together before they are read."""
 
-import pytest
+from report.motions.prepare import MAX_BESIDE_FAULTS, MAX_TOGETHER
+from sheets import at, make, problems
 
-from report.motions import prepare as module
-from sheets import make, problems, read_workbook, said
-
-RECORDS = ("x", "z", "x2", "x3")
-
-
-@pytest.fixture
-def path(tmp_path):
-    """Three motions; the first has two records of 200 samples, each of 1.8 to 2 kB."""
-    return make(tmp_path)
+NO_TEXT = "not a text file; give the text of a record"
+TOO_MUCH = (
+    "the records to here have more than 64 MB together; give fewer motions, or convert the records"
+    " (roofslip motion convert)"
+)
 
 
-def test_records_of_too_many_bytes_together_are_refused_by_cell(path, monkeypatch):
-    sizes = [(path.parent / "records" / f"{name}.csv").stat().st_size for name in RECORDS]
-    together = sum(sizes)
-    monkeypatch.setattr(module, "MAX_TOGETHER", together)
-    assert len(read_workbook(path).motions) == 3
-    monkeypatch.setattr(module, "MAX_TOGETHER", together - 1)
-    assert problems(path) == said(
-        "<Motions/M3/Horizontal record>: the records to here have more than 64 MB together; give "
-        "fewer motions, or convert the records (roofslip motion convert)"
+def grown(path, together, names):
+    """What is reported once the last of these records, made no record, has them reach a size."""
+    *before, last = (path.parent / "records" / f"{name}.csv" for name in names)
+    with last.open("wb") as file:
+        file.truncate(together - sum(other.stat().st_size for other in before))
+    return problems(path)
+
+
+def test_records_of_too_many_bytes_together_are_refused_by_cell(tmp_path):
+    path, names = make(tmp_path), ("x", "z", "x2", "x3")
+    last = at("<Motions/M3/Horizontal record>: ")
+    read = (f"{last}horizontal record: x3.csv: {NO_TEXT}",)
+    assert grown(path, MAX_TOGETHER, names) == read
+    assert grown(path, MAX_TOGETHER + 1, names) == (last + TOO_MUCH,)
+
+
+def test_once_a_record_is_at_fault_the_others_are_read_within_a_bound(tmp_path):
+    path, names = make(tmp_path), ("x", "z", "x2")
+    (path.parent / "records" / "x.csv").write_text("0.1\nabc\n0.2\n")
+    wrong = at(
+        "<Motions/M1/Horizontal record>: horizontal record: x.csv:2: found 'abc'; give a number"
     )
-
-
-def test_once_a_record_is_at_fault_the_others_are_read_within_a_bound(path, monkeypatch):
-    for name in RECORDS:
-        (path.parent / "records" / f"{name}.csv").write_text("0.1\nabc\n0.2\n")
-    assert len(problems(path)) == 4
-    monkeypatch.setattr(module, "MAX_BESIDE_FAULTS", 0)
-    assert tuple(line.split(":")[0] for line in problems(path)) == said(
-        "Motions/M1/Horizontal record", "Motions/M1/Vertical record"
-    )
+    read = at(f"<Motions/M2/Horizontal record>: horizontal record: x2.csv: {NO_TEXT}")
+    assert grown(path, MAX_BESIDE_FAULTS, names) == (wrong, read)
+    assert grown(path, MAX_BESIDE_FAULTS + 1, names) == (wrong,)

@@ -16,8 +16,11 @@ POINTS = [(0.05, 1.0, 0.5), (0.5, 2.0, 0.8), (4.0, 0.2, 0.1)]
 PERIODS = np.array([0.04, 0.05, 0.3, 0.5, 1.0, 4.0, 5.0])
 
 
-def motion(**changes):
-    return {"id": "M1", "record": "records/m1-x.csv"} | changes
+ON_GROUND = [{"id": "M1", "record": "records/m1-x.csv", "recorded_at": "ground"}]
+
+
+def made(**changes):
+    return targets(stand_in.project(**{"spectrum": []} | changes))
 
 
 def own(*, with_vertical=True):
@@ -27,9 +30,12 @@ def own(*, with_vertical=True):
     ]
 
 
+def across_of(tail):
+    return ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.566, z_over_h=1.0, **tail)
+
+
 def test_at_the_roof_the_target_is_that_of_the_rule_set():
-    goals = targets(stand_in.project(spectrum=[]))
-    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.566, z_over_h=1.0)
+    goals, across = made(), across_of({})
     upward = ac156_vertical(s_ds_g=1.566)
     inside = PERIODS[PERIODS <= 10.0]
     assert goals.roof.name == "AC156"
@@ -39,46 +45,37 @@ def test_at_the_roof_the_target_is_that_of_the_rule_set():
 
 def test_the_tail_is_chosen_on_the_sheet():
     data = stand_in.project(target={"tail": "1/T"}, spectrum=[])
-    wanted = ac156_horizontal(
-        EDITIONS["ASCE 7-16"], s_ds_g=1.566, z_over_h=1.0, tail=Tail.RECIPROCAL
-    )
+    wanted = across_of({"tail": Tail.RECIPROCAL})
     assert np.array_equal(ac156(data)[0].sa_g, wanted.sa_g)
     assert np.array_equal(targets(data).roof.at(np.array([0.2])), wanted.at(np.array([0.2])))
 
 
 def test_with_roof_motions_the_project_spectrum_applies_at_the_roof():
-    goals = targets(stand_in.project(spectrum=own()))
+    goals = made(spectrum=own())
     assert goals.roof.name == goals.vertical.name == "project-specific"
     for t, across, upward in POINTS:
         assert goals.roof.ordinates(np.array([t])) == pytest.approx([across])
         assert goals.vertical.ordinates(np.array([t])) == pytest.approx([upward])
-
-
-def test_the_project_spectrum_is_interpolated_on_log_log_axes_and_undefined_beyond():
-    roof = targets(stand_in.project(spectrum=own())).roof
+    # Interpolated on log-log axes, and undefined beyond.
     middle = math.sqrt(0.5 * 4.0)
-    assert roof.ordinates(np.array([middle])) == pytest.approx([math.sqrt(2.0 * 0.2)])
-    assert np.isnan(roof.ordinates(PERIODS)).tolist() == [True, *[False] * 5, True]
+    assert goals.roof.ordinates(np.array([middle])) == pytest.approx([math.sqrt(2.0 * 0.2)])
+    assert np.isnan(goals.roof.ordinates(PERIODS)).tolist() == [True, *[False] * 5, True]
 
 
 def test_without_a_vertical_column_the_vertical_of_ac156_applies():
-    goals = targets(stand_in.project(spectrum=own(with_vertical=False)))
+    goals = made(spectrum=own(with_vertical=False))
     assert (goals.roof.name, goals.vertical.name) == ("project-specific", "AC156")
 
 
 def test_with_ground_motions_the_project_spectrum_applies_at_the_ground():
-    motions = [motion(recorded_at="ground")]
-    goals = targets(stand_in.project(spectrum=own(), motions=motions))
+    goals = made(spectrum=own(), motions=ON_GROUND)
     assert (goals.roof.name, goals.ground.name) == ("AC156", "project-specific")
     assert goals.horizontal(RecordedAt.GROUND) is goals.ground
     assert goals.horizontal(RecordedAt.ROOF) is goals.roof
 
 
 def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
-    data = stand_in.project(
-        motions=[motion(recorded_at="ground")], target={"t_l_s": 8.0}, spectrum=[]
-    )
-    ground = targets(data).ground
+    ground = made(motions=ON_GROUND, target={"t_l_s": 8.0}).ground
     s_d1 = 2.0 / 3.0 * 1.7 * 0.70
     wanted = [1.566, s_d1 / 2.0, s_d1 * 8.0 / 10.0**2]
     assert ground.ordinates(np.array([0.3, 2.0, 10.0])) == pytest.approx(wanted)
@@ -87,9 +84,7 @@ def test_on_the_ground_the_target_is_the_design_spectrum_of_asce_7():
 
 @pytest.mark.parametrize("changes", [{}, {"target": {"t_l_s": 8.0}}, {"spectrum": own()}])
 def test_targets_can_be_pickled(changes):
-    goals = targets(
-        stand_in.project(**{"motions": [motion(recorded_at="ground")], "spectrum": []} | changes)
-    )
+    goals = made(motions=ON_GROUND, **changes)
     handed = pickle.loads(pickle.dumps(goals))
     for name in ("roof", "vertical", "ground"):
         here, there = getattr(goals, name), getattr(handed, name)
@@ -97,6 +92,6 @@ def test_targets_can_be_pickled(changes):
 
 
 def test_without_t_l_there_is_no_target_on_the_ground():
-    ground = targets(stand_in.project(motions=[motion(recorded_at="ground")], spectrum=[])).ground
+    ground = made(motions=ON_GROUND).ground
     assert ground.name == ""
     assert np.isnan(ground.ordinates(PERIODS)).all()

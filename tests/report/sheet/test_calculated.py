@@ -5,10 +5,7 @@ import re
 import pytest
 
 from cells import address
-from places import DATA
-from report.assessment.foresight import findings
-from report.sheet.findings import located
-from sheets import edit, make, pack, parts, read_workbook, type_into
+from sheets import edit, formula_cells, make, pack, parts, saved_by_libreoffice, told
 
 
 def saying(path, attributes):
@@ -17,26 +14,13 @@ def saying(path, attributes):
     return pack(path, parts(path) | {"xl/workbook.xml": book})
 
 
-def told(path):
-    book = read_workbook(path)
-    found = findings(book.sheet, book.shaking)
-    return [(f.id, cell, f.text) for f, cell in
-            zip(found, located(found, book.sheet.addresses), strict=True)]  # fmt: skip
-
-
 @pytest.fixture
 def saved(tmp_path):
-    """The project as LibreOffice saved it, with two formulas in input cells and their values."""
-    path = make(tmp_path)
-    path.write_bytes((DATA / "saved-by-libreoffice.xlsx").read_bytes())
-    names = {
-        f"Motions/{row}/Horizontal record": name for row, name in ((1, "x"), (2, "x2"), (3, "x3"))
-    }
-    return type_into(path, {cell: f"records/{name}.csv" for cell, name in names.items()})
+    return saved_by_libreoffice(tmp_path)
 
 
-def formula_cells(path):
-    """The cells of `saved` that have formulas."""
+def typed(path):
+    """The cells of `saved` in which formulas were typed."""
     return [address(path, f"Arrays/{array}/Friction coefficient") for array in ("A1", "A2")]
 
 
@@ -44,7 +28,7 @@ MANUAL = b'calcId="191029" calcMode="manual" calcCompleted="0"'
 
 
 def test_formulas_that_manual_calculation_left_are_named(saved):
-    first, second = formula_cells(saved)
+    first, second = typed(saved)
     assert told(saying(saved, MANUAL)) == [
         (
             "calculation",
@@ -63,7 +47,7 @@ def test_a_calculation_that_was_stopped_is_a_warning_without_manual_mode(saved):
 def test_a_workbook_whose_values_were_changed_from_outside_asks_to_be_calculated(saved):
     ((name, _, text),) = told(saved)  # the names of its records were
     assert name == "calculation"
-    first, _ = formula_cells(saved)
+    first, _ = typed(saved)
     assert text.startswith(f"the workbook asks to be calculated when it is opened, and {first},")
 
 
@@ -94,14 +78,7 @@ def test_a_workbook_without_formulas_has_none_that_was_not_calculated(tmp_path):
             for table in sheet.tables.values():
                 for column in table.tableColumns:
                     column.calculatedColumnFormula = None
-            for cell in (cell for row in sheet for cell in row if cell.data_type == "f"):
-                cell.value = None
+        for cell in formula_cells(book):
+            cell.value = None
 
     assert told(saying(edit(make(tmp_path), without), MANUAL)) == []
-
-
-def test_the_warning_is_acknowledged_by_its_name(tmp_path):
-    rows = [{"warning": "calculation", "reason": "Recalculated on 2026-03-05"}]
-    book = read_workbook(saying(make(tmp_path, acknowledged=rows), MANUAL))
-    (found,) = findings(book.sheet, book.shaking)
-    assert found.reason == "Recalculated on 2026-03-05"

@@ -3,9 +3,7 @@
 import pytest
 from openpyxl.worksheet.table import Table
 
-from report.assessment.foresight import findings
-from report.sheet.findings import located
-from sheets import at, edit, make, read_workbook
+from sheets import at, edit, make, told
 
 
 def copied(book, title):
@@ -16,23 +14,14 @@ def copied(book, title):
     return sheet
 
 
-def found(path):
-    book = read_workbook(path)
-    warnings = findings(book.sheet, book.shaking)
-    return [(w.id, cell, w.text) for w, cell in
-            zip(warnings, located(warnings, book.sheet.addresses), strict=True)]  # fmt: skip
-
-
 def test_a_copied_sheet_is_ignored_with_a_warning(tmp_path):
     path = edit(make(tmp_path), lambda book: copied(book, "Arrays"))
-    assert found(path) == [
-        (
-            "copy Arrays Copy",
-            at("Arrays/heading/ID"),
-            "sheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
-            " and 'Arrays Copy' is ignored: delete the one that is not meant",
-        )
-    ]
+    ((name, cell, text),) = told(path)
+    assert (name, cell) == ("copy Arrays Copy", at("Arrays/heading/ID"))
+    assert text == (
+        "sheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
+        " and 'Arrays Copy' is ignored: delete the one that is not meant"
+    )
 
 
 def test_the_warning_names_the_sheet_that_is_read_whatever_its_title(tmp_path):
@@ -41,14 +30,14 @@ def test_the_warning_names_the_sheet_that_is_read_whatever_its_title(tmp_path):
         book["Arrays"].title = "old"
         copy.title = "Arrays"
 
-    ((name, cell, text),) = found(edit(make(tmp_path), change))
+    ((name, cell, text),) = told(edit(make(tmp_path), change))
     assert (name, cell) == ("copy Arrays", at("Arrays/heading/ID").replace("Arrays", "old"))
     assert "'old' is read, and 'Arrays' is ignored" in text
 
 
 @pytest.mark.parametrize("title", ["Site", "Options"])
 def test_a_sheet_of_several_parts_is_named_once(tmp_path, title):
-    ((name, _, _),) = found(edit(make(tmp_path), lambda book: copied(book, title)))
+    ((name, _, _),) = told(edit(make(tmp_path), lambda book: copied(book, title)))
     assert name == f"copy {title} Copy"
 
 
@@ -56,4 +45,4 @@ def test_a_sheet_with_some_of_the_headings_is_no_copy(tmp_path):
     def change(book):
         book.create_sheet("Notes").append(["ID", "Slope", "x [g]", "y [g]", "Period [s]"])
 
-    assert found(edit(make(tmp_path), change)) == []
+    assert told(edit(make(tmp_path), change)) == []

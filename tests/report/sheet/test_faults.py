@@ -9,8 +9,8 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from cells import address, cell
 from places import ROOT
 from report.sheet.read import read
-from report.sheet.schema import UnitsFirst
-from sheets import at, edit, make, problems, read_workbook, said, type_into
+from report.sheet.schema import PROVISION_KEYS, UnitsFirst
+from sheets import at, edit, make, of, problems, read_workbook, said, type_into
 from solver.model import InputError
 
 
@@ -129,6 +129,8 @@ def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(of_cells, nu
     assert at(CONTENTS[number][2]) in of_cells[number]
 
 
+NO_CLEARANCE = dict.fromkeys(("Array", "Object", "Direction", "Provided clearance"))
+
 # Cells that are changed together, and all resulting lines.
 CONTRADICTIONS = [
     ({"Arrays/A2/ID": "a1", "Clearances/1/Object": "RTU-1"},
@@ -169,11 +171,9 @@ CONTRADICTIONS = [
      "<Clearances/1/Provided clearance>: provided clearance is 120.0 in (3048 mm), but A1 and A2"
      " overlap in plan; correct their rectangles in <Arrays/A1/x from:y to> and <Arrays/A2/x"
      " from:y to>"),
-    ({"Arrays/A1/x to": 120, "Clearances/1/Array": None, "Clearances/1/Object": None,
-      "Clearances/1/Direction": None, "Clearances/1/Provided clearance": None},
+    ({"Arrays/A1/x to": 120} | of("Clearances/1", NO_CLEARANCE),
      "<Arrays/A1/x from>: A1 and A2 at <Arrays/A2/x from> overlap in plan; correct one of them"),
-    ({"Objects/RTU-1/y from": 70, "Clearances/3/Array": None, "Clearances/3/Object": None,
-      "Clearances/3/Direction": None, "Clearances/3/Provided clearance": None},
+    ({"Objects/RTU-1/y from": 70} | of("Clearances/3", NO_CLEARANCE),
      "<Arrays/A2/x from>: A2 and RTU-1 at <Objects/RTU-1/x from> overlap in plan; correct one of"
      " them"),
     ({"Site/Risk category": "IV", "Site/Importance factor I_e": 1.25},
@@ -182,9 +182,6 @@ CONTRADICTIONS = [
     ({"Site/Seismic design category": "C"},
      "<Site/Seismic design category>: seismic design category is 'C'; S_DS = 1.566 g in risk"
      " category II requires D or higher (ASCE 7 Table 11.6-1)"),
-    ({"Site/S_1": 0.75},
-     "<Site/Seismic design category>: seismic design category is 'D'; S_1 = 0.75 g in risk"
-     " category II requires E or higher (ASCE 7 section 11.6)"),
     ({"Site/S_DS": None},
      "<Site/S_DS>: S_DS is missing; give S_DS, S_MS, or both S_S and F_a"),
     ({"Site/S_DS": None, "Site/S_S": 1.97},
@@ -245,7 +242,7 @@ CONTRADICTIONS = [
     ({"Building/Period T1": 0.2, "Motions/M2/Recorded at": "ground", "Site/Number of stories": 101},
      "<Site/Number of stories>: number of stories is 101, more than the 100 of the building"
      " model; give roof motions"),
-    ({"Spectrum/1/Period": 1, "Spectrum/1/Horizontal": 1},
+    (of("Spectrum/1", {"Period": 1, "Horizontal": 1}),
      "<Spectrum/heading/Period>: one row is given; give at least two, or none"),
     ({"Spectrum/1/Period": 1, "Spectrum/1/Horizontal": 1, "Spectrum/2/Period": 1,
       "Spectrum/2/Horizontal": 1},
@@ -284,6 +281,16 @@ CONTRADICTIONS = [
      "<Site/S_DS>: S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for"
      " site class 'D' (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific"
      " analysis' and give its report"),
+    ({"Site/Roof x from": 0, "Site/Roof x to": 300, "Site/Roof y from": 0},
+     "<Site/Roof y to>: y to is missing; give all four sides of the rectangle, or none"),
+    ({"Site/Roof x from": 300, "Site/Roof x to": 0, "Site/Roof y from": 0, "Site/Roof y to": 120},
+     "<Site/Roof x to>: x to is 0.00 ft (0.00 m); give more than x from in <Site/Roof x from>,"
+     " 300.00 ft (91.44 m)"),
+    ({"Site/Roof x from": 25, "Site/Roof x to": 300, "Site/Roof y from": 0, "Site/Roof y to": 74},
+     "<Arrays/A1/x from>: x from is 20.00 ft (6.10 m), outside the roof; give 25.00 ft (7.62 m) or"
+     " more, or correct the outline at <Site/Roof x from>",
+     *(f"<Arrays/{array}/y to>: y to is 75.00 ft (22.86 m), outside the roof; give 74.00 ft"
+       " (22.56 m) or less, or correct the outline at <Site/Roof y to>" for array in ("A1", "A2"))),
 ]  # fmt: skip
 
 
@@ -346,12 +353,12 @@ MISLEADING = [
 
 def formatted(path, formats):
     """Give cells their number formats."""
-    return edit(
-        path,
-        lambda book: [
-            setattr(cell(book, name), "number_format", code) for name, code in formats.items()
-        ],
-    )
+
+    def change(book):
+        for name, code in formats.items():
+            cell(book, name).number_format = code
+
+    return edit(path, change)
 
 
 @pytest.mark.parametrize(("name", "code", "what", "wish"), MISLEADING)
@@ -419,6 +426,8 @@ TYPED = [
     ({"Site/Structure height h/Unit": "yd", "Site/Height of the array z/Unit": None},
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
      f"<Site/Height of the array z/Unit>: unit of height of the array z is missing; {LENGTHS}"),
+    ({"Options/1/Provision": "parapet"},
+     "<Options/1/Provision>: provision is 'parapet'; choose one of " + ", ".join(PROVISION_KEYS)),
     ({"Arrays/heading/CG height": "CG height [yd]"},
      f"<Arrays/heading/CG height>: unit of CG height is 'yd'; {LENGTHS}"),
 ]  # fmt: skip
@@ -460,18 +469,6 @@ def test_a_unit_must_be_valid(tmp_path, units):
         assert line.startswith(f"{at(name)}: unit of {wanted}")
 
 
-def test_a_unit_that_cannot_be_chosen_may_be_blank(tmp_path):
-    cells = {"Site/S_DS/Unit": None, "Building/Period T1/Unit": " S "}
-    read_workbook(type_into(make(tmp_path), cells))
-
-
-def test_an_unknown_provision_is_reported_with_the_valid_ones(tmp_path):
-    (line,) = problems(type_into(make(tmp_path), {"Options/1/Provision": "parapet"}))
-    assert line.startswith(
-        at("<Options/1/Provision>: provision is 'parapet'; choose one of prescriptive_fac")
-    )
-
-
 def remove(sheet):
     return lambda book: book.remove(book[sheet])
 
@@ -485,23 +482,6 @@ def forget_number(book):
     del book.defined_names["project_number"]
     number = cell(book, "Project/Project number")
     number.offset(column=-1).value = None
-
-
-def merge(name, *ends):
-    """Merge the cells from one to another, given by rows and columns beside the first."""
-
-    def change(book):
-        first = cell(book, name)
-        first.parent.merge_cells(area(name, *ends))
-
-    return change
-
-
-def area(name, *ends):
-    """The cells from one to another, given by rows and columns beside the first."""
-    row, column = coordinate_to_tuple(at(name).partition("!")[2])
-    corners = sorted((row + down, column + right) for down, right in ends)
-    return ":".join(f"{get_column_letter(c)}{r}" for r, c in corners)
 
 
 # What is changed in a workbook, and the resulting line.
@@ -530,14 +510,6 @@ def test_what_is_missing_or_in_percent_is_reported_once(tmp_path, change, line):
     assert problems(edit(make(tmp_path), change)) == said(line)
 
 
-def test_an_optional_column_may_be_deleted(tmp_path):
-    path = edit(
-        make(tmp_path),
-        lambda book: book["Motions"].delete_cols(cell(book, "Motions/M1/Source").column),
-    )
-    assert [motion.source for motion in read_workbook(path).input.motions] == ["", "", ""]
-
-
 @pytest.mark.parametrize(
     ("name", "to"),
     [("Arrays/A1/Friction test report", (1, 0)), ("Site/Structure height h", (1, 0)),
@@ -545,31 +517,21 @@ def test_an_optional_column_may_be_deleted(tmp_path):
     ids=["table", "below", "unit", "label"],
 )  # fmt: skip
 def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, name, to):
-    path = edit(make(tmp_path), merge(name, (0, 0), to))
-    sheet, merged = name.partition("/")[0], area(name, (0, 0), to)
-    assert problems(path) == (f"{sheet}!{merged}: cells are merged; unmerge them",)
-
-
-def test_cells_merged_beside_a_single_field_do_not_matter(tmp_path):
-    path = edit(make(tmp_path), merge("Project/Project name", (0, 0), (0, 3)))
-    assert read_workbook(path).input.project.name == "Alameda Warehouse"
-
-
-def test_characters_of_no_width_at_the_ends_of_a_text_are_not_read(tmp_path):
-    book = type_into(make(tmp_path), {"Motions/M1/ID": "\ufeffM7\u200b \u200b"})
-    assert read_workbook(book).input.motions[0].id == "M7"
+    sheet, first = at(name).split("!")
+    row, column = coordinate_to_tuple(first)
+    (top, bottom), (left, right) = (sorted((0, step)) for step in to)
+    corners = ((row + top, column + left), (row + bottom, column + right))
+    cells = ":".join(f"{get_column_letter(across)}{down}" for down, across in corners)
+    path = edit(make(tmp_path), lambda book: book[sheet].merge_cells(cells))
+    assert problems(path) == (f"{sheet}!{cells}: cells are merged; unmerge them",)
 
 
 @pytest.mark.parametrize(
     ("name", "value"),
     [
-        ("Site/S_S", 1e-9),
-        ("Site/S_1", 1e-9),
-        ("Site/Roof x from", 1e9),
-        ("Arrays/1/x from", 1e9),
-        ("Arrays/2/y from", 1e9),
-        ("Arrays/1/y from", 1e-9),
-        ("Arrays/3/y from", 1e-9),
+        *((name, 1e-9) for name in ("Site/S_S", "Site/S_1")),
+        *((name, 1e9) for name in ("Site/Roof x from", "Arrays/1/x from", "Arrays/2/y from")),
+        *((f"Arrays/{row}/y from", 1e-9) for row in (1, 3)),
     ],
 )
 @pytest.mark.by_day(2)

@@ -6,18 +6,16 @@ from test_live import OVER, check, formulas, lost, typed_over
 
 from cells import cell
 from recalculated import converted
-from report.sheet.parts import write_cells
-from report.sheet.positions import CellPosition
 from report.sheet.read import read
 from report.sheet.schema import UnitsFirst
 from report.sheet.template import write_template
-from sheets import blank, edit, make, project, said, same, type_into
+from sheets import arrays, blank, edit, make, project, said, same, site, type_into
 
 WEIGHT = "Arrays/A1/Weight"
 METRIC = project(
-    arrays=[row.model_dump() | {"i_p": 1.5} for row in project().arrays],
+    arrays=arrays(i_p=1.5),
     objects=[row.model_dump() | {"i_p": 1.25} for row in project().objects],
-    site=project().site.model_dump() | {"i_e": 1.25, "risk_category": "III"},
+    site=site(i_e=1.25, risk_category="III"),
 )
 
 
@@ -46,11 +44,8 @@ def test_cells_of_a_saved_book_are_changed_and_read(saved):
     book = saved["filled"].with_name("changed.xlsx")
     book.write_bytes(saved["filled"].read_bytes())
     before = read(book).project
-    opened = load_workbook(book)
-    assert cell(opened, WEIGHT).value == "=21000*2"
-    side = cell(opened, "Arrays/A1/x to")
-    write_cells(book, {CellPosition("Arrays", side.row, side.column): 99.0})
-    after = read(book)
+    assert cell(load_workbook(book), WEIGHT).value == "=21000*2"
+    after = read(type_into(book, {"Arrays/A1/x to": 99.0}))
     assert after.problems == ()
     first = after.project.arrays[0]
     assert first.x_to_m == pytest.approx(99 * 0.3048)

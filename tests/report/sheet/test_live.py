@@ -20,11 +20,6 @@ def lost(path):
     return [item.position.address for item in overwritten(open_book(path))]
 
 
-def warnings(path):
-    """The warnings by cell."""
-    return {item.cell: item.text for item in findings(overwritten(open_book(path)))}
-
-
 def check(*arguments):
     return CliRunner().invoke(main, ["check", *map(str, arguments)])
 
@@ -77,12 +72,12 @@ def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
     texts = {item.cell: item.text for item in findings(found)}
     ratios = ":".join((at(RATIO.format(1)), at(RATIO.format(3)).partition("!")[2]))
     for place, words in {
-        at("Site/S_DS/Computed"): "S_DS, computed, is 1.2, typed over its formula =IF(ISNUM",
-        at("Arrays/A1/Status"): "is blank, and its formula is gone: =IF(SUMPRODUCT",
-        at("Clearances/2/Neighbor"): "Neighbor is =B9&C9, and its formula is =IFERROR(IF",
+        "Site/S_DS/Computed": "S_DS, computed, is 1.2, typed over its formula =IF(ISNUM",
+        "Arrays/A1/Status": "is blank, and its formula is gone: =IF(SUMPRODUCT",
+        "Clearances/2/Neighbor": "Neighbor is =B9&C9, and its formula is =IFERROR(IF",
         ratios: "D/C, prescriptive (3 cells) is 0.5, typed",
     }.items():
-        assert words in texts[place]
+        assert words in texts[at(place)]
     assert all(text.endswith("; roofslip check --repair restores it") for text in texts.values())
 
 
@@ -94,7 +89,6 @@ def test_check_warns_and_repair_restores_every_formula_to_the_letter(tmp_path):
     assert warned.exit_code == 0
     for name in ("Site/S_DS/Computed", FACTOR, "Start/Friction tests"):
         assert f"warning: {at(name)}: " in warned.output
-    assert f"warning: {at(RATIO.format(1))}:" in warned.output
     repaired = check("--repair", path)
     assert repaired.exit_code == 0
     assert repaired.output.startswith(f"{len(OVER)} formulas restored: {', '.join(said(*OVER))}\n")
@@ -106,19 +100,16 @@ def test_check_warns_and_repair_restores_every_formula_to_the_letter(tmp_path):
 
 
 def test_repair_changes_the_one_cell_and_keeps_its_format(tmp_path):
-    name = "Site/S_DS/Computed"
+    name, sheet = "Site/S_DS/Computed", "xl/worksheets/sheet3.xml"
     path = type_into(make(tmp_path), {name: 1.2})
     old = parts(path)
     assert check("--repair", "--quiet", path).output == ""
     new = parts(path)
-    assert {name for name in old if old[name] != new[name]} == {"xl/worksheets/sheet3.xml"}
+    assert [part for part in old if old[part] != new[part]] == [sheet]
     cell = rb'<c r="%b"([^>]*)>.*?</c>' % at(name).partition("!")[2].encode()
-    sheet = "xl/worksheets/sheet3.xml"
     assert re.sub(cell, b"", old[sheet]) == re.sub(cell, b"", new[sheet])
-    style = [
-        re.search(rb's="\d+"', re.search(cell, data)[1])[0] for data in (old[sheet], new[sheet])
-    ]
-    assert style[0] == style[1]
+    before, after = (re.search(cell, data[sheet])[1] for data in (old, new))
+    assert re.search(rb's="\d+"', before)[0] == re.search(rb's="\d+"', after)[0]
 
 
 def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):
@@ -148,14 +139,13 @@ def test_a_formula_that_is_moved_refers_to_the_rows_where_it_is():
 def test_a_formula_that_refers_to_a_deleted_column_is_named_and_not_repaired(tmp_path):
     def delete(book):
         for found in formula_cells(book):
-            found.value = re.sub(
-                r"arrays_table\[+[^\[]*Slope in degrees\]+", "#REF!", str(found.value)
-            )
+            column = r"arrays_table\[+[^\[]*Slope in degrees\]+"
+            found.value = re.sub(column, "#REF!", str(found.value))
         retitle(book, "Arrays", "Slope in degrees", "My column")
 
     path = edit(make(tmp_path), delete)
-    texts = warnings(path)
-    assert any("refers to a column that is missing" in text for text in texts.values())
+    texts = [item.text for item in findings(overwritten(open_book(path)))]
+    assert any("refers to a column that is missing" in text for text in texts)
     before = path.read_bytes()
     assert check("--repair", path).output.startswith("0 formulas restored\n")
     assert path.read_bytes() == before
@@ -186,28 +176,19 @@ def test_a_wrong_formula_filled_down_is_repaired_although_the_cells_share_it(tmp
 
 
 @pytest.mark.parametrize(
-    ("one", "other"),
+    ("one", "other", "is_same"),
     [
-        ("=SUM(a_table[Status])", "=SUM(a_table[[Status]])"),
-        ("=x*0.000000001", "=x*1E-9"),
-        ("=x/47.88025898033584", "=X / 47.8802589803358"),
-        ("='Arrays'!$H$7", "=Arrays!H7"),
-        ("=t[[#This Row],[Weight '[lb']]]", "=t[[#this row], [Weight '[lb']]]"),
+        ("=SUM(a_table[Status])", "=SUM(a_table[[Status]])", True),
+        ("=x*0.000000001", "=x*1E-9", True),
+        ("=x/47.88025898033584", "=X / 47.8802589803358", True),
+        ("='Arrays'!$H$7", "=Arrays!H7", True),
+        ("=t[[#This Row],[Weight '[lb']]]", "=t[[#this row], [Weight '[lb']]]", True),
+        ('=IF(a="D",1,2)', '=IF(a="d",1,2)', False),
+        ("=A1+B1", "=A1+B2", False),
+        ("=x*1.0001", "=x", False),
+        ("=t[[#This Row],[a]]", "=t[[#This Row],[b]]", False),
+        ("=t[a]", "=t[[a]:[b]]", False),
     ],
 )
-def test_two_spellings_of_a_formula_are_the_same(one, other):
-    assert canonical(one) == canonical(other)
-
-
-@pytest.mark.parametrize(
-    ("one", "other"),
-    [
-        ('=IF(a="D",1,2)', '=IF(a="d",1,2)'),
-        ("=A1+B1", "=A1+B2"),
-        ("=x*1.0001", "=x"),
-        ("=t[[#This Row],[a]]", "=t[[#This Row],[b]]"),
-        ("=t[a]", "=t[[a]:[b]]"),
-    ],
-)
-def test_two_formulas_are_not_the_same(one, other):
-    assert canonical(one) != canonical(other)
+def test_formulas_are_the_same_whatever_their_spelling(one, other, is_same):
+    assert (canonical(one) == canonical(other)) is is_same

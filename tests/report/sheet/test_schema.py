@@ -14,6 +14,7 @@ from report.sheet.schema import (
     SECTIONS,
     Array,
     MotionInput,
+    Options,
     Project,
     ProjectInput,
     Rectangle,
@@ -36,13 +37,10 @@ def entry(model, name):
     return next(item for item in entries(model) if item.name == name)
 
 
-def test_every_field_of_every_section_has_its_cell():
+def test_every_section_is_a_part_of_the_project_input_and_each_of_its_fields_a_cell():
+    assert [section.key for section in SECTIONS] == list(ProjectInput.model_fields)
     for section in SECTIONS:
         assert [item.name for item in entries(section.model)] == list(section.model.model_fields)
-
-
-def test_every_section_is_a_part_of_the_project_input():
-    assert [section.key for section in SECTIONS] == list(ProjectInput.model_fields)
 
 
 def test_labels_within_a_section_differ_so_that_headings_find_their_field():
@@ -71,27 +69,19 @@ def test_provisions_to_override_are_those_of_the_solver():
 def test_a_field_has_its_type_requirement_and_range():
     mu = entry(Array, "mu")
     assert (mu.kind, mu.is_required, mu.bounds.words()) == (float, True, "0 to 1.5")
+    step = entry(MotionInput, "dt_s")  # optional
+    assert (step.kind, step.is_required, step.bounds.words()) == (float, False, "more than 0 to 1")
     assert mu.spoken == "friction coefficient"
     assert entry(Array, "mu_rate_s_per_m").bounds.words() == "more than 0 to 1000"
     client = entry(Project, "client")
-    assert (client.kind, client.is_required, client.default, client.max_length) == (
-        str,
-        False,
-        "",
-        2000,
-    )
+    assert (client.kind, client.is_required) == (str, False)
+    assert (client.default, client.max_length) == ("", 2000)
     assert entry(Array, "weight_n").quantity is Quantity.WEIGHT
     assert entry(Project, "date").kind is dt.date
 
 
-def test_an_optional_field_keeps_its_range():
-    step = entry(MotionInput, "dt_s")
-    assert (step.kind, step.is_required, step.bounds.words()) == (float, False, "more than 0 to 1")
-
-
 def test_yes_and_no_are_the_choices_of_a_boolean():
-    options = next(section for section in SECTIONS if section.key == "options")
-    assert entry(options.model, "peer_reviewed").choices == tuple(YesNo)
+    assert entry(Options, "peer_reviewed").choices == tuple(YesNo)
 
 
 @pytest.mark.parametrize(
@@ -115,28 +105,19 @@ def test_ranges_are_written_in_the_unit_of_the_sheet():
     assert Bounds(low=0, high=10 * INCH).words(INCH) == "0 to 10"
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "degrees"),
-    [
+def test_slopes_become_angles():
+    for value, unit, degrees in (
         (3.0, SlopeUnit.DEGREES, 3.0),
         (5.0, SlopeUnit.PERCENT, 2.8624052261117479),
         (0.25, SlopeUnit.IN_PER_12, 1.1934894239820351),
         (0.0, SlopeUnit.PERCENT, 0.0),
-    ],
-)
-def test_slopes_become_angles(value, unit, degrees):
-    assert math.degrees(slope_rad(value, unit)) == pytest.approx(degrees, rel=1e-12)
+    ):
+        assert math.degrees(slope_rad(value, unit)) == pytest.approx(degrees, rel=1e-12)
 
 
-def test_s_ds_is_two_thirds_of_f_a_s_s_unrounded():
+def test_s_ds_is_as_given_or_else_two_thirds_of_f_a_s_s_unrounded():
     assert Site(**SITE, s_s_g=1.313, f_a=1.2).s_ds == pytest.approx(1.0504, abs=1e-12)
-
-
-def test_s_ds_that_is_given_stays_as_given():
     assert Site(**SITE, s_s_g=1.313, f_a=1.2, s_ds_g=1.05).s_ds == 1.05
-
-
-def test_a_site_without_s_ds_is_refused():
     with pytest.raises(ValidationError, match="give S_DS, S_MS, or S_S and F_a"):
         Site(**SITE, s_s_g=1.313)
 
@@ -159,7 +140,6 @@ def test_rectangles_come_with_arrays_and_with_objects_that_have_all_sides():
     assert data.site.rule_set is RuleSetName.PV1
 
 
-# ASCE 7-16 Table 11.6-1 and the sentences on S_1 in section 11.6.
 @pytest.mark.parametrize(
     ("other", "gap"),
     [

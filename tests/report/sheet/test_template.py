@@ -8,7 +8,7 @@ from cells import address, cell
 from report.sheet.fields import entries
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, UnitsFirst, provision_name
 from report.sheet.template import write_template
-from sheets import make, project
+from sheets import arrays, formula_cells, make, project
 
 SHEETS = [
     "Start", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
@@ -21,7 +21,12 @@ SHEETS = [
 def blank(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("blank") / "input.xlsx"
     write_template(path, units=request.param)
-    return request.param, load_workbook(path)
+    return load_workbook(path)
+
+
+@pytest.fixture
+def is_us(request, blank):
+    return request.node.callspec.params["blank"] is UnitsFirst.US
 
 
 def tables(book):
@@ -38,11 +43,11 @@ def validation(book, name):
 
 
 def test_sheets_are_in_working_order(blank):
-    assert blank[1].sheetnames == [*SHEETS, "Provisions", "Tables"]
+    assert blank.sheetnames == [*SHEETS, "Provisions", "Tables"]
 
 
 def test_every_single_field_has_a_defined_name(blank):
-    names = blank[1].defined_names
+    names = blank.defined_names
     for section in SECTIONS:
         if not section.is_table:
             for entry in entries(section.model):
@@ -51,7 +56,7 @@ def test_every_single_field_has_a_defined_name(blank):
 
 
 def test_every_table_has_its_name_and_twenty_blank_rows(blank):
-    names = tables(blank[1])
+    names = tables(blank)
     for section in SECTIONS:
         if section.is_table:
             sheet, table = names[section.table_name]
@@ -61,30 +66,24 @@ def test_every_table_has_its_name_and_twenty_blank_rows(blank):
             assert all(c.value is None or c.data_type == "f" for c in cells)
 
 
-def test_headings_state_the_units_of_the_system(blank):
-    units, book = blank
-    sheet, table = tables(book)["arrays_table"]
+def test_headings_state_the_units_of_the_system(blank, is_us):
+    sheet, table = tables(blank)["arrays_table"]
     headings = [head.value for head in sheet[table.ref][0]]
-    weight, size, plan = ("lb", "in", "ft") if units is UnitsFirst.US else ("kN", "mm", "m")
-    for heading in (f"Weight [{weight}]", f"CG height [{size}]", f"x from [{plan}]"):
-        assert heading in headings
+    weight, size, plan = ("lb", "in", "ft") if is_us else ("kN", "mm", "m")
+    assert {f"Weight [{weight}]", f"CG height [{size}]", f"x from [{plan}]"} <= {*headings}
 
 
 def test_table_columns_are_named_as_their_headings(blank):
-    for sheet, table in tables(blank[1]).values():
+    for sheet, table in tables(blank).values():
         headings = [head.value for head in sheet[table.ref][0]]
         assert headings == [column.name for column in table.tableColumns]
         assert table.autoFilter is None
 
 
-def test_no_sheet_is_protected_so_that_its_tables_grow(blank):
-    assert not any(sheet.protection.sheet for sheet in blank[1].worksheets)
-
-
 def test_inputs_are_yellow_and_formulas_are_blue(blank):
     for name, color in (("Site/Rule set", "00FFF6CC"), ("Site/S_DS/Computed", "00E3EDF5")):
-        assert cell(blank[1], name).fill.start_color.rgb == color
-    formulas = [c for sheet in blank[1] for row in sheet for c in row if c.data_type == "f"]
+        assert cell(blank, name).fill.start_color.rgb == color
+    formulas = formula_cells(blank)
     others = [c for c in formulas if c.fill.start_color.rgb != "00E3EDF5"]
     # The lines at the top of the sheets, and the clauses of the panel.
     assert {c.coordinate for c in others if c.parent.title != "Site"} == {"A3"}
@@ -93,109 +92,95 @@ def test_inputs_are_yellow_and_formulas_are_blue(blank):
 
 
 def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
-    rule = validation(blank[1], "Arrays/1/Slope unit")
+    rule = validation(blank, "Arrays/1/Slope unit")
     assert rule.formula1 == '"degrees,percent,in/12"'
-    assert rule.showInputMessage
-    assert rule.showErrorMessage
     assert rule.prompt
+    assert (rule.showInputMessage, rule.showErrorMessage) == (True, True)
 
 
 def test_numbers_are_validated_against_their_range(blank):
-    rule = validation(blank[1], "Arrays/1/Friction coefficient")
-    assert (rule.type, rule.operator, rule.formula1, rule.formula2) == (
-        "decimal",
-        "between",
-        "0",
-        "1.5",
-    )
+    rule = validation(blank, "Arrays/1/Friction coefficient")
+    assert (rule.type, rule.operator) == ("decimal", "between")
+    assert (rule.formula1, rule.formula2) == ("0", "1.5")
     assert "0 to 1.5" in rule.prompt
 
 
 def test_clearances_offer_the_arrays_and_objects_but_accept_other_text(blank):
-    of_object = validation(blank[1], "Clearances/1/Object")
-    assert validation(blank[1], "Clearances/1/Array").formula1 == "live_array_names"
-    assert of_object.formula1 == "live_names"
-    assert not of_object.showErrorMessage
+    of_object = validation(blank, "Clearances/1/Object")
+    assert validation(blank, "Clearances/1/Array").formula1 == "live_array_names"
+    assert (of_object.formula1, of_object.showErrorMessage) == ("live_names", False)
 
 
-def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank):
-    units, book = blank
-    sheet, table = tables(book)["links_table"]
-    unit, example = ("lb/in", 5000) if units is UnitsFirst.US else ("kN/m", 876)
-    wanted = {
-        "Status": None,
-        "Array": "A1",
-        "Block friction": "0.40, 0.45, 0.50",
-        f"Link stiffness [{unit}]": example,
-        "Link damping": "0.02",
-    }
+def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank, is_us):
+    sheet, table = tables(blank)["links_table"]
+    unit, example = ("lb/in", "5000") if is_us else ("kN/m", "876")
     heads = sheet[table.ref][0]
-    assert [head.value for head in heads] == list(wanted)
-    examples = [head.offset(row=-1).value for head in heads][1:]
-    assert list(map(str, examples)) == [str(value) for value in wanted.values()][1:]
-    assert validation(book, "Links/1/Array").formula1 == "live_array_names"
+    examples = {head.value: str(head.offset(row=-1).value) for head in heads[1:]}
+    assert heads[0].value == "Status"
+    assert list(examples.items()) == [
+        ("Array", "A1"),
+        ("Block friction", "0.40, 0.45, 0.50"),
+        (f"Link stiffness [{unit}]", example),
+        ("Link damping", "0.02"),
+    ]
+    assert validation(blank, "Links/1/Array").formula1 == "live_array_names"
 
 
 def test_overrides_offer_the_provisions(blank):
-    book = blank[1]
-    assert validation(book, "Options/1/Provision").formula1 == "rule_names"
-    cells = book.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
-    names = [row[0].value for row in book["Provisions"][cells]]
+    assert validation(blank, "Options/1/Provision").formula1 == "rule_names"
+    cells = blank.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
+    names = [row[0].value for row in blank["Provisions"][cells]]
     assert names == [provision_name(key) for key in PROVISION_KEYS]
 
 
 def test_no_cell_has_two_validations(blank):
-    for sheet in blank[1].worksheets:
+    for sheet in blank.worksheets:
         areas = [area for rule in validations(sheet) for area in rule.sqref.ranges]
         for i, area in enumerate(areas):
             assert all(area.isdisjoint(other) for other in areas[i + 1 :])
 
 
-def test_messages_satisfy_the_limits_of_excel(blank):
-    for sheet in blank[1].worksheets:
+def test_messages_and_formulas_satisfy_the_limits_of_excel(blank):
+    for sheet in blank.worksheets:
         for rule in validations(sheet):
             assert len(rule.promptTitle) <= 32
             assert len(rule.prompt) <= 255
-            assert len(rule.error) <= 225
-            assert len(rule.error) > len(rule.errorTitle)
+            assert len(rule.errorTitle) < len(rule.error) <= 225
             assert rule.error != rule.prompt
-            assert len(rule.formula1) <= 255
+            assert all(len(text or "") <= 255 for text in (rule.formula1, rule.formula2))
+        for area in sheet.conditional_formatting:
+            assert all(len(text) <= 255 for rule in area.rules for text in rule.formula)
 
 
 def test_headings_are_frozen_and_sheets_print_one_page_wide(blank):
     for name in SHEETS[1:]:
-        sheet = blank[1][name]
+        sheet = blank[name]
         assert sheet.freeze_panes
         assert sheet.page_setup.orientation == "landscape"
         assert sheet.page_setup.fitToHeight == 0
         assert sheet.sheet_properties.pageSetUpPr.fitToPage
 
 
-def test_defaults_are_filled_and_the_rest_is_blank(blank):
-    units, book = blank
-    assert cell(book, "Project/Primary units").value == units
-    assert cell(book, "Options/Design value statistic").value == "rule set"
-    assert cell(book, "Options/Peer review").value == "No"
-    first, last = (
-        cell(book, f"Site/{label}").row for label in ("Rule set", "Height of the array z")
-    )
-    assert all(book["Site"].cell(row, 2).value is None for row in range(first, last + 1))
+def test_defaults_are_filled_and_the_rest_is_blank(blank, is_us):
+    assert cell(blank, "Project/Primary units").value == ("US" if is_us else "SI")
+    assert cell(blank, "Options/Design value statistic").value == "rule set"
+    assert cell(blank, "Options/Peer review").value == "No"
+    labels = ("Rule set", "Height of the array z")
+    first, last = (cell(blank, f"Site/{label}").row for label in labels)
+    assert all(blank["Site"].cell(row, 2).value is None for row in range(first, last + 1))
 
 
 def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
-    sheet = blank[1]["Start"]
+    sheet = blank["Start"]
     text = "\n".join(str(value) for row in sheet.values for value in row if value is not None)
     for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Colors"):
         assert part in text
-    numbers = [row[0] for row in sheet.values if str(row[0]).isdecimal()]
-    assert numbers == list("123456")
+    assert [row[0] for row in sheet.values if str(row[0]).isdecimal()] == list("123456")
     (picture,) = sheet._images
     assert picture._data()[:4] == b"\x89PNG"
 
 
-def test_values_of_a_project_are_written_in_the_units_of_the_sheets_without_rounding_error(
-    tmp_path,
-):
+def test_values_are_written_in_the_units_of_the_sheets_without_rounding_error(tmp_path):
     us, si = (load_workbook(make(tmp_path / str(units), units)) for units in UnitsFirst)
     for heading, in_us, in_si in (("CG height", 9, 228.6), ("Support spacing", 40, 1016),
                                   ("x from", 20, 6.096), ("x to", 100, 30.48)):  # fmt: skip
@@ -205,9 +190,8 @@ def test_values_of_a_project_are_written_in_the_units_of_the_sheets_without_roun
 
 
 def test_a_project_with_many_arrays_gets_a_larger_table(tmp_path):
-    array = project().arrays[0].model_dump()
-    arrays = [array | {"id": f"A{i}"} for i in range(40)]
-    book = load_workbook(make(tmp_path, arrays=arrays, clearances=[]))
+    rows = [arrays(id=f"A{i}")[0] for i in range(40)]
+    book = load_workbook(make(tmp_path, arrays=rows, clearances=[]))
     _, first, _, last = range_boundaries(book["Arrays"].tables["arrays_table"].ref)
     assert last - first == 45
 
@@ -218,11 +202,9 @@ def test_a_text_that_looks_like_a_formula_is_written_as_text(tmp_path):
     assert (name.value, name.data_type) == ("=1+1", "s")
 
 
-def test_a_page_of_a4_has_the_room_of_a_page_of_letter(blank):
-    units, book = blank
-    is_us = units is UnitsFirst.US
+def test_a_page_of_a4_has_the_room_of_a_page_of_letter(blank, is_us):
     wide, tall = (279.4, 215.9) if is_us else (297.0, 210.0)  # mm, landscape
-    for sheet in book.worksheets:
+    for sheet in blank.worksheets:
         margins = sheet.page_margins
         assert sheet.page_setup.paperSize == (1 if is_us else 9)
         assert wide - 25.4 * (margins.left + margins.right) == pytest.approx(259.0, abs=0.3)

@@ -11,21 +11,13 @@ from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.filters import AutoFilter, FilterColumn, Filters
 
 import scenes
+from cells import cell as named
 from printed import printed
 from report.assessment.foresight import findings
 from report.sheet.fields import Place
-from report.sheet.findings import located
 from report.sheet.read import read
 from report.sheet.unseen import Kind, Unseen, warnings
-from sheets import at, blank, edit, make, of, read_workbook, type_into
-
-
-def told(path):
-    """Name, cell and text of each warning and note."""
-    book = read_workbook(path)
-    found = findings(book.sheet, book.shaking)
-    return [(f.id, cell, f.text) for f, cell in
-            zip(found, located(found, book.sheet.addresses), strict=True)]  # fmt: skip
+from sheets import at, blank, edit, make, of, read_workbook, told, type_into
 
 
 def cell_of(name):
@@ -41,11 +33,8 @@ def has(text, *cells):
     return all(any(cell in area for area in ranges) for cell in cells)
 
 
-def hide_sheet(state):
-    def change(book):
-        book["Options"].sheet_state = state
-
-    return change
+def hide_options(path, state):
+    return edit(path, lambda book: setattr(book["Options"], "sheet_state", state))
 
 
 @pytest.mark.parametrize(
@@ -55,7 +44,7 @@ def hide_sheet(state):
 def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
     path = make(tmp_path)
     sheet, column, row = cell_of("Options/1/Value")
-    ((name, _, text),) = told(edit(path, hide_sheet(state)))
+    ((name, _, text),) = told(hide_options(path, state))
     assert name == f"hidden sheet {sheet}"
     assert text.startswith(f"the sheet is {said}, and cells B")
     assert has(text, f"{column}{row}")
@@ -79,53 +68,46 @@ def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
     assert cell.startswith(f"{sheet}!")
 
 
-def no_height(book, sheet, letter, row):
-    book[sheet].row_dimensions[row].height = 0.75  # one pixel
-
-
-def no_width(book, sheet, letter, row):
-    book[sheet].column_dimensions[letter].width = 0.1
-
-
-@pytest.mark.parametrize("change", [no_height, no_width])
-def test_a_row_or_column_with_next_to_no_size_is_hidden(tmp_path, change):
-    path = make(tmp_path)
-    sheet, letter, row = cell_of("Project/Project number")
-    ((name, _, text),) = told(edit(path, lambda book: change(book, sheet, letter, row)))
-    assert name == f"hidden {sheet}"
-    assert has(text, f"{letter}{row}")
-
-
-def test_the_unit_of_a_number_in_a_hidden_column_is_a_warning(tmp_path):
-    path = make(tmp_path)
-    _, unit, row = cell_of("Site/Structure height h/Unit")
+def test_a_cell_in_a_row_or_column_without_size_is_hidden(tmp_path):
+    """Each on a sheet of its own."""
+    places = ("Project/Project number", "Site/Structure height h/Unit",
+              "Arrays/A1/Importance factor I_p", "Objects/RTU-1/Height")  # fmt: skip
+    number, unit, factor, height = map(cell_of, places)
 
     def change(book):
-        book["Site"].column_dimensions[unit].hidden = True
+        book["Project"].row_dimensions[number[2]].height = 0.75  # one pixel
+        book["Site"].column_dimensions[unit[1]].hidden = True
+        # As Excel saves it; what Roofslip itself types into a folded column, it unfolds.
+        named(book, "Arrays/A1/Importance factor I_p").value = 1.5
+        book["Objects"].column_dimensions[height[1]].width = 0.1
 
-    ((name, _, text),) = told(edit(path, change))
-    assert name == "hidden Site"
-    assert has(text, f"{unit}{row}")
+    for (name, _, text), (sheet, letter, row) in zip(
+        told(edit(make(tmp_path), change)), (number, unit, factor, height), strict=True
+    ):
+        assert name == f"hidden {sheet}"
+        assert has(text, f"{letter}{row}")
 
 
-def filter_table(book, sheet, row):
+def filter_table(book, sheet):
     table = next(iter(book[sheet].tables.values()))
     table.autoFilter = AutoFilter(ref=table.ref)
     table.autoFilter.filterColumn = [FilterColumn(colId=0, filters=Filters(filter=["A1"]))]
-    book[sheet].row_dimensions[row].hidden = True
 
 
-def filter_sheet(book, sheet, row):
+def filter_sheet(book, sheet):
     book[sheet].auto_filter.ref = next(iter(book[sheet].tables.values())).ref
     book[sheet].auto_filter.add_filter_column(0, ["A1"])
-    book[sheet].row_dimensions[row].hidden = True
 
 
 @pytest.mark.parametrize("change", [filter_table, filter_sheet])
 def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
-    path = make(tmp_path)
     sheet, _, row = cell_of("Arrays/A2/ID")
-    ((name, cell, text),) = told(edit(path, lambda book: change(book, sheet, row)))
+
+    def hide(book):
+        change(book, sheet)
+        book[sheet].row_dimensions[row].hidden = True
+
+    ((name, cell, text),) = told(edit(make(tmp_path), hide))
     assert (name, cell) == (f"filtered out {sheet}", f"{sheet}!B{row}")
     assert "are in rows that a filter hides, and are read: clear the filter, and delete" in text
 
@@ -139,72 +121,57 @@ def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_p
             for cell in book[sheet][number]:
                 cell.font = Font(strike=True)
 
-    assert told(edit(path, change)) == [
-        (
-            f"struck through {sheet}",
-            f"{sheet}!B{row}",
-            f"cells B{row}:{letter}{row} are struck through, and are read: clear what is not meant,"
-            " and remove the strikethrough from the rest",
-        )
-    ]
+    text = (
+        f"cells B{row}:{letter}{row} are struck through, and are read: clear what is not meant,"
+        " and remove the strikethrough from the rest"
+    )
+    assert told(edit(path, change)) == [(f"struck through {sheet}", f"{sheet}!B{row}", text)]
 
 
-WHITE_FILL = PatternFill("solid", start_color="FFFFFF", end_color="FFFFFF")
-NO_FILL = PatternFill()
-THEME = Color(theme=0)
+def looking(path, look):
+    """Give the friction coefficient of A1 another font, fill or number format."""
 
+    def change(book):
+        for name, value in look.items():
+            setattr(named(book, "Arrays/A1/Friction coefficient"), name, value)
 
-def looks(font=None, fill=None, number_format=None):
-    said = {"font": font, "fill": fill, "number_format": number_format}
-
-    def change(cell):
-        for name, look in said.items():
-            if look is not None:
-                setattr(cell, name, look)
-
-    return change
+    return edit(path, change)
 
 
 @pytest.mark.parametrize(
-    "change",
+    "look",
     [
-        looks(Font(color="FFFFFF"), WHITE_FILL),
-        looks(Font(color="FFFDFB"), NO_FILL),
-        looks(Font(color=THEME), NO_FILL),
-        looks(Font(color="FFF6CC")),  # that of the input cells
-        looks(None, PatternFill("solid", start_color="000000", end_color="000000")),
-        looks(number_format=";;;"),
+        {"font": Font(color="FFFFFF"), "fill": PatternFill("solid", start_color="FFFFFF")},
+        {"font": Font(color="FFFDFB"), "fill": PatternFill()},
+        {"font": Font(color=Color(theme=0)), "fill": PatternFill()},
+        {"font": Font(color="FFF6CC")},  # that of the input cells
+        {"fill": PatternFill("solid", start_color="000000")},
+        {"number_format": ";;;"},
     ],
 )
 @pytest.mark.by_day(2)
-def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, change):
-    path = make(tmp_path)
-    sheet, letter, row = cell_of("Arrays/A1/Friction coefficient")
-    cell = f"{letter}{row}"
-    assert told(edit(path, lambda book: change(book[sheet][cell]))) == [
-        (
-            f"invisible {sheet}",
-            f"{sheet}!{cell}",
-            f"cell {cell} cannot be seen for the color of the text or the number format, and is"
-            " read: change it, or clear what is not meant",
-        )
-    ]
+def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
+    ((name, place, text),) = told(looking(make(tmp_path), look))
+    sheet, _, cell = place.partition("!")
+    assert (name, place) == (f"invisible {sheet}", at("Arrays/A1/Friction coefficient"))
+    assert text == (
+        f"cell {cell} cannot be seen for the color of the text or the number format, and is read:"
+        " change it, or clear what is not meant"
+    )
 
 
 @pytest.mark.parametrize(
-    "change",
+    "look",
     [
-        looks(Font(color="FF0000")),
-        looks(Font(color=Color(theme=1)), NO_FILL),
-        looks(Font(color=Color(indexed=8)), NO_FILL),
-        looks(None, PatternFill("darkGray", start_color="000000")),
+        {"font": Font(color="FF0000")},
+        {"font": Font(color=Color(theme=1)), "fill": PatternFill()},
+        {"font": Font(color=Color(indexed=8)), "fill": PatternFill()},
+        {"fill": PatternFill("darkGray", start_color="000000")},
     ],
 )
 @pytest.mark.by_day(1)
-def test_text_in_another_color_is_no_warning(tmp_path, change):
-    path = make(tmp_path)
-    sheet, letter, row = cell_of("Arrays/A1/Friction coefficient")
-    assert told(edit(path, lambda book: change(book[sheet][f"{letter}{row}"]))) == []
+def test_text_in_another_color_is_no_warning(tmp_path, look):
+    assert told(looking(make(tmp_path), look)) == []
 
 
 def test_what_the_template_folds_and_a_hidden_sheet_that_is_not_read_are_no_warnings(tmp_path):
@@ -217,19 +184,9 @@ def test_what_the_template_folds_and_a_hidden_sheet_that_is_not_read_are_no_warn
     assert read(blank(tmp_path / "blank.xlsx")).unseen == ()
 
 
-def test_a_value_in_a_folded_column_is_a_warning(tmp_path):
-    path = make(tmp_path)
-    sheet, letter, row = cell_of("Arrays/A1/Importance factor I_p")
-    # As Excel saves it; what Roofslip itself types into a folded column, it unfolds.
-    typed = edit(path, lambda book: setattr(book[sheet][f"{letter}{row}"], "value", 1.5))
-    ((name, _, text),) = told(typed)
-    assert name == f"hidden {sheet}"
-    assert f"cells {letter}{row - 1}:{letter}{row} are in hidden rows" in text
-
-
 def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_path):
     rows = [{"warning": "Hidden  sheet options", "reason": "Kept from the client's view"}]
-    path = edit(make(tmp_path, acknowledged=rows), hide_sheet("hidden"))
+    path = hide_options(make(tmp_path, acknowledged=rows), "hidden")
     book = read_workbook(path)
     (found,) = findings(book.sheet, book.shaking)
     assert found.reason == "Kept from the client's view"

@@ -2,16 +2,11 @@
 
 import pytest
 
-from inputs import INCH, LB
+from inputs import INCH
 from report.sheet.fields import Place, entries
-from report.sheet.plausible import implausible
 from report.sheet.schema import SECTIONS
 from report.sheet.usual import unusual
 from sheets import arrays, project, row_changed
-
-
-def test_the_usual_project_has_none():
-    assert list(unusual(project())) == []
 
 
 @pytest.mark.parametrize(
@@ -47,11 +42,6 @@ def test_the_range_is_in_the_units_that_come_first():
 def test_the_limits_of_a_range_are_usual():
     for inches in (4, 36):
         assert list(unusual(row_changed("arrays", 0, cg_height_m=inches * INCH))) == []
-
-
-def test_a_cell_with_another_warning_has_no_second_one():
-    found = list(implausible(row_changed("arrays", 0, weight_n=30 * LB)))
-    assert [finding.id for finding in found] == ["weight A1"]
 
 
 def test_every_example_is_usual():

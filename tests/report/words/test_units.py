@@ -82,14 +82,9 @@ def test_no_value_and_an_infinite_one_have_their_signs():
 
 @pytest.mark.parametrize(
     ("value_m", "text"),
-    [
-        (2.07196, "81.6 in (2072 mm)"),
-        (0.9994, "39.3 in (999 mm)"),
-        (1.0049, "39.6 in (1005 mm)"),
-        (12.345, "486.0 in (12345 mm)"),
-        (-1.2346, "−48.6 in (−1235 mm)"),
-    ],
-)
+    [(2.07196, "81.6 in (2072 mm)"), (0.9994, "39.3 in (999 mm)"), (1.0049, "39.6 in (1005 mm)"),
+     (12.345, "486.0 in (12345 mm)"), (-1.2346, "−48.6 in (−1235 mm)")],
+)  # fmt: skip
 def test_displacements_print_in_whole_millimeters_of_any_size(value_m, text):
     assert pair(value_m, Quantity.DISPLACEMENT) == text
 

@@ -11,11 +11,6 @@ from solver.verification.table_tests import table_tests
 compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
 
 
-def of(folder, ratios, data):
-    tables.write_folder(folder, ratios, data=data)
-    return compare(table_tests(folder))
-
-
 def test_without_tests_nothing_is_validated_and_the_text_says_what_that_means():
     assert validation(()) == NOT_VALIDATED
     assert explained(()).startswith(f"{NOT_VALIDATED} The checks of the verification manual")
@@ -27,6 +22,7 @@ def test_without_tests_nothing_is_validated_and_the_text_says_what_that_means():
     [(1.02, "measured", True), (1.02, "computed", False), (1.6, "measured", False)],
 )
 def test_only_accepted_measured_tests_validate(tmp_path, ratio, data, is_validated):
-    found = of(tmp_path, [ratio] * 5, data)
+    tables.write_folder(tmp_path, [ratio] * 5, data=data)
+    found = compare(table_tests(tmp_path))
     assert (NOT_VALIDATED not in explained((found,))) is is_validated
     assert validation((found,)) == explained((found,)) or not is_validated
