@@ -282,7 +282,7 @@ CONTRADICTIONS = [
      " site class 'D' (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific"
      " analysis' and give its report"),
     ({"Site/Roof x from": 0, "Site/Roof x to": 300, "Site/Roof y from": 0},
-     "<Site/Roof y to>: y to is missing; give all four sides of the rectangle, or none"),
+     "<Site/Roof y to>: roof y to is missing; give all four sides of the rectangle, or none"),
     ({"Site/Roof x from": 300, "Site/Roof x to": 0, "Site/Roof y from": 0, "Site/Roof y to": 120},
      "<Site/Roof x to>: x to is 0.00 ft (0.00 m); give more than x from in <Site/Roof x from>,"
      " 300.00 ft (91.44 m)"),
