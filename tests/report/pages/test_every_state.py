@@ -1,0 +1,105 @@
+"""Every page of the package is whole in every state that a project may have."""
+
+import re
+from dataclasses import replace
+from functools import cache
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from jinja2 import Environment, meta
+
+import packages
+import printed
+import scenes
+import stand_in
+from report.assessment.evidence import support
+from report.package.html import pages
+from report.pages.registry import package_data, pages_of
+from report.typeset.pdf import TEMPLATES
+
+ARRAY, GAP, FOOT = stand_in.array, stand_in.clearance, stand_in.FOOT
+MOTIONS = scenes.motions(3, seconds=3.0)
+ALONE = scenes.along(MOTIONS)
+LIFTING = stand_in.motion("UP", np.zeros(300), np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100))
+TWO = {
+    "arrays": [ARRAY("A1", 0.5), ARRAY("A2", 0.5, x=220)],
+    "objects": [stand_in.roof_object("N", "edge with parapet", 0, 320, 270, 271, height=0.8)],
+    "clearances": [GAP("A1", "A2", 120 * FOOT), GAP("A2", "N", 195 * FOOT, "up")],
+}
+NARROW = {"clearances": [GAP("A1", "A2", 0.5 * FOOT)]}
+OVERRIDE = {"provision": "analysis_factor", "value": 1.0, "reason": "Agreed on 2026-02-11"}
+STATES = {
+    "no value": ((*MOTIONS, LIFTING), {}, "An array without a permitted design displacement is NG"),
+    "NG": (MOTIONS, NARROW, "NG Marked NG: 2 of 2 arrays, 1 of 1 clearance."),
+    "conditions": (MOTIONS, {}, "OK with conditions All limits and clearances are satisfied;"),
+    "one array": (
+        MOTIONS,
+        {"arrays": [ARRAY("A1", 0.5)], "objects": [], "clearances": []},
+        "One ballasted array (A1) was analyzed",
+    ),
+    "one motion": (MOTIONS[:1], {}, "too few motions (1)"),
+    "no vertical": (
+        tuple(replace(motion, az_mps2=stand_in.NO_RECORD) for motion in MOTIONS),
+        {},
+        "there is no vertical component to reverse",
+    ),
+    "no transverse": (ALONE, {}, "No motion has a second horizontal component"),
+    "prescriptive": (ALONE, {}, "Array A1: the prescriptive route is taken"),
+    "peer review": (MOTIONS, {"options": scenes.REVIEW}, "removed by peer review: Reviewer of"),
+    "override": (MOTIONS, {"overrides": [OVERRIDE]}, "One number of the rule set is overridden"),
+    "links": (
+        MOTIONS,
+        {"links": [stand_in.links("A1", "0.40, 0.45, 0.50", 50)]},
+        "Adequacy of the rigid-block model",
+    ),
+    "revision": (MOTIONS, NARROW, "Compared with revision 0 of"),
+}
+
+
+@cache
+def package(state):
+    shaking, changes, _ = STATES[state]
+    made = scenes.package(shaking, **TWO | changes)
+    if state != "revision":
+        return made
+    former = scenes.package(MOTIONS, **TWO).assessment
+    return package_data(made.assessment, scenes.since(former, made.assessment))
+
+
+@pytest.mark.parametrize("state", STATES)
+def test_every_page_is_whole(state):
+    made = package(state)
+    with packages.undrawn():
+        html = pages(made.assessment, support(made.assessment), made.changes)
+    words = packages.words(html)  # every link leads to a place
+    assert STATES[state][2] in words
+    broken = r"\b(nan|inf|None(?! of the |: no slip))\b|\{[{%]|\[\]|\(\)|\w+\.\w+ object at"
+    assert [found[0] for found in re.finditer(f".{{0,40}}({broken})", words)] == []
+
+    body = ElementTree.fromstring(html).find("body")
+    listed = {one.get("data-no") for one in body.iterfind(".//ul[@class='toc']//a")}
+    references = re.findall(r"\b(?:part (\d+(?:\.\d+)?)|appendix ([A-Z]))\b", words)
+    assert len(references) > 20
+    assert {number or letter for number, letter in references} <= listed
+
+    headings = [one for tag in ("h1", "h2", "figcaption") for one in body.iter(tag)]
+    assert all("".join(one.itertext()).strip() for one in headings)
+    assert all(one.get("alt") for one in body.iter("img"))
+    revisions, *tables = (table for table in printed.read(html).tables if table.headings)
+    assert revisions.cells
+    assert [table.headings for table in tables if not (table.title and table.cells)] == []
+    opened = [one.get("id") for one in body.iter("h1")]
+    assert opened == ["contents", "letter", *(page.id for page in pages_of(made))]
+
+
+def test_every_template_of_the_package_is_rendered_in_some_state():
+    ids = {*printed.FRONT, *(page.id for state in STATES for page in pages_of(package(state)))}
+    reached, left = set(), {"package.html", *(f"{id}.html" for id in ids)}
+    while left:
+        name = left.pop()
+        reached.add(name)
+        parsed = Environment().parse((TEMPLATES / name).read_text(encoding="utf-8"))
+        left |= {*meta.find_referenced_templates(parsed)} - {None} - reached
+    of_other_documents = {"study.html", "verification.html"}
+    assert reached == {path.name for path in TEMPLATES.glob("*.html")} - of_other_documents
