@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 from pypdf import PdfReader
 
-import packages
 import scenes
 import stand_in
 from printed import FRONT, IDS, printed, read
-from report.assessment.changes import NO_FORMER
 from report.assessment.evidence import support
 from report.package.html import pages as written
 from report.typeset.pdf import TEMPLATES, lay_out
@@ -159,11 +157,6 @@ def test_motions_without_a_vertical_component_are_counted(crowded):
     assert "0 of 3 a vertical component" in flat(" ".join(crowded))
 
 
-def whole(package):
-    """The words of all pages."""
-    return "\n".join(printed(package, id) for id in (*FRONT, *IDS))
-
-
 def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
     arrays = [stand_in.array(f"A{k}", 4.0, x=100 * k) for k in (1, 2, 3)]
     package = scenes.package(scenes.motions(2), arrays=arrays)
@@ -174,8 +167,6 @@ def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
         assert (row["Governs"], row["D/C"]) == ("none", "none")
         assert row["Verdict"].startswith("NG")
     assert "without a verdict: 5 of 5 clearances" in summary
-    assert "too few motions" in whole(package)
-    assert not re.search(r"\bnan\b", whole(package), re.IGNORECASE)
 
 
 def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time():
@@ -190,7 +181,6 @@ def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time():
         assert set(values[1:-1]) == {"", "none"}  # it has no transverse runs
         assert (values[-1], force, status) == ("—", "−0.40", "uplift")
     assert "3 of 3 arrays" in printed(package, "summary")
-    assert not re.search(r"\bnan\b", whole(package), re.IGNORECASE)
 
 
 def test_an_analysis_above_the_prescriptive_value_is_said_and_governs():
@@ -218,21 +208,18 @@ def test_thirty_motions_of_one_array_without_clearances_are_listed():
 @pytest.mark.parametrize("edition", ["ASCE 7-16", "ASCE 7-22"])
 def test_other_editions_say_their_own_name_and_clauses(edition):
     site = stand_in.project().site.model_dump() | {"rule_set": edition, "s_ds_g": None}
-    if edition == "ASCE 7-22":
+    is_new = edition == "ASCE 7-22"
+    if is_new:
         site |= {"f_a": None, "f_v": None, "s_ms_g": 2.36}
-    said = whole(scenes.package(site=site))
+    package = scenes.package(site=site)
+    said = "\n".join(printed(package, id) for id in (*FRONT, *IDS))
     assert f"Code {edition}" in said
     assert f"{edition} 13.6.12" in said
+    assert re.findall(r"- ([^:]*):", said.split("## References")[1])[:3] == [
+        edition, "IBC 1613.3", "AC156",
+    ]  # fmt: skip
+    assert ("AC156-24" in said, "7-16" in said) == ((True, False) if is_new else (False, True))
     assert "PV1" not in said
-
-
-@pytest.mark.parametrize("made", [scenes.usual, scenes.unpermitted, scenes.departing])
-def test_every_link_of_a_package_leads_to_a_place_in_it(made):
-    package = made()
-    done = getattr(package, "assessment", package)
-    changes = getattr(package, "changes", NO_FORMER)
-    with packages.undrawn():
-        assert packages.words(written(done, support(done), changes))
 
 
 def test_a_line_in_the_renderers_log_is_a_defect():
