@@ -37,6 +37,7 @@ def test_the_cover_says_that_large_records_are_left_out():
     rows = printed(replace(done, shaking=replace(done.shaking, records=large)), "cover").facts
     assert "not the nine record files, 81.0 MB in all: appendix B" in rows["In this file"]
     assert "verify-package FILE --records FOLDER" in rows["Verification"]
+    assert rows["Verification"].endswith(scenes.package().fingerprint)
 
 
 def test_a_project_without_clearances_or_value_names_neither():
