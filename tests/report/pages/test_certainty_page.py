@@ -4,7 +4,6 @@ import re
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 import scenes
 import stand_in
@@ -14,7 +13,6 @@ from report.figures.base import load_fonts
 from report.figures.certainty import contours
 from report.figures.levels import MOST_LEVELS, levels
 from report.typeset.pdf import TEMPLATES
-
 
 
 def made(found=None, **changes):

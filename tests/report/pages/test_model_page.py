@@ -75,7 +75,9 @@ def test_where_nothing_slips_nothing_is_neglected():
 
 def test_fewer_runs_are_said_where_a_polarity_is_not_requested():
     one = tuple(replace(motion, signs=(1,)) for motion in scenes.motions())
-    assert "so in the polarities requested two are run" in printed(scene(one), "model")
+    package = scene(one)
+    assert "so in the polarities requested two are run" in printed(package, "model")
+    assert "; 0 of 3 motions are run both as recorded and reversed" in printed(package, "basis")
 
 
 def test_a_block_that_lifts_off_has_no_error_and_no_limit_of_demand():

@@ -12,6 +12,7 @@ from report.assessment.conditions import project_rows
 from report.assessment.envelopes import keep_clear_m, keep_clear_words
 from report.drawing.plan import plan_drawing
 from scenes import FOOT, REVIEW
+from stand_in import INCH
 
 
 @pytest.mark.parametrize(
@@ -81,6 +82,13 @@ def test_a_drift_over_its_limit_prints_larger():
     (row,) = [row for row in rows if row.id == "drift"]
     numbers = [float(re.search(r"\((\d+) mm\)", text)[1]) for text in (row.found, row.limit)]
     assert numbers[0] > numbers[1]
+
+
+def test_a_parapet_that_is_too_low_does_not_qualify():
+    edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
+    package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
+    text = printed(package, "clearances").line("Parapet N beside A3")
+    assert text.endswith(": it does not qualify, an edge without a parapet.")
 
 
 @pytest.mark.parametrize(

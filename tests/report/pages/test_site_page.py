@@ -11,22 +11,14 @@ from printed import printed
 BLANK = dict.fromkeys(
     ("s_s_g", "s_1_g", "f_a", "f_v", "s_ms_g", "s_m1_g", "s_ds_g", "s_d1_g", "site_class")
 )
-MOTIONS = scenes.motions(3, seconds=3.0)
 FT = stand_in.FOOT
 
 
-def package(*, target=None, building=None, arrays=None, **changes):
-    """A package of one array, its site given by `changes` alone."""
-    site = stand_in.project().site.model_dump() | BLANK | changes
-    return scenes.package(
-        MOTIONS,
-        site=site,
-        arrays=arrays or [stand_in.array("A1", 1.0)],
-        objects=[],
-        clearances=[],
-        target=target or {},
-        building=building or {},
-    )
+def package(sections=None, **site):
+    """A package of one array, its site given by `site` alone."""
+    usual = {"arrays": [stand_in.array("A1", 1.0)], "objects": [], "clearances": []}
+    shaking = scenes.motions(3, seconds=3.0)
+    return scenes.package(shaking, site=stand_in.site(**BLANK | site), **usual | (sections or {}))
 
 
 def table(made):
@@ -69,7 +61,7 @@ FULL = {
 
 @pytest.fixture(scope="module")
 def full():
-    return package(target={"t_l_s": 8.0}, **FULL)
+    return package({"target": {"t_l_s": 8.0}}, **FULL)
 
 
 def test_the_values_are_those_of_a_permit_sheet(full):
@@ -87,10 +79,10 @@ def test_a_derived_period_says_which_structure_it_assumes(full):
     row = rows(full)["Ta"]
     assert row["Description"] == "Approximate period, structure type other"
     assert row["Source"] == "assumed"
-    row = rows(package(building={"structure": "steel moment frame"}, **FULL))["Ta"]
+    row = rows(package({"building": {"structure": "steel moment frame"}}, **FULL))["Ta"]
     # 0.028 x 30^0.8
     assert (row["Value"], row["Source"]) == ("0.425 s", "computed")
-    assert values(package(building={"period_s": 0.62}, **FULL))["T1"] == "0.620 s"
+    assert values(package({"building": {"period_s": 0.62}}, **FULL))["T1"] == "0.620 s"
 
 
 def test_the_component_force_is_that_of_a_permit_sheet():
@@ -101,6 +93,16 @@ def test_the_component_force_is_that_of_a_permit_sheet():
     assert values(made)["Ta"] == "0.288 s"
     steps = printed(made, "method").equation(r"\frac{F_p}")
     assert [line.split(" = ")[1] for line in steps if " = " in line] == forces(made)
+
+
+@pytest.mark.parametrize("rule_set", ["SEAOC PV1-2012", "ASCE 7-16", "ASCE 7-22"])
+@pytest.mark.parametrize("height_m", [0.0, 5.0, 10.0])
+def test_the_amplification_with_its_numbers_gives_the_result(rule_set, height_m):
+    height = {"roof_height_m": height_m, "structure_height_m": 10.0}
+    made = package({"spectrum": []}, rule_set=rule_set, s_ds_g=1.566, **height)
+    formula, result = printed(made, "method").equation("A_{RIG}=")[0].split(" = ")
+    value = eval(formula.replace("×", "*").replace(" g", ""))
+    assert value == pytest.approx(float(result.removesuffix(" g")), abs=6e-4)
 
 
 def test_asce_7_22_has_no_site_coefficients_and_its_own_clauses():
@@ -140,7 +142,7 @@ def test_the_equations_follow_what_is_given(full):
 
 def test_i_p_is_a_range_where_arrays_differ():
     arrays = [stand_in.array("A1", 1.0, i_p=1.5), stand_in.array("A2", 1.0, x=120)]
-    made = package(s_ds_g=1.0, arrays=arrays, force_factor=1.0, force_divisor=1.5)
+    made = package({"arrays": arrays}, s_ds_g=1.0, force_factor=1.0, force_divisor=1.5)
     assert values(made)["Ip"] == "1.00 to 1.50"
     assert forces(made)[1] == "2.400"  # 1.6 x S_DS x the larger I_p
 
