@@ -12,14 +12,12 @@ from matplotlib.text import Text
 import stand_in
 from report.assessment.evidence import support
 from report.figures import maps, records
-from report.figures.base import load_fonts
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import package_data
 from report.sheet.schema import UnitsFirst
 from report.study import figures as study
 from report.study.results import LimitState
 from report.suite.info import PERIODS_S, spectra_g
-from report.typeset.pdf import TEMPLATES
 from report.words.units import Quantity
 from solver.records.record import Record
 from solver.studies.capacity import Capacities
@@ -50,11 +48,6 @@ class Drawn:
         # Of an annotation without its arrow.
         boxes = [Text.get_window_extent(t, renderer).transformed(inches) for t in seen]
         self.figures.append((seen, boxes, figure.get_size_inches()))
-
-
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    load_fonts(TEMPLATES / "fonts")
 
 
 @pytest.fixture
