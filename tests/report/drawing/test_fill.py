@@ -40,7 +40,7 @@ def new(tmp_path, units=UnitsFirst.US):
 
 @pytest.mark.parametrize("units", UnitsFirst)
 @pytest.mark.by_day(1)
-def test_a_blank_workbook_is_run(tmp_path, units):
+def test_a_blank_workbook_is_filled(tmp_path, units):
     path = new(tmp_path, units)
     assert "A1: array, 6 vertices" in run(drawing(tmp_path), path)
     sheet = read(path)
@@ -144,7 +144,8 @@ def test_layers_of_the_workbook_name_what_is_drawn(tmp_path):
 
 def test_a_drawing_without_a_unit_asks_for_it(tmp_path):
     path, book = drawing(tmp_path, "R12"), new(tmp_path)
-    assert "states no unit; add --units with one of in, ft, mm, cm, m" in run(path, book, exit_code=2)
+    output = run(path, book, exit_code=2)
+    assert "states no unit; add --units with one of in, ft, mm, cm, m" in output
     run(path, book, "--units", "ft")
 
 
