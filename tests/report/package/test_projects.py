@@ -18,7 +18,6 @@ from printed import FRONT, IDS, printed
 from report.motions.prepare import prepare
 from report.motions.targets import targets
 from report.sheet.read import read
-from sheets import same
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
 
@@ -79,16 +78,6 @@ def example(tmp_path_factory):
 
 def test_the_example_has_at_most_29_sheets(example):
     assert len(example.pdf.pages) <= 29
-
-
-def test_the_friction_of_the_example_is_said_as_it_was_run_wherever_it_is_said():
-    law = "0.40 to 0.50, by velocity"
-    assert f"A3: μ {law}; design displacement" in page("example", "cover")
-    for key, title in (("letter", "Results"), ("summary", "Arrays")):
-        assert page("example", key).table(title).row("A3")["μ"] == law
-    assert law in page("example", "clearances")
-    for key in ("cover", "letter", "inputs", "results", "comparison", "clearances", "model"):
-        assert "μ 0.40 " not in page("example", key).replace(f"μ {law}", "")
 
 
 def test_the_example_has_the_conditions_that_its_friction_tests_leave(example):
