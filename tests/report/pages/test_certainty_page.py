@@ -3,8 +3,6 @@
 import re
 from dataclasses import replace
 
-import numpy as np
-
 import scenes
 import stand_in
 from printed import printed
@@ -41,16 +39,6 @@ def test_where_nothing_slides_there_are_no_contours_and_no_ratios():
     assert "lists no clearances: there is no margin" in page
     assert not re.search(r"\b(nan|inf|None)\b", page)
     assert set([*page.tables[-1].row("PRD / used").values()][1:]) == {"—"}
-
-
-def test_a_block_that_lifts_off_is_said_without_numbers():
-    flat, up = np.zeros(300), np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100)
-    lifted = tuple(stand_in.motion(f"L{k}", flat, up, ay=flat, signs=(1,)) for k in range(3))
-    package, _, page = made(lifted)
-    assert "48 of 48 points have no value" in page
-    assert "no displacement" in page.line("PRD used for array")
-    assert not re.search(r"\b(nan|inf|None)\b", page)
-    assert "How to satisfy" in printed(package, "summary")
 
 
 def test_the_chart_names_the_arrays_and_is_the_same_twice():

@@ -43,13 +43,28 @@ def revised():
 
 
 STATES = {
-    "no value": (of((*MOTIONS, LIFTING)), "An array without a permitted design displacement is NG"),
+    "no value": (
+        of((*MOTIONS, LIFTING)),
+        "design displacement none, governed by: none",
+        "An array without a permitted design displacement is NG",
+        "How to satisfy each clearance",
+        "no limit the normal force falls below zero, which no model covers none",
+        "Minimum normal force −0.40 m g: uplift occurs.",
+        "48 of 48 points have no value: a run there gives no displacement.",
+    ),
     "NG": (of(**NARROW), "NG Marked NG: 2 of 2 arrays, 1 of 1 clearance."),
-    "conditions": (of(), "OK with conditions All limits and clearances are satisfied;"),
+    "conditions": (
+        of(),
+        "OK with conditions All limits and clearances are satisfied;",
+        "Governing array A1: μ 0.45; ",
+        "Arrays that are alike remain alike",
+    ),
     "one array": (
         of(**ONE),
         "All limits are satisfied; the workbook lists no clearance, and none is checked; ",
         "One ballasted array (A1) was analyzed",
+        "Governing clearance none given",
+        "The workbook lists no clearances; none is checked.",
     ),
     "one motion": (of(MOTIONS[:1]), "too few motions (1)"),
     "no vertical": (of(LEVEL), "there is no vertical component to reverse"),

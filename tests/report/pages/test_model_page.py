@@ -1,6 +1,5 @@
 """The page on the models: which is used, why, and what it neglects."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -78,16 +77,6 @@ def test_fewer_runs_are_said_where_a_polarity_is_not_requested():
     package = scene(one)
     assert "so in the polarities requested two are run" in printed(package, "model")
     assert "; 0 of 3 motions are run both as recorded and reversed" in printed(package, "basis")
-
-
-def test_a_block_that_lifts_off_has_no_error_and_no_limit_of_demand():
-    up = np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100)
-    lifted = stand_in.motion("LIFT", np.zeros(300), up, signs=(1,))
-    page = printed(scene((*scenes.motions(3, 4.0), lifted)), "model")
-    rows = page.table(USED).rows
-    assert any(row["Demand"] == "no limit" and row["Error of PRD"] == "none" for row in rows)
-    assert "uplift occurs" in page
-    assert not re.search(r"\bnan\b", page)
 
 
 def test_a_stable_array_has_its_tipping_ratios():

@@ -45,14 +45,6 @@ def test_the_smallest_margin_is_that_of_a_satisfied_clearance():
     assert page.line("Clearance 1 is not satisfied as given")
 
 
-@pytest.mark.parametrize(("name", "is_said"), [("A2", True), ("RTU-1", False)])
-def test_what_alike_arrays_assume_is_said_where_there_are_any(name, is_said):
-    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=120)]
-    gaps = [stand_in.clearance("A1", name, 30.0)]
-    page = printed(scenes.package(arrays=arrays, options=REVIEW, clearances=gaps), "how-sure")
-    assert ("Arrays that are alike remain alike" in page) is is_said
-
-
 def test_the_drawing_keeps_clear_what_the_package_does():
     done = scenes.package(options=REVIEW).assessment
     words = {text.words for text in plan_drawing(done).texts}
