@@ -91,6 +91,11 @@ def figure(done, size):
     return drawn
 
 
+def patches(drawn):
+    """What is drawn, by name."""
+    return {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
+
+
 def extents(drawn):
     """The texts and their extents on paper [in]."""
     renderer = drawn.canvas.get_renderer()
@@ -122,11 +127,10 @@ def test_no_type_is_smaller_than_eight_and_a_half_points(done, size):
 @pytest.mark.parametrize("size", SIZES)
 def test_the_picture_is_at_the_scale_that_it_states(done, size):
     drawn = figure(done, size)
-    patches = {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
     stated = next(t.get_text() for t in drawn.axes[0].texts if t.get_text().startswith("1 in ="))
     feet_per_inch = int(re.fullmatch(r"1 in = (\d+) ft", stated).group(1))
     for name, wide, tall in (("A1", 80, 60), ("T-1", 53, 30)):
-        box = patches[name]
+        box = patches(drawn)[name]
         assert box.get_width() * feet_per_inch == pytest.approx(wide)
         assert box.get_height() * feet_per_inch == pytest.approx(tall)
     svg = roof_plan(done, size)
@@ -151,7 +155,7 @@ def test_the_name_of_an_upright_edge_is_at_its_middle():
     objects = [*stand_in.project().objects, west]
     drawn = figure(scenes.package(objects=objects).assessment, LANDSCAPE)
     box = next(box for text, box in extents(drawn) if text.get_text().startswith("W: "))
-    array = next(patch for patch in drawn.axes[0].patches if patch.get_gid() == "A2")
+    array = patches(drawn)["A2"]
     per_ft = array.get_height() / 60.0
     _, middle = array.get_xy() + np.array([0.0, (85.0 - 15.0) * per_ft])
     assert (box.y0 + box.y1) / 2 == pytest.approx(middle, abs=0.02)
@@ -159,7 +163,7 @@ def test_the_name_of_an_upright_edge_is_at_its_middle():
 
 def on_roof(drawn, points):
     """Points on paper as points of the plan [ft]."""
-    box = next(patch for patch in drawn.axes[0].patches if patch.get_gid() == "A2")
+    box = patches(drawn)["A2"]
     x0, y0 = box.get_xy()
     per_ft = box.get_width() / 60.0
     return [(120.0 + (x - x0) / per_ft, 20.0 + (y - y0) / per_ft) for x, y in points]
@@ -168,8 +172,7 @@ def on_roof(drawn, points):
 @pytest.mark.parametrize("size", SIZES)
 def test_an_outline_is_drawn_as_it_is(outlined, size):
     drawn = figure(outlined, size)
-    patches = {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
-    found = on_roof(drawn, patches["A1"].get_xy()[:-1])
+    found = on_roof(drawn, patches(drawn)["A1"].get_xy()[:-1])
     assert found == [pytest.approx(point) for point in L_FT]
 
 
