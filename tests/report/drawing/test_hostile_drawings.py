@@ -17,28 +17,26 @@ from sketch import BOX_FT, LIBRECAD_R12, UNIT_FT, Sketch, plan
 from solver.model import InputError
 
 
-def hostile(tmp_path, content):
-    path = tmp_path / "roof.dxf"
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+def hostile(file, content):
     with pytest.raises(InputError) as caught:
-        read_dxf(path, 1.0)
+        read_dxf(file(content), 1.0)
     (problem,) = caught.value.problems
     return problem
 
 
-def test_a_million_entities_are_refused_with_the_limit(tmp_path):
+def test_a_million_entities_are_refused_with_the_limit(file):
     def entities(count):
         body = "0\nPOINT\n8\n0\n" * count
         return f"0\nSECTION\n2\nENTITIES\n{body}0\nENDSEC\n0\nEOF\n"
 
-    found = hostile(tmp_path, entities(1_000_000))
+    found = hostile(file, entities(1_000_000))
     assert found.startswith(f"2,000,004 values, more than {MAX_VALUES:,}; save the layers")
-    found = hostile(tmp_path, entities(400_000))
+    found = hostile(file, entities(400_000))
     assert found.startswith(f"400,003 entities, more than {MAX_ENTITIES:,}; save the layers")
 
 
-def test_a_large_file_is_refused_before_it_is_read(tmp_path):
-    assert hostile(tmp_path, b" " * 26_000_000).startswith("26 MB, more than 25 MB")
+def test_a_large_file_is_refused_before_it_is_read(file):
+    assert hostile(file, b" " * 26_000_000).startswith("26 MB, more than 25 MB")
 
 
 @pytest.mark.parametrize(
@@ -52,8 +50,8 @@ def test_a_large_file_is_refused_before_it_is_read(tmp_path):
         (b"\x00\xff" * 1000, "not a DXF drawing"),
     ],
 )
-def test_what_is_no_drawing_is_refused(tmp_path, content, start):
-    assert hostile(tmp_path, content).startswith(start)
+def test_what_is_no_drawing_is_refused(file, content, start):
+    assert hostile(file, content).startswith(start)
 
 
 def written(sketch):
@@ -77,24 +75,23 @@ def nested(levels, each, *, rows=1):
     return written(sketch)
 
 
-def test_blocks_that_expand_without_end_are_refused(tmp_path):
-    assert "expand to more than" in hostile(tmp_path, nested(7, 10))
-    assert "expand to more than" in hostile(tmp_path, nested(1, 1, rows=30_000))
-    assert "nested more than 8 deep" in hostile(tmp_path, nested(12, 1))
+def test_blocks_that_expand_without_end_are_refused(file):
+    assert "expand to more than" in hostile(file, nested(7, 10))
+    assert "expand to more than" in hostile(file, nested(1, 1, rows=30_000))
+    assert "nested more than 8 deep" in hostile(file, nested(12, 1))
 
 
-def test_a_block_within_itself_is_refused(tmp_path):
+def test_a_block_within_itself_is_refused(file):
     sketch = Sketch()
     block = sketch.document.blocks.new("LOOP")
     block.add_blockref("LOOP", (1, 1))
     sketch.space.add_blockref("LOOP", (0, 0))
-    assert "nested more than 8 deep" in hostile(tmp_path, written(sketch))
+    assert "nested more than 8 deep" in hostile(file, written(sketch))
 
 
 @pytest.mark.parametrize("bad", ["nan", "inf", "1e400"])
-def test_a_coordinate_that_is_not_a_number_is_listed(tmp_path, bad):
-    path = tmp_path / "roof.dxf"
-    path.write_text(LIBRECAD_R12.replace("\n10\n10.0\n", f"\n10\n{bad}\n", 1))
+def test_a_coordinate_that_is_not_a_number_is_listed(file, bad):
+    path = file(LIBRECAD_R12.replace("\n10\n10.0\n", f"\n10\n{bad}\n", 1))
     found = plan(path, "m", {"PV": LayerKind.ARRAY})
     assert found.arrays == ()
     assert "not a number" in found.unread[0].reason
@@ -118,10 +115,9 @@ def test_a_block_that_the_drawing_does_not_have_is_listed(tmp_path):
     assert missing.reason == "a block 'GONE' that the drawing does not have"
 
 
-def test_a_block_without_a_name_is_listed(tmp_path):
-    path = tmp_path / "roof.dxf"
+def test_a_block_without_a_name_is_listed(file):
     start, text = LIBRECAD_R12.split("0\nTEXT\n")
-    path.write_text(f"{start}0\nINSERT\n8\nPV\n10\n0.0\n20\n0.0\n0\nTEXT\n{text}")
+    path = file(f"{start}0\nINSERT\n8\nPV\n10\n0.0\n20\n0.0\n0\nTEXT\n{text}")
     (missing,) = plan(path, "m", {"PV": LayerKind.ARRAY}).unread
     assert missing.reason.startswith("a INSERT that cannot be read")
 
@@ -173,9 +169,8 @@ def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter)
     assert "OBJ-1" in [row["id"] for row in draft["objects"]]
 
 
-def test_the_library_prints_nothing_of_its_own(tmp_path):
-    path = tmp_path / "roof.dxf"
-    path.write_text(LIBRECAD_R12.replace("\nVERTEX\n", "\nVERTEX\n5\n1F\n"))
+def test_the_library_prints_nothing_of_its_own(file):
+    path = file(LIBRECAD_R12.replace("\nVERTEX\n", "\nVERTEX\n5\n1F\n"))
     code = (
         "import sys; from pathlib import Path; from report.drawing.read_dxf import read_dxf;"
         "print(len(read_dxf(Path(sys.argv[1]), 1.0).lines))"

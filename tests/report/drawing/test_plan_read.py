@@ -7,8 +7,9 @@ import pytest
 import shapely
 from ezdxf.math import UCS
 
+import scenes
 import stand_in
-from inputs import FT, INCH
+from inputs import FT, INCH, NO_SIDES
 from report.drawing.dxf import write_dxf
 from report.drawing.plan import plan_drawing
 from report.drawing.read_dxf import read_dxf
@@ -154,33 +155,24 @@ def test_a_mirrored_polyline_is_read_where_it_appears(tmp_path):
     assert (box.x_from_m, box.x_to_m) == pytest.approx((10 * FT, 30 * FT))
 
 
-def test_r12_without_handles_and_with_own_layers_is_read(tmp_path):
-    path = tmp_path / "roof.dxf"
-    path.write_bytes(LIBRECAD_R12.replace("\n", "\r\n").encode())
+def test_r12_without_handles_and_with_own_layers_is_read(file):
+    path = file(LIBRECAD_R12.replace("\n", "\r\n"), "roof.dxf")
     (array,) = plan(path, "m", {"pv": LayerKind.ARRAY}).arrays
     assert array.name == "A7"
     assert array.shape == Rectangle(0.0, 10.0, 0.0, 5.0)
 
 
-@pytest.fixture(scope="module")
-def reported():
-    """A project with an L-shaped array and a roof with an oblique side, as assessed."""
-    sides = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
+def test_a_plan_that_report_wrote_reads_back_to_itself(file):
+    """With an L-shaped array, and a roof with an oblique side."""
     first, *others = (array.model_dump() for array in stand_in.project().arrays)
     vertices = [
         {"name": name, "x_m": x * FT, "y_m": y * FT}
         for name, ring in (("A1", L_FT), ("roof", ((0, 0), (220, 0), (220, 170), (-9, 170))))
         for x, y in ring
     ]
-    data = stand_in.project(arrays=[first | sides, *others], outlines=vertices)
-    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
-
-
-def test_a_plan_that_report_wrote_reads_back_to_itself(reported, tmp_path):
-    path = tmp_path / "plan.dxf"
-    path.write_bytes(write_dxf(plan_drawing(reported)))
-    found = plan(path)
-    data = reported.project
+    package = scenes.package(arrays=[first | NO_SIDES, *others], outlines=vertices)
+    found = plan(file(write_dxf(plan_drawing(package.assessment)), "plan.dxf"))
+    data = package.data
     assert found.unread == ()
     assert [place.name for place in found.arrays] == [array.id for array in data.arrays]
     kinds = {place.name: place.kind.value for place in found.objects}
@@ -190,11 +182,8 @@ def test_a_plan_that_report_wrote_reads_back_to_itself(reported, tmp_path):
         assert type(place.shape) is type(row.placed)
         for point, wanted in zip(place.shape.points, row.placed.points, strict=True):
             assert point == pytest.approx(wanted, abs=1e-9)
-    for place, item in zip(found.objects, data.objects, strict=True):
-        if item.height_m is None:
-            assert math.isnan(place.height_m)
-        else:
-            assert place.height_m == pytest.approx(item.height_m)
+    heights = [math.nan if item.height_m is None else item.height_m for item in data.objects]
+    assert [place.height_m for place in found.objects] == pytest.approx(heights, nan_ok=True)
 
 
 def test_what_was_not_understood_is_listed_with_handle_and_layer(tmp_path):

@@ -7,13 +7,6 @@ import pytest
 
 import stand_in
 from report.figures.accelerations import accelerations
-from report.figures.charts import load_fonts
-from report.typeset.pdf import TEMPLATES
-
-
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    load_fonts(TEMPLATES / "fonts")
 
 
 def drawn(peak_g, n=11312, dt_s=1.0 / 300.0):

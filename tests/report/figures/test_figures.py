@@ -4,28 +4,23 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
+import scenes
 import stand_in
 from report.assessment.spectra import spectra
 from report.figures import charts as figures
-from report.typeset.pdf import TEMPLATES
-
-
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    figures.load_fonts(TEMPLATES / "fonts")
 
 
 @pytest.fixture(scope="module")
-def book():
-    return stand_in.book(shaking=stand_in.motions(3, seconds=12.0))
+def assessment():
+    return scenes.package().assessment
 
 
 @pytest.fixture(scope="module")
-def assessment(book):
-    return stand_in.assessed(book)
+def charts(assessment):
+    return drawn(assessment)
 
 
-def drawn(book, assessment):
+def drawn(assessment):
     """Every chart of the package."""
     parts = spectra(assessment)
     return [
@@ -46,20 +41,15 @@ def words(svg):
     return re.findall(r"<text[^>]*>([^<]*)</text>", svg)
 
 
-def test_two_runs_draw_the_same_bytes(book, assessment):
-    assert drawn(book, assessment) == drawn(book, assessment)
-
-
-def test_charts_carry_no_date_and_only_the_shipped_font(book, assessment):
-    for svg in drawn(book, assessment):
+def test_charts_carry_no_date_and_only_the_shipped_font(charts):
+    for svg in charts:
         assert "<dc:date>" not in svg
         assert set(re.findall(r"font: [^;]*?'([^']+)'", svg)) <= {figures.FAMILY}
 
 
-def test_settings_of_the_machine_do_not_matter(book, assessment):
-    before = drawn(book, assessment)
+def test_two_runs_draw_the_same_bytes_whatever_the_settings_of_the_machine(charts, assessment):
     with mpl.rc_context({"font.size": 30.0, "lines.linewidth": 9.0, "svg.fonttype": "path"}):
-        assert drawn(book, assessment) == before
+        assert drawn(assessment) == charts
 
 
 def test_an_envelope_keeps_the_peaks_and_the_ends():
@@ -93,15 +83,13 @@ def test_histories_name_their_lines_in_every_panel(assessment):
 
 
 def test_a_run_without_a_value_is_drawn_as_such():
-    up = np.zeros(400)
-    up[100:200] = -1.5 * stand_in.G
-    still = stand_in.motion("M1", np.zeros(400), up, signs=(1,))
-    book = stand_in.book(shaking=(still,) * 3)
-    assessment = stand_in.assessed(book)
-    printed = words(histories(assessment.arrays[0]))
+    up = np.repeat((0.0, -1.5 * stand_in.G, 0.0), 100)
+    still = stand_in.motion("M1", np.zeros(300), up, signs=(1,))
+    done = scenes.package((still,) * 3).assessment
+    printed = words(histories(done.arrays[0]))
     assert printed.count("none") == 6  # above and within each panel
-    assert "none" in words(figures.comparison(assessment.arrays, True))
-    assert words(figures.clearances(assessment.clearances, True)).count("none: NG") == 5
+    assert "none" in words(figures.comparison(done.arrays, True))
+    assert words(figures.clearances(done.clearances, True)).count("none: NG") == 5
 
 
 def test_a_failed_clearance_is_marked(assessment):

@@ -8,14 +8,8 @@ import numpy as np
 import pytest
 
 import scenes
-from report.figures.charts import hodographs, load_fonts
-from report.figures.hodograph import STEP_IN, _Panel, _path, thinned
-from report.typeset.pdf import TEMPLATES
-
-
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    load_fonts(TEMPLATES / "fonts")
+from report.figures.charts import hodographs
+from report.figures.hodograph import STEP_IN, Panel, path_of, thinned
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +24,7 @@ def words(svg):
 def test_downslope_is_down_the_page_and_left_of_it_to_the_readers_right(array):
     history = array.motions[0].history()
     turned = replace(history, u_m=np.array([0.0, 3.0]), across_m=np.array([0.0, 4.0]))
-    path = _path(turned)
+    path = path_of(turned)
     assert path.x_m.tolist() == [0.0, 4.0]
     assert path.y_m.tolist() == [0.0, -3.0]
     assert math.hypot(*path.peak) == 5.0
@@ -39,20 +33,20 @@ def test_downslope_is_down_the_page_and_left_of_it_to_the_readers_right(array):
 def test_the_dot_is_at_the_prd_of_the_run(array):
     for run in array.motions:
         # The largest distance between two samples may exceed that at the samples.
-        assert math.hypot(*_path(run.history()).peak) == pytest.approx(
+        assert math.hypot(*path_of(run.history()).peak) == pytest.approx(
             run.governing.prd_m, rel=5e-3
         )
 
 
 def test_a_run_in_one_axis_is_a_straight_line(array):
     history = replace(array.motions[0].history(), across_m=np.zeros(0))
-    assert not _path(history).x_m.any()
-    assert len(_path(history).x_m) == len(history.u_m)
+    assert not path_of(history).x_m.any()
+    assert len(path_of(history).x_m) == len(history.u_m)
 
 
 def test_every_path_stays_within_its_panel(array):
-    paths = [_path(run.history()) for run in array.motions]
-    panel = _Panel.around(paths)
+    paths = [path_of(run.history()) for run in array.motions]
+    panel = Panel.around(paths)
     for path in paths:
         x = panel.start[0] + path.x_m / panel.m_per_in
         y = panel.start[1] + path.y_m / panel.m_per_in

@@ -9,17 +9,15 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
+import scenes
 import stand_in
 from report.assessment.evidence import support
 from report.figures import maps, records
-from report.figures.base import load_fonts
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
-from report.pages.registry import package_data
 from report.sheet.schema import UnitsFirst
 from report.study import figures as study
 from report.study.results import LimitState
 from report.suite.info import PERIODS_S, spectra_g
-from report.typeset.pdf import TEMPLATES
 from report.words.units import Quantity
 from solver.records.record import Record
 from solver.studies.capacity import Capacities
@@ -33,7 +31,7 @@ LEAST_PT = 8.5
 
 
 class Drawn:
-    """Extents of the texts [in] of each figure that was saved, with the size of the figure."""
+    """Words, size [pt] and extent [in] of the texts of each saved figure, and its own size [in]."""
 
     def __init__(self):
         self.figures = []
@@ -45,16 +43,15 @@ class Drawn:
         renderer = canvas.get_renderer()
         inches = figure.dpi_scale_trans.inverted()
         hidden = set(out_of_sight(figure))
-        texts = [t for t in figure.findobj(Text) if t.get_visible() and t not in hidden]
-        seen = [t for t in texts if t.get_text().strip()]
+        seen = [t for t in figure.findobj(Text) if t.get_visible() and t not in hidden]
         # Of an annotation without its arrow.
-        boxes = [Text.get_window_extent(t, renderer).transformed(inches) for t in seen]
-        self.figures.append((seen, boxes, figure.get_size_inches()))
-
-
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    load_fonts(TEMPLATES / "fonts")
+        texts = [
+            (t.get_text(), t.get_fontsize(), Text.get_window_extent(t, renderer))
+            for t in seen
+            if t.get_text().strip()
+        ]
+        in_inches = [(text, size, box.transformed(inches)) for text, size, box in texts]
+        self.figures.append((in_inches, figure.get_size_inches()))
 
 
 @pytest.fixture
@@ -83,17 +80,13 @@ def out_of_sight(figure):
 
 def faults(drawn):
     """Texts that are too small, beyond the edge or on one another."""
-    for number, (texts, boxes, (wide, tall)) in enumerate(drawn.figures):
-        pairs = [
-            (text.get_text(), text.get_fontsize(), box)
-            for text, box in zip(texts, boxes, strict=True)
-        ]
-        for text, size, box in pairs:
+    for number, (texts, (wide, tall)) in enumerate(drawn.figures):
+        for text, size, box in texts:
             if size < LEAST_PT:
                 yield number, text, size
             if min(box.x0, box.y0, wide - box.x1, tall - box.y1) < 0.0:
                 yield number, text, box.extents.round(2).tolist(), wide, tall
-        for (a, _, box), (b, _, other) in itertools.combinations(pairs, 2):
+        for (a, _, box), (b, _, other) in itertools.combinations(texts, 2):
             apart_x = max(box.x0, other.x0) - min(box.x1, other.x1)
             apart_y = max(box.y0, other.y0) - min(box.y1, other.y1)
             if max(apart_x, apart_y) < -TOUCH_IN:
@@ -104,14 +97,10 @@ def faults(drawn):
 @pytest.mark.by_day(1)
 @pytest.mark.nightly("report/figures/", "report/drawing/")
 def test_in_a_package(drawn, units):
-    data = stand_in.project()
-    data = data.model_copy(
-        update={"project": data.project.model_copy(update={"units_first": units})}
-    )
-    assessment = stand_in.assess_input(data, stand_in.motions(7, seconds=12.0))
-    package = package_data(assessment)
+    project = stand_in.project().project.model_copy(update={"units_first": units})
+    package = scenes.package(scenes.motions(7, seconds=12.0), project=project)
     draw_assessment(package)
-    evidence = support(assessment)
+    evidence = support(package.assessment)
     draw_plotted(package, evidence)
     draw_certainty(package, evidence.certainty)
     assert len(drawn.figures) >= 12
@@ -190,9 +179,9 @@ def test_in_the_charts_of_a_study(drawn):
     ]
     study.tornado(bars, 0.105, inch)
     assert len(drawn.figures) == 7
-    assert "7°: none" in [text.get_text() for text in drawn.figures[0][0]]
-    contour_labels = [t.get_text() for t in drawn.figures[2][0] if t.get_text().endswith(" in")]
-    assert len(contour_labels) > 8, contour_labels
+    curves, _, contours, *_ = ([text for text, *_ in texts] for texts, _ in drawn.figures)
+    assert "7°: none" in curves
+    assert sum(text.endswith(" in") for text in contours) > 8, contours
     assert not list(faults(drawn))
 
 

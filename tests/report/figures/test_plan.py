@@ -11,14 +11,15 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import scenes
 import stand_in
+from inputs import NO_SIDES, sides
 from report.assessment.envelopes import keep_clear_words
-from report.figures.base import load_fonts, style
+from report.figures.base import style
 from report.figures.labels import TYPE_PT, width_in
 from report.figures.paper_plan import FOOT_M, nice_length, round_scale, wrapped
 from report.figures.plan import is_wide, plan_figure, roof_plan
 from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.sheet.schema import Roof
-from report.typeset.pdf import TEMPLATES
+from sketch import L_FT
 from solver.model import INCH_M
 from stand_in import FOOT
 
@@ -26,14 +27,9 @@ SIZES = [SMALL, LANDSCAPE, PORTRAIT]
 INCHES = ("provided {:.1f} in", "required {:.1f} in")
 
 
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    load_fonts(TEMPLATES / "fonts")
-
-
 @pytest.fixture(scope="module")
 def done():
-    return scenes.package(scenes.motions(3, 12.0)).assessment
+    return scenes.package().assessment
 
 
 @pytest.fixture(scope="module")
@@ -51,26 +47,20 @@ def crowded():
             rows.append(stand_in.clearance(name, f"A{4 * column + row}", 4 * FOOT))
         if column:
             rows.append(stand_in.clearance(name, f"A{4 * column + row - 3}", 8 * FOOT))
-    data = stand_in.project(arrays=arrays, objects=units, clearances=rows, roof=outline(300, 290))
-    return stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
+    roof = sides(0, 300, 0, 290)
+    return scenes.package(arrays=arrays, objects=units, clearances=rows, roof=roof).assessment
 
 
-L_FT = ((20, 20), (100, 20), (100, 50), (60, 50), (60, 75), (20, 75))
 ROOF_FT = ((0, 0), (240, 0), (240, 90), (150, 160), (0, 160))
 PARAPET_FT = ((240, 90), (241, 91), (151, 161), (150, 160))
-
-
-def vertices(name, points):
-    return [{"name": name, "x_m": x * FOOT, "y_m": y * FOOT} for x, y in points]
 
 
 @pytest.fixture(scope="module")
 def outlined():
     """An array around a unit, a roof with an oblique side, and a parapet along it."""
-    sides = dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))
-    data = stand_in.project(
+    return scenes.package(
         arrays=[
-            stand_in.array("A1", 2.0) | sides,
+            stand_in.array("A1", 2.0) | NO_SIDES,
             stand_in.array("A2", 2.0, x=120, y=20, x_to_m=180 * FOOT, y_to_m=75 * FOOT),
         ],
         objects=[
@@ -82,14 +72,11 @@ def outlined():
             stand_in.clearance("A1", "A2", 20 * FOOT),
         ],
         outlines=[
-            *vertices("A1", L_FT), *vertices("roof", ROOF_FT), *vertices("NE", PARAPET_FT)
+            {"name": name, "x_m": x * FOOT, "y_m": y * FOOT}
+            for name, ring in (("A1", L_FT), ("roof", ROOF_FT), ("NE", PARAPET_FT))
+            for x, y in ring
         ],
-    )  # fmt: skip
-    return stand_in.assess_input(data, stand_in.motions(3, seconds=12.0))
-
-
-def outline(x_to, y_to, **more):
-    return {"x_from_m": 0.0, "x_to_m": x_to * FOOT, "y_from_m": 0.0, "y_to_m": y_to * FOOT} | more
+    ).assessment
 
 
 def words(svg):
@@ -102,6 +89,11 @@ def figure(done, size):
         drawn.set_dpi(400)  # extents are rounded to pixels
         FigureCanvasAgg(drawn)
     return drawn
+
+
+def patches(drawn):
+    """What is drawn, by name."""
+    return {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
 
 
 def extents(drawn):
@@ -135,11 +127,10 @@ def test_no_type_is_smaller_than_eight_and_a_half_points(done, size):
 @pytest.mark.parametrize("size", SIZES)
 def test_the_picture_is_at_the_scale_that_it_states(done, size):
     drawn = figure(done, size)
-    patches = {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
     stated = next(t.get_text() for t in drawn.axes[0].texts if t.get_text().startswith("1 in ="))
     feet_per_inch = int(re.fullmatch(r"1 in = (\d+) ft", stated).group(1))
     for name, wide, tall in (("A1", 80, 60), ("T-1", 53, 30)):
-        box = patches[name]
+        box = patches(drawn)[name]
         assert box.get_width() * feet_per_inch == pytest.approx(wide)
         assert box.get_height() * feet_per_inch == pytest.approx(tall)
     svg = roof_plan(done, size)
@@ -160,12 +151,11 @@ def test_every_array_object_and_clearance_is_on_the_large_plan(done):
 
 
 def test_the_name_of_an_upright_edge_is_at_its_middle():
-    given = stand_in.project().objects
     west = stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 170, height=30)
-    data = stand_in.project(objects=[*given, west])
-    drawn = figure(stand_in.assess_input(data, stand_in.motions(2, seconds=8.0)), LANDSCAPE)
+    objects = [*stand_in.project().objects, west]
+    drawn = figure(scenes.package(objects=objects).assessment, LANDSCAPE)
     box = next(box for text, box in extents(drawn) if text.get_text().startswith("W: "))
-    array = next(patch for patch in drawn.axes[0].patches if patch.get_gid() == "A2")
+    array = patches(drawn)["A2"]
     per_ft = array.get_height() / 60.0
     _, middle = array.get_xy() + np.array([0.0, (85.0 - 15.0) * per_ft])
     assert (box.y0 + box.y1) / 2 == pytest.approx(middle, abs=0.02)
@@ -173,7 +163,7 @@ def test_the_name_of_an_upright_edge_is_at_its_middle():
 
 def on_roof(drawn, points):
     """Points on paper as points of the plan [ft]."""
-    box = next(patch for patch in drawn.axes[0].patches if patch.get_gid() == "A2")
+    box = patches(drawn)["A2"]
     x0, y0 = box.get_xy()
     per_ft = box.get_width() / 60.0
     return [(120.0 + (x - x0) / per_ft, 20.0 + (y - y0) / per_ft) for x, y in points]
@@ -182,8 +172,7 @@ def on_roof(drawn, points):
 @pytest.mark.parametrize("size", SIZES)
 def test_an_outline_is_drawn_as_it_is(outlined, size):
     drawn = figure(outlined, size)
-    patches = {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
-    found = on_roof(drawn, patches["A1"].get_xy()[:-1])
+    found = on_roof(drawn, patches(drawn)["A1"].get_xy()[:-1])
     assert found == [pytest.approx(point) for point in L_FT]
 
 
@@ -217,16 +206,12 @@ def test_a_clearance_that_is_not_satisfied_is_hatched_and_marked(done):
     assert "NG" not in words(roof_plan(satisfied, LANDSCAPE))
 
 
-def test_what_has_no_room_is_named_in_the_notes(crowded):
-    found = " ".join(words(roof_plan(crowded, PORTRAIT)))
-    notes = found[found.index("Keep clear") :]
+def test_what_has_no_room_and_neighbors_without_a_clearance_are_named_in_the_notes(crowded):
     shown = words(roof_plan(crowded, PORTRAIT))
+    _, notes = " ".join(shown).split("Keep clear", 1)
     for item in crowded.project.objects:
         assert item.id in shown or item.id in notes or " more" in notes
-
-
-def test_neighbors_without_a_clearance_are_named(crowded):
-    assert "No clearance is given: A5 to" in " ".join(words(roof_plan(crowded, PORTRAIT)))
+    assert "No clearance is given: A5 to" in notes
 
 
 def test_without_a_design_displacement_the_plan_says_so(done):
@@ -251,25 +236,23 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
 
 
 def test_the_plan_does_without_objects_drawn():
-    data = stand_in.project(
+    done = scenes.package(
         objects=[{"id": "RTU-1", "kind": "fixed object"}],
         clearances=[stand_in.clearance("A1", "RTU-1", 2.0)],
-    )
-    done = stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
+    ).assessment
     assert "A1" in words(roof_plan(done, SMALL))
     found = " ".join(words(roof_plan(done, LANDSCAPE)))
     assert "Not drawn, because a rectangle is not given: clearance 1." in found
 
 
 def test_a_dollar_sign_in_a_name_is_a_dollar_sign():
-    data = stand_in.project(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
-    done = stand_in.assess_input(data, stand_in.motions(3, seconds=8.0))
-    assert "$x_1$" in words(roof_plan(done, SMALL))
+    given = scenes.package(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
+    assert "$x_1$" in words(roof_plan(given.assessment, SMALL))
 
 
 def test_a_roof_that_is_wide_lies_on_its_side(done):
     assert is_wide(done)
-    tall = done.project.model_copy(update={"roof": Roof.model_validate(outline(220, 500))})
+    tall = done.project.model_copy(update={"roof": Roof.model_validate(sides(0, 220, 0, 500))})
     assert not is_wide(replace(done, project=tall))
 
 
@@ -308,7 +291,8 @@ def test_text_is_as_wide_as_it_is_drawn(done):
 
 
 def test_wrapped_lines_keep_every_word():
-    lines = wrapped("Keep clear 41 in of A1, A2 on all sides: no conduit or equipment.", 1.5)
+    text = "Keep clear 41 in of A1, A2 on all sides: no conduit or equipment."
+    lines = wrapped(text, 1.5)
     assert len(lines) > 2
-    assert " ".join(lines) == "Keep clear 41 in of A1, A2 on all sides: no conduit or equipment."
+    assert " ".join(lines) == text
     assert all(width_in(line) <= 1.5 for line in lines)

@@ -5,7 +5,7 @@ import pytest
 
 from places import ROOT
 from report.sheet import example
-from sheets import read_workbook
+from sheets import read_workbook, same
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS
@@ -21,22 +21,7 @@ def book():
 
 
 def test_the_workbook_has_the_project_of_the_script(book):
-    expected = example.project().model_dump()
-    project = book.input.model_dump()
-    assert project.keys() == expected.keys()
-    assert dict(flatten(project)) == dict(flatten(expected))
-
-
-def flatten(tree, path=""):
-    """Yield every value of nested dicts and sequences with its path, floats to 9 digits."""
-    if isinstance(tree, dict):
-        for key, value in tree.items():
-            yield from flatten(value, f"{path}/{key}")
-    elif isinstance(tree, (list, tuple)):
-        for index, value in enumerate(tree):
-            yield from flatten(value, f"{path}/{index}")
-    else:
-        yield path, float(f"{tree:.9g}") if isinstance(tree, float) else tree
+    assert same(book.input, example.project())
 
 
 @pytest.fixture(scope="module")

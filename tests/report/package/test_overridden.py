@@ -36,7 +36,7 @@ def done():
     outline = {"x_from_m": 0.0, "x_to_m": 220 * stand_in.FOOT,
                "y_from_m": 0.0, "y_to_m": 171 * stand_in.FOOT}  # fmt: skip
     changes = {"overrides": [FACTOR, MINIMUM], "roof": outline}
-    return scenes.package(scenes.motions(7), **changes).assessment
+    return scenes.package(**changes).assessment
 
 
 def test_the_floor_of_a_lowered_prescriptive_value_and_a_lowered_factor_are_marked(done):
@@ -45,25 +45,10 @@ def test_the_floor_of_a_lowered_prescriptive_value_and_a_lowered_factor_are_mark
     assert done.verdict is not Verdict.OK
 
 
-@pytest.mark.parametrize(
-    ("part", "text"),
-    [
-        ("cover", rf"design displacement {LENGTH}†?‡"),
-        ("cover", r"D/C [\d.]+‡"),
-        ("letter", r"A1 0\.45 [\d.]+ ?†?‡ [\d,]+ ?†?‡ floor"),
-        ("letter", r"override of the separation to a fixed object or unlike array / design"
-                   r" displacement: 0\.5‡, Agreed on 2026-02-10 \(required: ≥ 1\)"),
-        ("letter", "needs the consent of the authority having jurisdiction"),
-        ("summary", r"Condition: Override of the factor on \(.*?40 in‡, Agreed on 2026-02-11"),
-        ("summary", rf"Prescriptive displacement {LENGTH}†?‡"),
-        ("summary", r"RTU-1 fixed object [\d.]+ ?‡"),
-        ("clearances", r"RTU-1 fixed object [\d.]+ ?‡ [\d,]+ ?‡ A1 0\.50 ?†?‡"),
-        ("comparison", r"A1 [\d.]+ ?†?‡ [\d,]+ ?†?‡"),
-    ],
-)  # fmt: skip
-def test_every_page_with_the_number_marks_it(done, part, text):
-    words = " ".join(printed(done, part).replace("|", " ").split())
-    assert re.search(text, words), words[:3000]
+def test_the_prescriptive_displacement_that_the_override_lowers_is_marked(done):
+    assert printed(done, "summary").facts["Prescriptive displacement"].endswith("‡")
+    row = printed(done, "comparison").table("Displacement by analysis").row("A1")
+    assert all(row[f"{name} [in]"].endswith("‡") for name in ("Prescriptive", "Floor", "Design"))
 
 
 def test_the_plan_and_its_notes_mark_it(done):

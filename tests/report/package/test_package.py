@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 from pypdf import PdfReader
 
-import packages
 import scenes
 import stand_in
 from printed import FRONT, IDS, printed, read
-from report.assessment.changes import NO_FORMER
 from report.assessment.evidence import support
 from report.package.html import pages as written
 from report.typeset.pdf import TEMPLATES, lay_out
@@ -49,22 +47,12 @@ def test_the_package_has_fifteen_to_thirty_five_pages(texts):
 
 def test_every_page_carries_project_sheet_date_by_checked_revision_and_edition(texts):
     for count, text in enumerate(texts, start=1):
-        line = flat(text)
-        assert "24-117 Alameda Warehouse" in line
-        assert f"Sheet {count} of {len(texts)}" in line
         for piece in (
-            "Date 2026-03-05",
-            "By Engineer of record",
-            "Checked —",
-            "Rev. 0",
-            "Code SEAOC PV1-2012",
+            "24-117 Alameda Warehouse", f"Sheet {count} of {len(texts)}", "Date 2026-03-05",
+            "By Engineer of record", "Checked —", "Rev. 0", "Code SEAOC PV1-2012",
             "† verify against the adopted code",
-        ):
-            assert piece in line
-
-
-def test_the_papers_prescriptive_value_is_printed():
-    assert "81.6 in (2072 mm)" in printed(scenes.usual(), "summary")
+        ):  # fmt: skip
+            assert piece in flat(text)
 
 
 def test_the_layout_drops_no_word_of_a_page(html, texts):
@@ -119,7 +107,7 @@ def test_contents_name_the_sheet_of_each_part(texts):
 
 @pytest.fixture(scope="module")
 def crowded():
-    """The texts of the pages of twelve arrays, long names and markup, without vertical motion."""
+    """The texts of the pages of twelve arrays, long names and markup."""
     project = stand_in.project().project.model_dump() | {
         "name": "<script>alert('x')</script> & " + "Unbreakable" * 40,
         "client": "<img src='file:///etc/hostname'>",
@@ -135,10 +123,7 @@ def crowded():
     clearances = [stand_in.clearance(f"A{k}", f"A{k + 1}", 3.0) for k in range(1, 11)]
     clearances.append(stand_in.clearance("<b>" + "A" * 37, "E" * 40, 3.0))
     data = stand_in.project(project=project, arrays=arrays, objects=[edge], clearances=clearances)
-    level = (
-        replace(motion, az_mps2=stand_in.NO_RECORD) for motion in scenes.motions(3, seconds=4.0)
-    )
-    return pages(stand_in.package(stand_in.book(data, tuple(level))))
+    return pages(stand_in.package(stand_in.book(data, scenes.motions(3, seconds=4.0))))
 
 
 @pytest.mark.nightly("report/package/html.py")
@@ -154,16 +139,6 @@ def test_twelve_arrays_have_room(crowded):
     assert sum("every motion in every run" in text for text in crowded) >= 12
 
 
-@pytest.mark.nightly("report/package/html.py")
-def test_motions_without_a_vertical_component_are_counted(crowded):
-    assert "0 of 3 a vertical component" in flat(" ".join(crowded))
-
-
-def whole(package):
-    """The words of all pages."""
-    return "\n".join(printed(package, id) for id in (*FRONT, *IDS))
-
-
 def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
     arrays = [stand_in.array(f"A{k}", 4.0, x=100 * k) for k in (1, 2, 3)]
     package = scenes.package(scenes.motions(2), arrays=arrays)
@@ -174,14 +149,11 @@ def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
         assert (row["Governs"], row["D/C"]) == ("none", "none")
         assert row["Verdict"].startswith("NG")
     assert "without a verdict: 5 of 5 clearances" in summary
-    assert "too few motions" in whole(package)
-    assert not re.search(r"\bnan\b", whole(package), re.IGNORECASE)
 
 
 def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time():
-    up = np.zeros(800)
-    up[300:400] = -1.4 * stand_in.G
-    lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
+    up = np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100)
+    lifted = stand_in.motion("LIFT", np.zeros(300), up, signs=(1,))
     package = scenes.package((*scenes.motions(), lifted))
     results = printed(package, "results")
     assert "motion LIFT, record +: the normal force falls below zero" in results
@@ -190,7 +162,6 @@ def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time():
         assert set(values[1:-1]) == {"", "none"}  # it has no transverse runs
         assert (values[-1], force, status) == ("—", "−0.40", "uplift")
     assert "3 of 3 arrays" in printed(package, "summary")
-    assert not re.search(r"\bnan\b", whole(package), re.IGNORECASE)
 
 
 def test_an_analysis_above_the_prescriptive_value_is_said_and_governs():
@@ -206,33 +177,29 @@ def test_an_analysis_above_the_prescriptive_value_is_said_and_governs():
     assert "(3 of 3 PRDs exceed it) and governs" in text
 
 
-def test_thirty_motions_of_one_array_without_clearances_are_listed():
+def test_thirty_motions_are_listed():
     arrays = [stand_in.array("A1", 2.0)]
     shaking = scenes.motions(30, seconds=3.0)
     package = scenes.package(shaking, arrays=arrays, objects=[], clearances=[])
     listed = printed(package, "results").tables[0].column("Motion")
     assert listed[:30] == [f"M{k}" for k in range(1, 31)]
-    assert "The workbook lists no clearances" in printed(package, "clearances")
 
 
 @pytest.mark.parametrize("edition", ["ASCE 7-16", "ASCE 7-22"])
 def test_other_editions_say_their_own_name_and_clauses(edition):
     site = stand_in.project().site.model_dump() | {"rule_set": edition, "s_ds_g": None}
-    if edition == "ASCE 7-22":
+    is_new = edition == "ASCE 7-22"
+    if is_new:
         site |= {"f_a": None, "f_v": None, "s_ms_g": 2.36}
-    said = whole(scenes.package(site=site))
+    package = scenes.package(site=site)
+    said = "\n".join(printed(package, id) for id in (*FRONT, *IDS))
     assert f"Code {edition}" in said
     assert f"{edition} 13.6.12" in said
+    assert re.findall(r"- ([^:]*):", said.split("## References")[1])[:3] == [
+        edition, "IBC 1613.3", "AC156",
+    ]  # fmt: skip
+    assert ("AC156-24" in said, "7-16" in said) == ((True, False) if is_new else (False, True))
     assert "PV1" not in said
-
-
-@pytest.mark.parametrize("made", [scenes.usual, scenes.unpermitted, scenes.departing])
-def test_every_link_of_a_package_leads_to_a_place_in_it(made):
-    package = made()
-    done = getattr(package, "assessment", package)
-    changes = getattr(package, "changes", NO_FORMER)
-    with packages.undrawn():
-        assert packages.words(written(done, support(done), changes))
 
 
 def test_a_line_in_the_renderers_log_is_a_defect():
@@ -249,29 +216,13 @@ def test_nothing_is_fetched_but_what_is_shipped(address):
         lay_out(f"<html lang='en-US'><title>A picture</title><img alt='x' src='{address}'/></html>")
 
 
-def ground(**changes):
-    """A ground motion transferred through a building of 0.5 s, and the book of three like it."""
-    row = {"id": "G1", "record": "x", "recorded_at": "ground"}
-    building = {"building": {"period_s": 0.5}, "target": {"t_l_s": 8.0}}
-    data = stand_in.project(spectrum=[], motions=[row | changes], **building)
-    book = scenes.grounded(data, scenes.motions(1, peak_g=0.5))
-    return book.having(motions=book.motions * 3, prepared=book.prepared * 3)
-
-
-def test_the_way_from_ground_to_roof_is_printed_with_its_peaks():
-    book = ground()
-    page = printed(stand_in.assessed(book), "motions")
-    assert "5.4 From ground to roof" in page
-    assert "5.5 Response spectra" in page
-    roof = book.prepared[0].roof["horizontal"]
-    peaks = roof.ground_peak_mps2 / stand_in.G, roof.roof_peak_mps2 / stand_in.G
-    assert "G1 | record | {:.3f} | {:.3f}".format(*peaks) in page
-
-
 def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
-    book = ground(highpass_hz=0.2)
+    row = {"id": "G1", "record": "x", "recorded_at": "ground", "highpass_hz": 0.2}
+    data = stand_in.project(spectrum=[], motions=[row], building={"period_s": 0.5})
+    book = scenes.grounded(data, scenes.motions(1, peak_g=0.5))
     half = tuple(replace(motion, ax_mps2=0.5 * motion.ax_mps2) for motion in book.motions)
-    table = printed(stand_in.assessed(book.having(motions=half)), "motions").table("Effect of the")
+    book = book.having(motions=half * 3, prepared=book.prepared * 3)
+    table = printed(stand_in.assessed(book), "motions").table("Effect of the")
     *_, with_it, _, without, _, share = table.cells[0]
     assert float(without) > float(with_it)
     lost = 100 * (1.0 - float(with_it) / float(without))

@@ -18,7 +18,6 @@ from printed import FRONT, IDS, printed
 from report.motions.prepare import prepare
 from report.motions.targets import targets
 from report.sheet.read import read
-from sheets import same
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
 
@@ -58,6 +57,11 @@ def made(done):
     )
 
 
+def results_of_clearances(book):
+    headings, *rows = book["Clearances"].iter_rows(min_row=4, values_only=True)
+    return [row[headings.index("Result")] for row in rows if row[0]]
+
+
 def page(name, key):
     return printed(scenes.shipped(name), key)
 
@@ -79,16 +83,6 @@ def example(tmp_path_factory):
 
 def test_the_example_has_at_most_29_sheets(example):
     assert len(example.pdf.pages) <= 29
-
-
-def test_the_friction_of_the_example_is_said_as_it_was_run_wherever_it_is_said():
-    law = "0.40 to 0.50, by velocity"
-    assert f"A3: μ {law}; design displacement" in page("example", "cover")
-    for key, title in (("letter", "Results"), ("summary", "Arrays")):
-        assert page("example", key).table(title).row("A3")["μ"] == law
-    assert law in page("example", "clearances")
-    for key in ("cover", "letter", "inputs", "results", "comparison", "clearances", "model"):
-        assert "μ 0.40 " not in page("example", key).replace(f"μ {law}", "")
 
 
 def test_the_example_has_the_conditions_that_its_friction_tests_leave(example):
@@ -121,11 +115,6 @@ def script(name):
 
 
 # What the scripts make, against what is committed.
-
-
-@pytest.mark.parametrize("name", ["school", "conditions"])
-def test_the_workbook_has_the_project_of_the_script(name):
-    assert same(read(PROJECTS / name / "input.xlsx").project, script(name).project())
 
 
 @pytest.mark.parametrize("name", ["school", "conditions"])
@@ -189,8 +178,7 @@ def test_the_school_is_ok_in_the_same_word_everywhere(school):
     assert len(rows) == 2
     assert all(line.endswith(" OK") for line in rows)
     assert "verdict: OK\n" in school.terminal
-    results = [row[12].value for row in school.book["Clearances"].iter_rows(min_row=5)]
-    assert [value for value in results if value] == ["OK"] * 7
+    assert results_of_clearances(school.book) == ["OK"] * 7
 
 
 @pytest.mark.nightly("projects/school/", "report/making.py")
@@ -220,33 +208,6 @@ def test_the_school_states_the_displacement_of_smaller_events_for_information(sc
     assert all(item["largest_m"] > item["mean_m"] > 0.0 for item in sums)
 
 
-def test_the_schools_building_and_its_ground_motions_are_described():
-    motions = page("school", "motions")
-    # 0.02 hx^0.75 with 27.9 ft, ASCE 7 Eq. 12.8-7.
-    assert f"{0.02 * 27.9**0.75:.3f} s" in motions.line("Motions given at the ground")
-    assert motions.count("Factor 1.6: AFLX at the roof / at grade") == 7
-    # The ground motions exceed the design spectrum at long periods, and the table shows how much.
-    ground = motions.table("Achieved / target").row("Ground, horizontal")
-    assert 3.0 < float(ground["Mean below 1.3 Hz [min.]"]) < 6.0
-    assert 7.0 < float(ground["Mean below 1.3 Hz [max.]"]) < 9.0
-
-
-def test_the_school_says_in_words_where_its_motions_exceed_their_targets():
-    """The building amplifies short periods; the ground motions were made for long ones."""
-    for key in ("summary", "motions"):
-        text = page("school", key)
-        for place, target in (("Transverse", "AC156"), ("Ground, transverse", "ASCE 7 design")):
-            found = re.search(
-                rf"{place} \(.{{0,8}}horizontal likewise\): the mean of the motions reaches "
-                rf"(\d\.\d\d) times the target \({target}[^;]*\) at [\d.]+ Hz; it exceeds 1.30 "
-                r"times the target from [\d.]+ to [\d.]+ Hz",
-                text,
-            )
-            assert 7.0 < float(found[1]) < 9.0
-        assert "not reduced" in text
-        assert "below the target" not in text
-
-
 def test_the_school_prints_si_units_first():
     assert not any(re.search(r"\d in \(\d+ mm\)", page("school", key)) for key in (*FRONT, *IDS))
 
@@ -264,23 +225,17 @@ def test_the_warehouse_is_ng_in_the_same_word_everywhere(conditions):
         line = next(x for x in conditions.terminal.splitlines() if x.startswith(f"{name} "))
         assert re.search(rf" {verdict}(: .+)?$", line)
     assert "verdict: NG\n" in conditions.terminal
-    results = [row[12].value for row in conditions.book["Clearances"].iter_rows(min_row=5)]
-    assert [value for value in results if value] == ["OK", "NG", "OK", "OK", "OK", "OK"]
+    assert results_of_clearances(conditions.book) == ["OK", "NG", "OK", "OK", "OK", "OK"]
 
 
-@pytest.mark.parametrize(
-    "claim",
-    [
-        "All limits and clearances are satisfied",
-        "All limits of the analysis route are satisfied",
-        "act together, along and across the slope",
-        "7 of 7",
-        "two axes with vertical act",
+def test_nothing_that_is_missing_is_claimed():
+    said = "\n".join(page("conditions", key) for key in (*FRONT, *IDS))
+    claims = (
+        "All limits and clearances are satisfied", "All limits of the analysis route are satisfied",
+        "act together, along and across the slope", "7 of 7", "two axes with vertical act",
         "follow the target",
-    ],
-)
-def test_nothing_that_is_missing_is_claimed(claim):
-    assert not any(claim in page("conditions", key) for key in (*FRONT, *IDS))
+    )  # fmt: skip
+    assert [claim for claim in claims if claim in said] == []
 
 
 def test_the_prescriptive_value_serves_where_its_limits_hold(conditions):

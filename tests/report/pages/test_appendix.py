@@ -1,20 +1,21 @@
 """The echo of the input, and the list of records."""
 
-import math
 from dataclasses import replace
+
+import pytest
 
 import scenes
 from printed import printed
 from report.assessment.changes import NO_FORMER, Change, ChangeKind
-from report.motions.components import RecordFile
 from report.pages.registry import package_data
 from report.sheet.read import EchoRow
 
 
-def row(cell, label, typed="", value="—", unit="", unseen=""):
+def row(cell, label, typed="", value="", unit="", unseen=""):
     return EchoRow(
-        sheet="S", cell=cell, label=label, typed=typed, unit=unit, value=value, unseen=unseen
-    )
+        sheet="S", cell=cell, label=label, typed=typed, unit=unit, value=value or typed or "—",
+        unseen=unseen,
+    )  # fmt: skip
 
 
 def echo(*rows, changed=()):
@@ -34,96 +35,76 @@ def table(*rows, **changed):
     return made
 
 
-def test_single_cells_stand_in_two_columns_with_their_units():
-    made = table(
-        row("B5", "S_S", "1.9575", "1.9575 g", "g"),
-        row("B6", "S_1", "0.7", "0.7 g", "g"),
-        row("B7", "Site class", "C", "C"),
-    )
-    assert [*made.cells] == [
-        ("B5", "S_S", "1.9575 g", "B7", "Site class", "C"),
-        ("B6", "S_1", "0.7 g", "", "", ""),
-    ]
+IDS = row("B8", "ID", "A1"), row("B9", "ID", "A2")
+ALIKE = (IDS[0], row("C8", "Slack", "60", "1.524 m", "in"),
+         IDS[1], row("C9", "Slack", "60", "1.524 m", "in"))  # fmt: skip
 
 
-def test_a_cell_that_the_workbook_does_not_show_is_marked_with_how():
-    made = table(
-        row("B5", "S_S", "1.5", "1.5 g", "g", unseen="hidden"),
-        row("B6", "S_1", "=B5/2 → 0.75", "0.75 g", "g", unseen="hidden, struck through"),
-    )
-    (cells,) = made.cells
-    assert cells[2] == "1.5 g (hidden)"
-    assert cells[5] == "=B5/2 → 0.75 g: 0.75 g (hidden, struck through)"
-
-
-def test_a_column_of_which_one_cell_is_hidden_is_printed_row_by_row():
-    made = table(
-        row("B8", "ID", "A1", "A1"),
-        row("C8", "Slack", "60", "1.524 m", "in"),
-        row("B9", "ID", "A2", "A2", unseen="filtered out"),
-        row("C9", "Slack", "60", "1.524 m", "in", unseen="filtered out"),
-    )
-    assert [*made.cells] == [
-        ("8", "A1", "60"),
-        ("9", "A2 (filtered out)", "60 (filtered out)"),
-    ]
-
-
-def test_cells_left_blank_share_a_note_with_their_defaults():
-    made = table(
-        row("B5", "Name", "A", "A"),
-        row("B6", "Checked by"),
-        row("B7", "Hazard basis", value="mapped values (default)"),
-    )
-    assert made.notes == ("Left blank: B6 Checked by; B7 Hazard basis = mapped values.",)
-
-
-def test_a_table_of_the_workbook_stands_as_it_is_there():
-    made = table(
-        row("B8", "ID", "A1", "A1"),
-        row("C8", "Weight", "100", "444.8 N", "lb"),
-        row("D8", "Model", value="choose (default)"),
-        row("B9", "ID", "A2", "A2"),
-        row("C9", "Weight", "=2*C8", "889.6 N", "lb"),
-        row("D9", "Model", value="choose (default)"),
-    )
-    assert made.headings == ("Row", "B ID", "C Weight [lb]")
-    assert [*made.cells] == [
-        ("8", "A1", "100"),
-        ("9", "A2", "=2*C8: 889.6 N"),
-    ]
-    assert made.notes == ("Left blank: D Model = choose.",)
-
-
-def test_a_column_blank_in_some_rows_shows_the_default_there():
-    made = table(
-        row("B8", "ID", "A1", "A1"),
-        row("C8", "Model", "one axis", "one axis"),
-        row("B9", "ID", "A2", "A2"),
-        row("C9", "Model", value="choose (default)"),
-    )
-    assert [*made.cells] == [
-        ("8", "A1", "one axis"),
-        ("9", "A2", "choose (default)"),
-    ]
-
-
-ALIKE = (
-    row("B8", "ID", "A1", "A1"),
-    row("C8", "Slack", "60", "1.524 m", "in"),
-    row("B9", "ID", "A2", "A2"),
-    row("C9", "Slack", "60", "1.524 m", "in"),
-)
-
-
-def test_one_entry_in_every_row_is_printed_once():
-    made = table(*ALIKE)
-    assert [*made.cells] == [("8", "A1"), ("9", "A2")]
-    assert made.notes == ("In every row: C Slack 60 in.",)
+@pytest.mark.parametrize(
+    ("rows", "cells", "notes"),
+    [
+        pytest.param(
+            (row("B5", "S_S", "1.9575", "1.9575 g", "g"), row("B6", "S_1", "0.7", "0.7 g", "g"),
+             row("B7", "Site class", "C")),
+            [("B5", "S_S", "1.9575 g", "B7", "Site class", "C"),
+             ("B6", "S_1", "0.7 g", "", "", "")],
+            (),
+            id="single cells stand in two columns with their units",
+        ),
+        pytest.param(
+            (row("B5", "S_S", "1.5", "1.5 g", "g", unseen="hidden"),
+             row("B6", "S_1", "=B5/2 → 0.75", "0.75 g", "g", unseen="hidden, struck through")),
+            [("B5", "S_S", "1.5 g (hidden)",
+              "B6", "S_1", "=B5/2 → 0.75 g: 0.75 g (hidden, struck through)")],
+            (),
+            id="a cell that the workbook does not show is marked with how",
+        ),
+        pytest.param(
+            (*ALIKE[:2], *(replace(one, unseen="filtered out") for one in ALIKE[2:])),
+            [("8", "A1", "60"), ("9", "A2 (filtered out)", "60 (filtered out)")],
+            (),
+            id="a column of which one cell is hidden is printed row by row",
+        ),
+        pytest.param(
+            (row("B5", "Name", "A"), row("B6", "Checked by"),
+             row("B7", "Hazard basis", value="mapped values (default)")),
+            [("B5", "Name", "A", "", "", "")],
+            ("Left blank: B6 Checked by; B7 Hazard basis = mapped values.",),
+            id="cells left blank share a note with their defaults",
+        ),
+        pytest.param(
+            (IDS[0], row("C8", "Weight", "100", "444.8 N", "lb"),
+             row("D8", "Model", value="choose (default)"),
+             IDS[1], row("C9", "Weight", "=2*C8", "889.6 N", "lb"),
+             row("D9", "Model", value="choose (default)")),
+            [("8", "A1", "100"), ("9", "A2", "=2*C8: 889.6 N")],
+            ("Left blank: D Model = choose.",),
+            id="a table of the workbook stands as it is there",
+        ),
+        pytest.param(
+            (IDS[0], row("C8", "Model", "one axis"),
+             IDS[1], row("C9", "Model", value="choose (default)")),
+            [("8", "A1", "one axis"), ("9", "A2", "choose (default)")],
+            (),
+            id="a column blank in some rows shows the default there",
+        ),
+        pytest.param(
+            ALIKE,
+            [("8", "A1"), ("9", "A2")],
+            ("In every row: C Slack 60 in.",),
+            id="one entry in every row is printed once",
+        ),
+    ],
+)  # fmt: skip
+def test_cells_are_printed_as_they_were_entered(rows, cells, notes):
+    made = table(*rows)
+    assert [*made.cells] == cells
+    assert made.notes == notes
 
 
 def test_an_entry_that_changed_stays_in_its_row():
     made = table(*ALIKE, changed={"S!C9"})
+    assert made.headings == ("Row", "B ID", "C Slack [in]")
     assert [*made.cells] == [("8", "A1", "60"), ("9", "A2", "60")]
     assert (made.kinds, made.bold) == (("", "changed"), ("60",))
 
@@ -157,35 +138,28 @@ def test_every_cell_of_a_wide_table_is_printed_beside_its_name():
 
 
 def test_a_record_shows_its_format_and_what_was_noted():
-    record = RecordFile(
-        motion_id="M1",
+    done = scenes.package().assessment
+    record = replace(
+        done.shaking.records[0],
         component="vertical",
         name="records/a.V2A | Up",
-        sha256="ab" * 32,
         format="GeoNet V2A",
         npts=100,
         dt_s=0.02,
         peak_g=0.25,
-        npts_trimmed=0,
-        hold_s=math.nan,
-        size=1000,
-        spikes=(),
-        others_g=0.25,
         notes=("uneven times were resampled",),
     )
-    other = replace(record, motion_id="M2", npts=200, notes=())
+
+    def records(*files):
+        given = replace(done, shaking=replace(done.shaking, records=files))
+        return printed(given, "records").table("Records as read")
+
     made = records(record)
     assert made.cells == (("M1", "vertical", "0.2500", "records/a.V2A | Up", "ab" * 32),)
     assert made.notes == (
         "Every record: Format GeoNet V2A, Samples 100, Step [s] 0.02.",
         "M1 vertical: uneven times were resampled",
     )
-    made = records(record, other)
+    made = records(record, replace(record, motion_id="M2", npts=200, notes=()))
     assert made.column("Samples") == ["100", "200"]
     assert made.notes[0] == "Every record: Format GeoNet V2A, Step [s] 0.02."
-
-
-def records(*files):
-    done = scenes.package().assessment
-    done = replace(done, shaking=replace(done.shaking, records=files))
-    return printed(done, "records").table("Records as read")

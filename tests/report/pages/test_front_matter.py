@@ -1,4 +1,4 @@
-"""Cover, letter, references, symbols and departures say what the project at hand has."""
+"""Cover, letter, references and symbols say what the project at hand has."""
 
 import io
 import re
@@ -31,61 +31,13 @@ def html():
         return stand_in.html(stand_in.book(data, MOTIONS))
 
 
-def test_the_cover_has_verdict_and_governing_numbers():
-    package = scenes.package()
-    rows = printed(package, "cover").facts
-    assert rows["Verdict"].startswith("NG Marked NG: ")
-    assert rows["Governing array"].startswith("A2: NG; μ 0.45; design displacement 40.8 in")
-    gaps = package.assessment.clearances
-    worst = max(gaps, key=lambda gap: gap.required_m / gap.clearance.provided_m)
-    assert worst.clearance.object == "S edge"  # 1.5 x 40.8 in beside 60 in
-    assert rows["Governing clearance"] == "A2 to S edge: D/C 1.02"
-    assert rows["Verification"].endswith(package.fingerprint)
-
-
 def test_the_cover_says_that_large_records_are_left_out():
     done = scenes.package().assessment
     large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
     rows = printed(replace(done, shaking=replace(done.shaking, records=large)), "cover").facts
     assert "not the nine record files, 81.0 MB in all: appendix B" in rows["In this file"]
     assert "verify-package FILE --records FOLDER" in rows["Verification"]
-
-
-def test_a_project_without_clearances_or_value_names_neither():
-    made = scenes.package(MOTIONS[:2], arrays=[stand_in.array("A1", 4.0)], clearances=[])
-    rows = printed(made, "cover").facts
-    assert rows["Governing clearance"] == "none given"
-    assert "design displacement none" in rows["Governing array"]
-    letter = printed(made, "letter")
-    assert letter.line("The workbook lists no clearances; none is checked.")
-    assert "without a permitted design displacement is NG" in letter
-
-
-def test_asce_7_22_is_cited_in_its_own_edition():
-    site = stand_in.project().site.model_dump() | {
-        "rule_set": "ASCE 7-22", "s_ds_g": None, "s_ms_g": 2.36, "f_a": None, "f_v": None,
-    }  # fmt: skip
-    page = printed(scenes.package(site=site), "symbols")
-    _, listed = page.split("## References")
-    assert re.findall(r"- ([^:]*):", listed)[:3] == ["ASCE 7-22", "IBC 1613.3", "AC156"]
-    assert "AC156-24" in listed
-    assert "7-16" not in page
-    assert "PV1" not in page
-
-
-def test_the_letter_counts_what_was_run():
-    done = scenes.package().assessment
-    page = printed(done, "letter")
-    runs = sum(len(m.runs) for item in done.arrays for m in item.motions)
-    assert f"in {runs} runs" in page.line("Three ballasted arrays (A1, A2, A3) were analyzed")
-    assert sum(gap.ok for gap in done.clearances) == 4
-    assert page.line("Four of five clearances are satisfied.")
-    verdicts = page.table("Results").column("Verdict")
-    assert verdicts == [done.array_verdict(a).word for a in done.arrays]
-    assert "departure" not in page
-    assert "overridden" not in page
-    one = scenes.package(arrays=[stand_in.array("A1", 1.0)], objects=[], clearances=[])
-    assert printed(one, "letter").line("One ballasted array (A1) was analyzed")
+    assert rows["Verification"].endswith(scenes.package().fingerprint)
 
 
 def test_the_letter_is_one_page():
@@ -122,14 +74,6 @@ def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_seve
     assert row.consequence is Consequence.CONDITION
     rows = (row,) * n_conditions + (replace(row, consequence=Consequence.NG),) * n_severe
     assert printed(replace(done, rows=rows), "letter").line(text)
-
-
-def test_a_departure_is_printed_with_its_reason_reviewer_license_and_date():
-    assert "Departure" not in printed(scenes.package(), "provisions")
-    made = scenes.package(options=scenes.DEPARTURE)
-    (row,) = printed(made, "provisions").table("Departure").cells
-    assert row[1:] == ("Agreed on 2026-02-10", "Reviewer of record", "CA S0000", "2026-03-01")
-    assert "a departure from the rule set" in printed(made, "letter")
 
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
@@ -173,7 +117,7 @@ _WORDS = re.compile(r"\\mathrm\{(?!PRD)[^}]*\}|\\(?!Delta|theta|mu\b|phi)[A-Za-z
 
 def symbols(latex):
     """Return the symbols of an equation, with their first subscript."""
-    rest = re.sub(r"\\mathrm\{PRD\}(_i)?|\\sum(_\{[^}]*\}|\^\{[^}]*\})*|_i\b", " ", latex)
+    rest = re.sub(r"\\mathrm\{PRD\}(_i)?|\\sum_\{[^}]*\}\^\{[^}]*\}|_i\b", " ", latex)
     for name, sign in GREEK.items():
         rest = rest.replace(name, sign)
     rest = _WORDS.sub(" ", re.sub(r"_\{([^{}]*)\}", r"_\1 ", rest))

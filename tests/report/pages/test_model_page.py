@@ -1,6 +1,5 @@
 """The page on the models: which is used, why, and what it neglects."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -30,59 +29,6 @@ def alone(motions):
     return tuple(replace(motion, ay_mps2=np.empty(0)) for motion in motions)
 
 
-FOUR = [
-    stand_in.array("A1", 1.0, mu=0.5, model="one axis"),
-    stand_in.array("A2", 1.0, mu=0.5, x=120),
-    stand_in.array("A3", 1.0, mu=0.5, y=90, mu_fast=0.6, mu_rate_s_per_m=10.0, mu_static=0.55),
-]
-
-
-@pytest.fixture(scope="module")
-def usual():
-    return scene(arrays=FOUR)
-
-
-def test_each_array_has_its_model_its_runs_and_its_reason(usual):
-    rows = table(usual, USED).cells
-    assert [row[1] for row in rows] == [
-        "1, one axis",
-        "3, two axes with vertical",
-        "4, two axes, velocity-dependent friction",
-    ]
-    assert {row[2] for row in rows} == {"12 of 12"}
-    assert rows[0][5] == "requested in the workbook"
-    why = (
-        r"neglecting the second horizontal component changes a displacement by \d+ mm, more than "
-        r"\d(\.\d)? mm"
-    )
-    assert re.fullmatch(why, rows[1][5])
-    assert rows[2][3] == "0.55"
-    assert all(re.fullmatch("below 10⁻[¹²³⁴⁵⁶⁷⁸⁹⁰]+ mm", row[6]) for row in rows)
-
-
-def test_the_demand_is_the_largest_of_the_runs(usual):
-    for row, array in zip(table(usual, USED).rows, usual.assessment.arrays, strict=True):
-        demands = [r.solution.friction_demand for m in array.motions for r in m.runs]
-        assert row["Demand"] == f"{max(demands):.2f}"
-
-
-def test_a_requested_model_is_compared_with_the_adequate_one(usual):
-    rows = {row[0]: row for row in table(usual, NEGLECTED).cells}
-    forced, free, tested = usual.assessment.arrays
-    change = max(
-        abs(more.governing.result.prd_m - run.governing.result.prd_m)
-        for run, more in zip(forced.motions, free.motions, strict=True)
-    )
-    assert rows["A1"][2] == f"{change / 0.0254:.1f}"
-    grown = max(free.design_m - forced.design_m, 0.0)
-    assert rows["A1"][4] == f"{grown / 0.0254:.1f}"
-    assert rows["A1"][1] == "Effects of two axes with vertical"
-    assert rows["A1"][-1].startswith("exact: both models run")
-    assert rows["A2"][1:3] == ("Velocity-dependent friction", "not known")
-    assert rows["A3"][1] == "None of the given inputs"
-    assert tested.analysis.value_m < free.analysis.value_m
-
-
 def test_a_model_that_is_not_adequate_is_ng():
     package = scene(
         scenes.motions(3, 12.0),
@@ -98,8 +44,6 @@ def test_a_model_that_is_not_adequate_is_ng():
 
 def test_a_neglected_vertical_component_has_its_exact_effect():
     gentle = tuple(replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(scenes.motions(3, 8.0)))
-    for m in gentle:
-        m.az_mps2.setflags(write=False)
     package = scene(gentle, arrays=[stand_in.array("A1", 1.0, mu=0.5)])
     item = package.assessment.arrays[0]
     solutions = [run.solution for m in item.motions for run in m.runs]
@@ -107,15 +51,14 @@ def test_a_neglected_vertical_component_has_its_exact_effect():
     (row,) = table(package, NEGLECTED).cells
     effect = max(solution.next_effect_m for solution in solutions)
     assert 0.0 < effect < 2e-3
-    assert row[1] == "Vertical shaking"
-    assert row[3] == f"{1e3 * effect:.0f}" or effect < 1e-3
-    assert row[-1] == "exact: both models run"
+    assert (row[1], row[3], row[-1]) == (
+        "Vertical shaking", f"{1e3 * effect:.0f}", "exact: both models run"
+    )  # fmt: skip
 
 
 def test_a_run_that_has_the_model_says_nothing_of_neglecting_it():
     gentle, full = alone(scenes.motions(2, 8.0))
     gentle = replace(gentle, az_mps2=gentle.az_mps2 * 1e-3)
-    gentle.az_mps2.setflags(write=False)
     package = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
     rungs = {run.solution.rung for m in package.assessment.arrays[0].motions for run in m.runs}
     assert rungs == {Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL}
@@ -129,37 +72,24 @@ def test_where_nothing_slips_nothing_is_neglected():
     assert table(package, NEGLECTED).row("A1")["Neglected"] == "None: no slip"
 
 
-def test_the_eight_combinations_and_the_governing_one_are_named(usual):
-    page = printed(usual, "model")
-    assert "eight combinations" in page
-    assert "so four are run" in page
-    for array in usual.assessment.arrays:
-        run = array.worst
-        found = f"Array {array.id}: the governing run is {run.motion.id}, "
-        assert page.line(found).startswith(f"{found}{run.governing.heading.name}, with PRD")
-    assert page.count("not a bound") == 1
-    assert "not a bound" in page.line("Array A3: the friction decreases at the onset")
-    single = printed(scene(alone(scenes.motions(3, 4.0))), "model")
-    assert "No motion has a second horizontal component" in single
-    assert "with both components most displacements are larger" in single
+def test_fewer_runs_are_said_where_a_polarity_is_not_requested():
     one = tuple(replace(motion, signs=(1,)) for motion in scenes.motions())
-    assert "so in the polarities requested two are run" in printed(scene(one), "model")
+    package = scene(one)
+    assert "so in the polarities requested two are run" in printed(package, "model")
+    assert "; 0 of 3 motions are run both as recorded and reversed" in printed(package, "basis")
 
 
-def test_a_block_that_lifts_off_has_no_error_and_no_limit_of_demand():
-    up = np.zeros(800)
-    up[300:400] = -1.4 * stand_in.G
-    lifted = stand_in.motion("LIFT", np.zeros(800), up, signs=(1,))
-    page = printed(scene((*scenes.motions(3, 4.0), lifted)), "model")
-    rows = page.table(USED).rows
-    assert any(row["Demand"] == "no limit" and row["Error of PRD"] == "none" for row in rows)
-    assert "uplift occurs" in page
-    assert not re.search(r"\bnan\b", page)
-
-
-def test_a_stable_array_has_its_tipping_ratios(usual):
-    rows = table(usual, CHECKS).cells
-    for row, array in zip(rows[:2], usual.assessment.arrays[:2], strict=True):
+def test_a_stable_array_has_its_tipping_ratios():
+    """Of the whole motion, also where the model of the array neglects its vertical component."""
+    arrays = [
+        stand_in.array("A1", 1.0, mu=0.5, model="one axis"), stand_in.array("A2", 1.0, mu=0.5)
+    ]  # fmt: skip
+    package = scene(arrays=arrays)
+    rows = table(package, CHECKS).cells
+    forced, _ = package.assessment.arrays
+    modeled = min(run.result.n_min_g for motion in forced.motions for run in motion.runs)
+    assert forced.uplift.n_min_g < modeled
+    for row, array in zip(rows, package.assessment.arrays, strict=True):
         capacity = 0.5 * array.array.support_spacing_m / array.array.cg_height_m
         held = min(array.tipping.demand, array.array.mu) / capacity
         assert array.tipping.at_rest_ratio == pytest.approx(held, rel=1e-12)
@@ -184,11 +114,3 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     assert not done.array_verdict(done.arrays[0]).is_permitted
     assert "begins to tip" in printed(package, "summary")
     assert table(package, CHECKS).row("A1")["Verdict"] == "NG"
-
-
-def test_the_minimum_normal_force_includes_a_neglected_vertical_component(usual):
-    forced = usual.assessment.arrays[0]
-    text = printed(usual, "model").line("Array A1: the governing run")
-    modeled = min(run.result.n_min_g for m in forced.motions for run in m.runs)
-    assert forced.uplift.n_min_g < modeled
-    assert f"Minimum normal force {forced.uplift.n_min_g:.2f} m g" in text

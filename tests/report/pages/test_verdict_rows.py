@@ -27,21 +27,6 @@ def test_an_array_that_is_ng_by_a_missing_clearance_says_so_in_its_row():
     assert any("NG: clearance A1 to RTU-9 not given" in line for line in summary(made.assessment))
 
 
-@pytest.mark.parametrize(
-    ("objects", "governing"),
-    [
-        ([], "A1: μ 0.45; "),
-        ([stand_in.roof_object("RTU-9", "fixed object", 301, 306, 35, 42, height=1.0)], "A2: NG; "),
-    ],
-)
-def test_the_governing_array_is_one_that_is_ng_where_any_is(objects, governing):
-    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, mu=0.6, x=220)]
-    far = [stand_in.clearance("A1", "A2", 40.0)]
-    made = scenes.package(arrays=arrays, objects=objects, clearances=far)
-    assert made.governing.id == "A1"
-    assert printed(made, "cover").facts["Governing array"].startswith(governing)
-
-
 @pytest.fixture(scope="module")
 def barely():
     """A clearance, a slack and a strength a hair below what is required."""
@@ -65,10 +50,3 @@ def test_a_value_that_prints_otherwise_than_rounded_is_said_to(barely):
     slack = page.line("NG: array A1, Electrical slack")
     assert re.search(r"required: ≥ [\d.]+ in \(\d+ mm\) \(rounded apart: both would", slack)
     assert f"A1: {APART}" in printed(barely, "limits").tables[-1].notes
-
-
-def test_nothing_is_said_of_rounding_where_none_changes_a_number():
-    gaps = [stand_in.clearance("A1", "RTU-9", 0.5)]
-    made = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[NEAR], clearances=gaps)
-    for key in ("summary", "limits", "clearances"):
-        assert "rounded apart" not in printed(made, key)

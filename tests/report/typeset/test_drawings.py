@@ -54,6 +54,8 @@ GRADED = svg(
     '<stop offset="1" stop-color="#000"/></linearGradient></defs>'
     '<rect x="1" y="1" width="90" height="50" fill="url(#g)"/>'
 )
+UNKNOWN = svg(WORDS.format("").replace("Array A2", "\U000f1234"))
+SIZELESS = data_uri('<svg xmlns="http://www.w3.org/2000/svg"/>')
 
 
 def page(*pictures, text=""):
@@ -64,10 +66,11 @@ def page(*pictures, text=""):
     )
 
 
-def ahead(html):
+def both(html):
+    """The page with its pictures drawn ahead, and as the renderer draws them."""
     drawn = Future()
     drawn.set_result(draw_ahead(pictures(html)))
-    return drawn
+    return [PdfReader(io.BytesIO(pdf)).pages[0] for pdf in (lay_out(html, drawn), lay_out(html))]
 
 
 def blank(kind):
@@ -117,8 +120,7 @@ def test_operators_groups_hatches_and_glyphs_are_those_of_the_renderer(source):
 
 def test_a_page_shows_the_words_of_its_pictures_in_fonts_that_it_uses_nowhere_else():
     html = page(svg(WORDS.format("font-style: italic")), svg(WORDS.format("font-weight: 700")))
-    (shown,) = PdfReader(io.BytesIO(lay_out(html, ahead(html)))).pages
-    (direct,) = PdfReader(io.BytesIO(lay_out(html))).pages
+    shown, direct = both(html)
     assert shown.extract_text() == direct.extract_text()
     assert shown.extract_text().count("Array A2") == 2
     names = [
@@ -133,34 +135,27 @@ def test_a_page_shows_the_words_of_its_pictures_in_fonts_that_it_uses_nowhere_el
 
 def test_a_picture_is_scaled_to_its_place():
     html = page(CHART).replace("<img ", '<img style="width: 100px" ')
-    content = PdfReader(io.BytesIO(lay_out(html, ahead(html)))).pages[0].get_contents().get_data()
+    content = both(html)[0].get_contents().get_data()
     assert b"\n0.520833 0 0 0.520833 0 0 cm" in content  # 100 px / 192 px
 
 
 def test_hatches_lie_where_the_renderer_places_them():
     html = page(CHART, HATCHED, HATCHED).replace("<img ", "<img width='99' ")
-    ours, direct = (
-        PdfReader(io.BytesIO(data)).pages[0]["/Resources"]["/Pattern"].values()
-        for data in (lay_out(html, ahead(html)), lay_out(html))
-    )
-    places = [[list(tile.get_object()["/Matrix"]) for tile in tiles] for tiles in (ours, direct)]
+    places = [
+        [list(tile.get_object()["/Matrix"]) for tile in page["/Resources"]["/Pattern"].values()]
+        for page in both(html)
+    ]
     assert places[0] == places[1]
     assert len(places[0]) == 2
 
 
-def test_a_picture_with_a_gradient_is_an_internal_error():
-    with pytest.raises(DefectError, match="shadings"):
-        draw_ahead([GRADED])
-
-
-def test_a_glyph_that_no_font_has_is_an_internal_error_where_it_is_converted():
-    with pytest.raises(DefectError, match="notdef"):
-        draw_ahead([svg(WORDS.format("").replace("Array A2", "\U000f1234"))])
-
-
-def test_a_picture_without_a_size_is_an_internal_error():
-    with pytest.raises(DefectError, match="width"):
-        draw_ahead([data_uri('<svg xmlns="http://www.w3.org/2000/svg"/>')])
+@pytest.mark.parametrize(
+    ("source", "word"), [(GRADED, "shadings"), (UNKNOWN, "notdef"), (SIZELESS, "width")],
+    ids=["a gradient", "a glyph that no font has", "no size"],
+)  # fmt: skip
+def test_a_picture_that_cannot_be_converted_is_an_internal_error(source, word):
+    with pytest.raises(DefectError, match=word):
+        draw_ahead([source])
 
 
 def test_pages_are_those_of_the_renderers_own_styles(monkeypatch):

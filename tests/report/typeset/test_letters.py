@@ -50,23 +50,24 @@ def test_without_fontconfig_only_the_letters_of_a_package_can_be_drawn(monkeypat
     assert undrawable("屋a根屋") == "屋根"
 
 
-def test_an_id_has_only_letters_of_the_figures(tmp_path, fonts):
+NUMBER, ID = "Project/Project number", "Motions/M1/ID"
+NO_FONT = "no font of this machine has 棟 (U+68DF); install one that does, or use other"
+
+
+@pytest.mark.parametrize(
+    ("command", "cell", "typed", "line"),
+    [
+        ("check", NUMBER, "棟 7", NO_FONT),
+        ("report", NUMBER, "棟 7", NO_FONT),
+        ("check", ID, "蔵1", "the font of the figures does not have 蔵 (U+8535); write"),
+    ],
+)
+def test_a_cell_with_letters_without_a_font_is_named(tmp_path, fonts, command, cell, typed, line):
+    """An ID is in the figures, whose font is the only one there."""
     fonts("蔵")
-    book = type_into(make(tmp_path), {"Motions/M1/ID": "蔵1"})
-    done = CliRunner().invoke(main, ["check", str(book)])
+    done = CliRunner().invoke(main, [command, str(type_into(make(tmp_path), {cell: typed}))])
     assert done.exit_code == 2
-    line = "<Motions/M1/ID>: the font of the figures does not have 蔵 (U+8535); write"
-    assert at(line) in done.output
-
-
-@pytest.mark.parametrize("command", ["check", "report"])
-def test_a_cell_with_letters_without_a_font_is_named(tmp_path, fonts, command):
-    fonts()
-    book = type_into(make(tmp_path), {"Project/Project number": "棟 7"})
-    done = CliRunner().invoke(main, [command, str(book)])
-    assert done.exit_code == 2
-    line = "<Project/Project number>: no font of this machine has 棟 (U+68DF); install one that"
-    assert at(line + " does, or use other") in done.output
+    assert at(f"<{cell}>: {line}") in done.output
     assert not (tmp_path / "out").exists()
 
 
