@@ -10,10 +10,12 @@ from __future__ import annotations
 import ast
 import csv
 import os
+import sqlite3
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterable
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -72,9 +74,18 @@ def measure(which: str, folder: Path) -> dict[Path, Lines]:
     uncompiled.append(str(KERNELS / "test_fixed_steps.py"))
     every = "quick" if which == "quick" else "all"  # as in `tests/uncompiled.py`
     _run(settings, [*both, every, *uncompiled], {"NUMBA_DISABLE_JIT": "1"})
+    for path in folder.glob(f"{which}.*"):
+        if not _is_whole(path):
+            path.unlink()
     counted = Coverage(config_file=str(settings), messages=False)
     counted.combine()
     return {path: _lines(counted, path) for path in modules()}
+
+
+def _is_whole(path: Path) -> bool:
+    """Whether a process lived to write what it counted."""
+    with closing(sqlite3.connect(path)) as data:
+        return bool(data.execute("SELECT name FROM sqlite_master WHERE name = 'file'").fetchall())
 
 
 def _run(settings: Path, words: list[str], variables: dict[str, str]) -> None:

@@ -149,7 +149,7 @@ def test_the_readme_shows_what_the_example_prints(reported):
     verdict = next(line for line in lines if line.startswith("verdict: "))
     shown = "\n".join([*lines[:4], verdict])
     assert f"```\n{shown}\n```" in README
-    assert shown.count("81.6 in (2072 mm)") == shown.count("  OK with conditions: ") == 3
+    assert shown.count("81.6 in (2072 mm)") == shown.count("  Condition: ") == 3
 
 
 def test_progress_is_plain_lines_when_piped(reported):

@@ -37,8 +37,6 @@ NEW = {"new-us": [], "new-si": ["--units", "SI"], "new-study": ["--study"]}
 FILLED = """
 import sys
 from pathlib import Path
-from report.sheet.answers import STATUS_FORMAT
-from report.sheet.counts import COUNT_FORMAT, START
 from report.sheet.read import read
 from report.sheet.template import write_template
 source, path = map(Path, sys.argv[1:])

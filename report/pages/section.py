@@ -41,7 +41,7 @@ def weight_per_area_pa(array: Array) -> float:
 def _weights(package: PackageData) -> str:
     """Return the weight over plan area of the array, and the range of the others."""
     array = package.governing.array
-    others = [weight_per_area_pa(one) for one in package.data.arrays if one is not array]
+    others = [weight_per_area_pa(one) for one in package.data.arrays if one.id != array.id]
     text = f"W over plan area: {package.fmt.both(weight_per_area_pa(array), Quantity.PRESSURE)}"
     if not others:
         return f"{text}."

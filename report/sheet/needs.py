@@ -57,8 +57,8 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
         if high in place.letters:
             cells = [place.this(name) for name in (low, high)]
             given = ",".join(f"ISNUMBER({cell})" for cell in cells)
-            least, most = (f"{place.this(name)}*unit_{section}_{name}" for name in (low, high))
-            yield f"IF(AND({given}),{least}>={most},FALSE)"
+            least, most = (f"N({place.this(name)})*unit_{section}_{name}" for name in (low, high))
+            yield f"AND({given},{least}>={most})"
     if "slope_deg" in place.letters:
         yield SLOPE_TOO_STEEP.replace("{slope_deg}", place.this("slope_deg"))
 
