@@ -9,7 +9,7 @@ import numpy as np
 
 from report.document.tables import Table, TableRow
 from report.entities.columns import TableColumn
-from report.manual.blocks import Block, ManualSection
+from report.study.blocks import Block, ManualSection
 from report.pages.symbols import with_symbols
 from report.study.page_parts import MOST_LINES, axis, level, on_building, some
 from report.study.results import (

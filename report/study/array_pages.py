@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from report.document.tables import Table, TableRow
 from report.entities.columns import TableColumn
-from report.manual.blocks import Block, Chart, ManualSection, joined, slug
+from report.study.blocks import Block, Chart, ManualSection, joined, slug
 from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.dispersion import MASS, Dispersion, dispersions, exported, is_exportable, refusal

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from report.document.tables import Table, TableRow
 from report.entities.columns import TableColumn
-from report.manual.blocks import Block, ManualSection, joined
+from report.study.blocks import Block, ManualSection, joined
 from report.pages.symbols import with_symbols
 from report.study.results import StudyResults
 from report.study.spread import FREQ_HZ

@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from report.manual.blocks import joined
+from report.study.blocks import joined
 from report.sheet.schema import RecordedAt
 from report.study.dispersion import MASS, dispersions, exported, refusal, warning
 from report.study.results import ArrayResult, LimitState, StudyResults

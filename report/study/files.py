@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from report.document.templates import rendered
 from report.figures.base import load_fonts
-from report.manual.blocks import numbered
+from report.study.blocks import numbered
 from report.pages.symbols import with_symbols
 from report.study.exports import export_files
 from report.study.pages import sections

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from report.document.blocks import Picture
-from report.manual.blocks import Chart, joined
+from report.study.blocks import Chart, joined
 from report.study.results import StudyResults
 from report.study.tables import length_unit
 from report.words.units import measured, no_less

@@ -14,7 +14,7 @@ import numpy as np
 from report.document.tables import Table, TableRow
 from report.entities.columns import TableColumn
 from report.entities.marks import UNVERIFIED
-from report.manual.blocks import Block, Chart, ManualSection, slug
+from report.study.blocks import Block, Chart, ManualSection, slug
 from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.answer_pages import allowed

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from report.document.tables import Table, TableRow
 from report.entities.columns import TableColumn
-from report.manual.blocks import Block, Chart, ManualSection, slug
+from report.study.blocks import Block, Chart, ManualSection, slug
 from report.pages.symbols import with_symbols
 from report.study import figures
 from report.study.page_parts import (

@@ -20,7 +20,7 @@ import tables
 import verified
 from report.cli.main import main
 from report.figures import work
-from report.manual import blocks
+from report.words import formats
 from report.words.letters import lettered
 from report.words.validation import NOT_VALIDATED
 from solver.model import Status
@@ -169,8 +169,8 @@ def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(v
         line = (
             f"{lettered(row.problem)} {row.quantity}"
             + (f" [{lettered(row.unit)}]" if row.unit != "1" else "")
-            + f" {blocks.digits(row.expected)} {blocks.digits(row.computed)} "
-            + f"{blocks.scientific(row.error)} {blocks.scientific(row.tolerance)} PASS"
+            + f" {formats.ten_digits(row.expected)} {formats.ten_digits(row.computed)} "
+            + f"{formats.scientific(row.error)} {formats.scientific(row.tolerance)} PASS"
         )
         assert line in words, line
 
@@ -181,8 +181,8 @@ def test_the_papers_own_figures_stand_beside_those_found(words, verification):
     assert "0.48 %" in words
     assert "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm" in words
     for comparison in verification.links:
-        assert blocks.percent(comparison.worst_percent) in words
-        assert blocks.percent(comparison.mean_percent) in words
+        assert formats.percent(comparison.worst_percent) in words
+        assert formats.percent(comparison.mean_percent) in words
     curves = verification.curves[0]
     assert f"{curves.least_mu(2.0, 1.5, 0.5):.3f}" in words
 
@@ -378,7 +378,7 @@ def test_a_fault_in_the_tests_of_a_shake_table_is_an_input_error_before_any_run(
     ],
 )
 def test_errors_print_as_powers_of_ten(value, text):
-    assert blocks.scientific(value) == text
+    assert formats.scientific(value) == text
 
 
 @pytest.mark.parametrize(
@@ -387,7 +387,7 @@ def test_errors_print_as_powers_of_ten(value, text):
      (1e-6, "1.0 × 10⁻⁶ %")],
 )  # fmt: skip
 def test_percents_print_three_digits(value, text):
-    assert blocks.percent(value) == text
+    assert formats.percent(value) == text
 
 
 @pytest.mark.parametrize(
@@ -395,7 +395,7 @@ def test_percents_print_three_digits(value, text):
     [(2.5, "2.5 s"), (0.0123, "12.3 ms"), (3.7e-6, "3.7 µs"), (5e-8, "50 ns"), (math.nan, "—")],
 )
 def test_times_print_in_a_unit_that_suits(value, text):
-    assert blocks.seconds(value) == text
+    assert formats.seconds(value) == text
 
 
 def test_names_of_letters_are_set_as_letters():
@@ -406,6 +406,6 @@ def test_names_of_letters_are_set_as_letters():
 
 
 def test_a_value_stays_with_its_name_and_unit():
-    assert blocks.unbroken("2°, μ = 0.4, PPA = 1.5 g, flat") == (
+    assert formats.unbroken("2°, μ = 0.4, PPA = 1.5 g, flat") == (
         "2°, μ\xa0=\xa00.4, PPA\xa0=\xa01.5\xa0g, flat"
     )
