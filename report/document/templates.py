@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jinja2 import pass_context
+from markupsafe import Markup
 
 from report.assessment.foresight import limit_value
 from report.assessment.friction import mu_words
@@ -39,6 +40,12 @@ def sentence(folder: Path, name: str, package: object) -> str:
     """Return a sentence that pages and the screen share, from `sentences.html`."""
     macros = _environment(folder).get_template("sentences.html").module
     return " ".join(str(getattr(macros, name)(package)).split())
+
+
+def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
+    """Return what a macro of a template says, as plain text: for tables and the screen."""
+    module = _environment(folder).get_template(path).make_module(dict(context))
+    return Markup(getattr(module, name)()).unescape().strip()
 
 
 @cache

@@ -154,7 +154,10 @@ def _places(
     """Yield where the labels of contours are: three heights in turn, and none beyond the edge."""
     low, span = np.array([v[0] for v in grid]), np.array([np.ptp(v) for v in grid])
     for count, parts in enumerate(drawn.allsegs):
-        shares = (_dense(max(parts, key=len)) - low) / span
+        line = max(parts, key=len, default=())
+        if not len(line):  # around cases without a value a level may leave no line
+            continue
+        shares = (_dense(line) - low) / span
         inside = shares[((shares > 0.04) & (shares < 0.96)).all(axis=1)]
         if inside.size:
             nearest = np.abs(inside[:, 1] - height - 0.1 * (count % 3)).argmin()

@@ -27,7 +27,7 @@ from report.cli.study import make
 from report.pages.symbols import with_symbols
 from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
-from report.study import files
+from report.study import figures, files
 from report.study.exports import chances_of, component_id, export_files, known_states
 from report.study.files import study_files, study_html
 from report.study.prescribed import compare
@@ -37,7 +37,7 @@ from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.template import write_study
 from report.study.words import design_words, headline
 from report.typeset.pdf import lay_out
-from report.words.units import digits_down
+from report.words.units import Quantity, digits_down
 from solver import solve
 from solver.model import InputError, coulomb
 from solver.studies.curves import least_friction
@@ -183,6 +183,14 @@ def test_a_chance_without_a_value_at_the_medians_has_no_chart_and_says_so(result
     page = printed.study(dataclasses.replace(results, arrays=(one,)))
     _, chances = page.split("no final PRD with all variables at their medians")
     assert "[" not in chances.partition("#")[0]
+
+
+def test_a_sheet_is_drawn_where_cases_without_a_value_leave_a_contour_no_line():
+    """Such as uplift on one slope: the end of a study whose runs are done."""
+    design_m = np.array([[0.1, 0.2, 0.3], [np.nan] * 3, [3.0] * 3])
+    inch, x = Quantity.DISPLACEMENT.us, np.arange(3.0)
+    drawn = figures.contours(x, x, design_m, design_m, inch, along="PPA [g]", allowed_m=1.0)
+    assert ">PPA [g]<" in drawn
 
 
 def test_a_mat_without_tests_has_no_bar_for_friction(results):

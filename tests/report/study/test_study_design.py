@@ -19,12 +19,11 @@ import packages
 import printed
 import stand_in
 from report.assessment.arrays import Route
-from report.study.answer_pages import allowed
+from report.study.allowed import allowed
 from report.study.files import study_html
 from report.study.page_parts import design_length
-from report.study.pages import sections
 from report.study.prescribed import compare
-from report.study.results import MEAN, STATISTICS
+from report.study.results import STATISTICS
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, Mat, RuleSetName, StudyArray
 from report.study.tables import curves_csv, study_xlsx
@@ -248,27 +247,25 @@ def test_printed_and_exported_answers_are_on_the_safe_side(results, values, allo
     found = made_up(results, values)
     axes = found.plan.input
     levels = axes.intensities
-    tables = [block.tables[0] for block in allowed(found, 0, allowed_m).blocks if block.tables]
-    for table in tables:
-        name = MEAN if MEAN in table.caption else found.plan.design_rule.name
+    for name, frictions, slopes in allowed(found, 0, allowed_m).content["answers"]:
         lengths = found.displacements[name][0]
-        for line, row in enumerate(table.rows):
+        for line, row in enumerate(frictions.rows):
             for x, cell in enumerate(row.cells[1:]):
-                if "friction coefficient" in table.caption:
-                    check(np.array(axes.mus), lengths[line, :, x], reading(cell), allowed_m, 0.01,
-                          upward=True)  # fmt: skip
-                else:
-                    check(np.array(axes.slopes_deg), lengths[:, line, x], reading(cell), allowed_m,
-                          0.1, upward=False)  # fmt: skip
-    assert len(tables) == 4
-    # The workbook and the first lines have the same numbers as the tables.
-    printed = [[reading(cell) for cell in row.cells[1:]] for row in tables[1].rows]
-    slopes = found.largest_slopes(0, found.plan.design_rule.name, allowed_m)
-    assert np.array_equal(slopes, np.array(printed), equal_nan=True)
+                check(np.array(axes.mus), lengths[line, :, x], reading(cell), allowed_m, 0.01,
+                      upward=True)  # fmt: skip
+        for line, row in enumerate(slopes.rows):
+            for x, cell in enumerate(row.cells[1:]):
+                check(np.array(axes.slopes_deg), lengths[:, line, x], reading(cell), allowed_m,
+                      0.1, upward=False)  # fmt: skip
+        # The workbook and the first lines have the same numbers as the tables.
+        printed = [[reading(cell) for cell in row.cells[1:]] for row in slopes.rows]
+        values = found.largest_slopes(0, name, allowed_m)
+        assert np.array_equal(values, np.array(printed), equal_nan=True)
+    values = found.largest_slopes(0, found.plan.design_rule.name, allowed_m)
     study = axes.study.model_copy(update={"allowed_m": allowed_m})
     plan = dataclasses.replace(found.plan, input=dataclasses.replace(axes, study=study))
     lines = headline(dataclasses.replace(found, plan=plan))[1 : 1 + len(axes.mus)]
-    for line, values_at in zip(lines, slopes[:, len(levels) // 2], strict=True):
+    for line, values_at in zip(lines, values[:, len(levels) // 2], strict=True):
         number = re.search(r"largest slope (?:≥ )?([\d.]+|none)", line)[1]
         assert reading(number) == pytest.approx(values_at, abs=0.0, nan_ok=True)
         stated = float(re.search(r"of at most ([\d.]+) in", line)[1])
@@ -285,15 +282,9 @@ def test_design_displacements_and_clearances_print_rounded_up(results, value_m):
 
 
 def test_the_printed_column_of_the_design_displacement_is_rounded_up(results):
-    (table,) = (
-        table
-        for section in sections(results)
-        for block in section.blocks
-        for table in block.tables
-        if table.caption.startswith("Displacements at")
-    )
+    column = printed.study(results).table("Displacements at").column("Design displacement [in]")
     wanted = results.design_m[0, :, :, 1].T.ravel()  # friction by friction
-    assert [row.cells[2] for row in table.rows] == [design_length(results, v) for v in wanted]
+    assert column == [design_length(results, v) for v in wanted]
 
 
 def test_the_printed_formula_has_the_stated_error_in_every_case_fitted(tmp_path):

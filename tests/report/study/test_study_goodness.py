@@ -12,7 +12,7 @@ from test_study_read import given, write
 
 import printed
 from report.figures.base import load_fonts
-from report.study.array_pages import fragility as pages
+from report.study.array_page import fragility as pages
 from report.study.results import LimitState
 from report.study.run import planned, run_study
 from report.study.tables import study_xlsx
@@ -55,18 +55,17 @@ def results(tmp_path_factory):
 
 def test_the_chart_has_a_panel_for_each_state_with_a_p_value(results):
     load_fonts(TEMPLATES / "fonts")
-    (block, *_) = pages(results, results.arrays[0]).blocks
-    assert [one.name for one in block.charts] == ["fragility-s1", "goodness-s1"]
-    texts = re.findall(r">(LS\d: [^<]*)<", block.charts[1].picture.svg)
+    charts = pages(results, results.arrays[0]).charts
+    assert list(charts) == ["fragility", "goodness"]
+    texts = re.findall(r">(LS\d: [^<]*)<", charts["goodness"])
     p = [digits_down(s.fragility.p_value, 2) for s in results.arrays[0].states[:2]]
     assert texts == [f"LS1: p = {p[0]}", f"LS2: p = {p[1]}"]
-    assert "5\u00a0%" in block.charts[1].picture.caption
+    assert "leave in 5\u00a0% of lognormal samples." in printed.study(results)
 
 
 def test_without_a_p_value_there_is_no_chart(results):
     one = dataclasses.replace(results.arrays[0], states=results.arrays[0].states[2:])
-    (block, *_) = pages(results, one).blocks
-    assert [chart.name for chart in block.charts] == ["fragility-s1"]
+    assert list(pages(results, one).charts) == ["fragility"]
 
 
 def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(results):

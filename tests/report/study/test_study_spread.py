@@ -16,14 +16,13 @@ from test_study_read import at, given, problems, write
 import printed
 from report.cli.main import main
 from report.study import files
-from report.study.dispersion import warning
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayResult, LimitState
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
 from report.study.spread import spectral_spread
-from report.study.words import headline
+from report.study.words import headline, warning
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
