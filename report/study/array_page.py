@@ -19,7 +19,7 @@ from report.study.dispersion import (
     is_exportable,
     is_refused,
 )
-from report.study.exports import has_chances
+from report.study.exports import has_probabilities
 from report.study.page_parts import axis
 from report.study.plan import SLOPE
 from report.study.results import ArrayResult, LimitState, StudyResults
@@ -45,7 +45,7 @@ def fragility(results: StudyResults, one: ArrayResult) -> Section:
             "array": one.plan.array,
             "counts": one.states[0].fragility,
             "unknown": [state.name for state in one.states if state not in known],
-            "is_left_out": is_exportable(results) and not has_chances(one),
+            "is_left_out": is_exportable(results) and not has_probabilities(one),
             "axis": axis(results),
             "states": _states(results, one),
             "exported": _exported(results, one, known),

@@ -82,7 +82,7 @@ def limits(results: StudyResults) -> Section:
         title="Limits",
         template="study/limits.html",
         content={
-            "has_chances": any(one.chances for one in results.arrays),
+            "has_probabilities": any(one.exceedances for one in results.arrays),
             "FREQ_HZ": FREQ_HZ,
             "validation": explained(SHIPPED),
         },

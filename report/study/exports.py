@@ -81,7 +81,7 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
         files["fragility.csv"] = _library(results, known).encode()
         files["fragility.json"] = _metadata(results, known).encode()
         files["placement.csv"] = _placement(results, known).encode()
-    if kind in MEASURES and any(map(has_chances, results.arrays)):
+    if kind in MEASURES and any(map(has_probabilities, results.arrays)):
         files["fragility.xml"] = _nrml(results)
     return files
 
@@ -91,8 +91,8 @@ def known_states(one: ArrayResult) -> tuple[LimitState, ...]:
     return tuple(state for state in one.states if state.fragility.fitted.is_known)
 
 
-def has_chances(one: ArrayResult) -> bool:
-    """Whether the chance of each limit state is known at every level.
+def has_probabilities(one: ArrayResult) -> bool:
+    """Whether the probability of each limit state is known at every level.
 
     A state without a lognormal has the fractions of the motions, if none of its runs is censored.
     """
@@ -220,7 +220,7 @@ def _nrml(results: StudyResults) -> bytes:
     ET.SubElement(model, f"{{{NRML}}}description").text = _said(results, "description", (imt, unit))
     states = [state.name for state in results.arrays[0].states]
     ET.SubElement(model, f"{{{NRML}}}limitStates").text = " ".join(states)
-    for one in filter(has_chances, results.arrays):
+    for one in filter(has_probabilities, results.arrays):
         function = ET.SubElement(
             model,
             f"{{{NRML}}}fragilityFunction",
@@ -230,9 +230,9 @@ def _nrml(results: StudyResults) -> bytes:
         limit = f"{NO_DAMAGE_SHARE * levels[0]:.9g}"
         imls = ET.SubElement(function, f"{{{NRML}}}imls", {"imt": imt, "noDamageLimit": limit})
         imls.text = " ".join(f"{x:.9g}" for x in levels)
-        for state, row in zip(one.states, chances_of(results, one), strict=True):
-            chances = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
-            chances.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
+        for state, row in zip(one.states, probabilities_of(results, one), strict=True):
+            poes = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
+            poes.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
 
@@ -262,13 +262,13 @@ def _said(results: StudyResults, name: str, of: tuple[str, str], **more: object)
     return said(TEMPLATES, "study/exports.html", name, context(results) | given | more)
 
 
-def chances_of(results: StudyResults, one: ArrayResult) -> Floats:
-    """Return the chance of each limit state at each level, shape (states, levels).
+def probabilities_of(results: StudyResults, one: ArrayResult) -> Floats:
+    """Return the probability of each limit state at each level, shape (states, levels).
 
     That of the lognormal, or the fractions of the motions where there is none; the array must have
-    them (`has_chances`). A state that is exceeded includes those before it: where lognormals of
-    different dispersion cross, the larger chance counts, or OpenQuake would subtract a larger
-    chance from a smaller one.
+    them (`has_probabilities`). A state that is exceeded includes those before it: where lognormals
+    of different dispersion cross, the larger one counts, or OpenQuake would subtract a larger one
+    from a smaller one.
     """
     rows = [
         lognormal.at(state.fragility.levels)

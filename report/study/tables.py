@@ -80,7 +80,7 @@ def study_xlsx(results: StudyResults) -> bytes:
             _answers(results, given.mus, results.largest_slopes),
         ),
         ("Fragility", _FRAGILITY, _fragilities(results, unit)),
-        ("Chances", _CHANCES, _chances(results, unit)),
+        ("Chances", _EXCEEDANCES, _exceedances(results, unit)),
         ("Formula", ("Building", "What", "Value"), _formula(results)),
     ):
         sheet = book.add_worksheet(title)
@@ -179,25 +179,25 @@ def _dispersions(results: StudyResults, one: ArrayResult, state: LimitState) -> 
     return [*(part.beta or math.nan for part in dispersions(results, one, state)), total]
 
 
-_CHANCES = (
+_EXCEEDANCES = (
     "Building", "Array", "Clearance", "Unit", "Chance of exceedance", "5 %", "95 %", "Runs",
     "Runs without a value",
 )  # fmt: skip
 
 
-def _chances(results: StudyResults, unit: Unit) -> Iterator[Row]:
+def _exceedances(results: StudyResults, unit: Unit) -> Iterator[Row]:
     for one in results.arrays:
-        for chance in one.chances:
+        for found in one.exceedances:
             yield (
                 results.plan.motions.buildings[one.plan.building],
                 one.plan.array.id,
                 one.plan.array.clearance_m / unit.si,
                 unit.symbol,
-                chance.value,
-                chance.low,
-                chance.high,
-                chance.runs,
-                chance.without_value,
+                found.value,
+                found.low,
+                found.high,
+                found.runs,
+                found.without_value,
             )
 
 

@@ -28,7 +28,7 @@ from report.pages.symbols import with_symbols
 from report.results.publish import locked
 from report.sheet.schema import UnitsFirst
 from report.study import figures, files
-from report.study.exports import chances_of, component_id, export_files, known_states
+from report.study.exports import component_id, export_files, known_states, probabilities_of
 from report.study.files import study_files, study_html
 from report.study.prescribed import compare
 from report.study.read import read_study
@@ -168,8 +168,8 @@ def test_the_chance_is_that_of_the_samples(results):
         for slope, mu, x in zip(cases.slope_rad, cases.mu, cases.intensity, strict=True)
         for k in range(6)
     ]
-    assert array.chances[0].value == pytest.approx(np.mean(over), abs=1e-12)
-    assert array.chances[0].runs == 120
+    assert array.exceedances[0].value == pytest.approx(np.mean(over), abs=1e-12)
+    assert array.exceedances[0].runs == 120
     assert {bar.name for bar in array.bars} == {"friction coefficient", "slope", "intensity"}
 
 
@@ -501,7 +501,7 @@ def test_openquake_has_the_chances_at_every_intensity(made, results):
     for (imt, _, x, p), array in zip(found.values(), results.arrays, strict=True):
         assert imt == "PGA"
         assert x == pytest.approx(results.plan.input.intensities)
-        for row, wanted in zip(p, chances_of(results, array), strict=True):
+        for row, wanted in zip(p, probabilities_of(results, array), strict=True):
             assert row == pytest.approx(wanted, abs=1.01e-6)
             assert (row >= wanted - 1e-11).all()
             assert (np.diff(row) >= 0.0).all()

@@ -321,15 +321,15 @@ def test_chances_and_medians_are_rounded_to_the_safe_side(tmp_path):
     found = run(tmp_path, study_arrays=arrays, site_intensity=1.0, intensities="0.2 to 2 by 0.2")
     array = found.arrays[0]
     for value, text in ((1.0, "100 %"), (0.9961, "100 %"), (0.1441, "15 %"), (0.00123, "0.13 %")):
-        chance = dataclasses.replace(array.chances[0], value=value, low=value, high=value)
-        one = dataclasses.replace(array, chances=(chance,))
+        chance = dataclasses.replace(array.exceedances[0], value=value, low=value, high=value)
+        one = dataclasses.replace(array, exceedances=(chance,))
         line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
         assert f": {text} (" in line
     for theta, beta in ((1.2345, 0.0561), (0.99999, 0.2), (12.39, 1.011)):
         state = array.states[2]
         known = dataclasses.replace(state.fragility, fitted=Lognormal(theta=theta, beta=beta))
         one = dataclasses.replace(
-            array, chances=(), states=(dataclasses.replace(state, fragility=known),)
+            array, exceedances=(), states=(dataclasses.replace(state, fragility=known),)
         )
         line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
         printed, spread = map(float, re.search(r" ([\d.]+) g, beta ([\d.]+)", line).groups())

@@ -111,7 +111,7 @@ def with_state(results, motions, *, allow_matched=False, **changes):
         fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
     one = ArrayResult(
-        plan=array, states=(state,), chances=(), bars=(), center_m=math.nan, capacity_runs=0
+        plan=array, states=(state,), exceedances=(), bars=(), center_m=math.nan, capacity_runs=0
     )
     given_ = results.plan.input
     study = given_.study.model_copy(update=changes)
