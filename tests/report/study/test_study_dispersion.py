@@ -66,7 +66,6 @@ def test_the_dispersions_of_slip_are_those_of_the_yield_acceleration(results):
     """It is proportional to the intensity at which slip begins, of every motion."""
     theta = math.radians(2.0)
     on_slope, flat, untested = (one.states[0].effects for one in results.arrays)
-    above, below = (yields(0.4 * math.exp(s * SIGMA), theta) for s in (1.0, -1.0))
     mu = results.arrays[0].plan.mu
     above, below = (yields(mu * math.exp(s * SIGMA), theta) for s in (1.0, -1.0))
     assert on_slope[FRICTION] == pytest.approx(half_log(above, below), rel=1e-9)
@@ -81,12 +80,8 @@ def test_a_slope_about_none_disperses_as_its_size(results):
     mu = results.arrays[1].plan.mu
     wanted = half_log(yields(mu, 0.0), yields(mu, OFF_RAD))
     assert results.arrays[1].states[0].effects[SLOPE] == pytest.approx(wanted, rel=1e-9)
-    said = ["The slope below is 0" in notes_of(results, one) for one in results.arrays]
-    assert said == [False, True, False]
-
-
-def notes_of(results, one):
-    return " ".join(table_of(results, one).notes)
+    notes = [" ".join(table_of(results, one).notes) for one in results.arrays]
+    assert ["The slope below is 0" in said for said in notes] == [False, True, False]
 
 
 def table_of(results, one):

@@ -53,13 +53,14 @@ def results(tmp_path_factory):
     return dataclasses.replace(found, arrays=(one,))
 
 
-def test_the_chart_has_a_panel_for_each_state_with_a_p_value(results):
+def test_the_chart_has_a_panel_for_each_state_with_the_p_value_of_the_table(results):
     load_fonts(TEMPLATES / "fonts")
     charts = pages(results, results.arrays[0]).charts
     assert list(charts) == ["fragility", "goodness"]
     texts = re.findall(r">(LS\d: [^<]*)<", charts["goodness"])
     p = [digits_down(s.fragility.p_value, 2) for s in results.arrays[0].states[:2]]
     assert texts == [f"LS1: p = {p[0]}", f"LS2: p = {p[1]}"]
+    assert printed.study(results).table("Fragilities").column("p of fit") == [*p, "—"]
     assert "leave in 5\u00a0% of lognormal samples." in printed.study(results)
 
 
@@ -78,14 +79,6 @@ def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(res
         off = np.maximum(ranks[1:] - chance, chance - ranks[:-1]).max()
         assert (off < f.critical) == is_inside == (f.p_value > 0.05)
     assert math.isnan(results.arrays[0].states[2].fragility.critical)
-
-
-def test_the_table_has_the_p_value_of_each_state(results):
-    table = printed.study(results).table("Fragilities")
-    shown = table.column("p of fit")
-    p = [digits_down(s.fragility.p_value, 2) for s in results.arrays[0].states[:2]]
-    assert shown == [*p, "—"]
-    assert "Lilliefors" in table.notes[0]
 
 
 def test_the_workbook_has_the_p_value_and_the_motions_that_fall_below_the_limit_again(results):

@@ -11,7 +11,7 @@ import defusedxml.ElementTree
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from test_study_read import at, given, problems, write
+from test_study_read import given, write
 
 import printed
 from report.cli.main import main
@@ -26,7 +26,7 @@ from report.study.words import headline, warning
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
-from studied import motion
+from studied import motion, with_study
 
 
 def like(number, factor):
@@ -113,16 +113,9 @@ def with_state(results, motions, *, allow_matched=False, **changes):
     one = ArrayResult(
         plan=array, states=(state,), exceedances=(), bars=(), center_m=math.nan, capacity_runs=0
     )
-    given_ = results.plan.input
-    study = given_.study.model_copy(update=changes)
-    plan = dataclasses.replace(results.plan, input=dataclasses.replace(given_, study=study))
-    return dataclasses.replace(
-        results,
-        plan=plan,
-        arrays=(one,),
-        spread=spectral_spread([motions]),
-        allow_matched=allow_matched,
-    )
+    spread = spectral_spread([motions])
+    other = with_study(results, **changes)
+    return dataclasses.replace(other, arrays=(one,), spread=spread, allow_matched=allow_matched)
 
 
 MATCHED = [like(1, 1.0), like(1, 1.02), like(1, 0.98)]
@@ -197,16 +190,3 @@ def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, m
     assert again.exit_code == 0, again.output
     assert "The fragility files are not written" in again.output
     assert not FILES & {path.name for path in out.iterdir()}
-
-
-def test_a_dispersion_and_its_source_need_each_other(tmp_path):
-    for changes, line in (
-        ({"record_beta": 0.4}, "source>: the record-to-record dispersion needs its source"),
-        ({"record_source": "A paper"}, "dispersion>: a source is given without the dispersion"),
-    ):
-        found = problems(write(tmp_path, given(**changes)))
-        assert at(f"<Study/Record-to-record {line}") in found
-
-
-def test_the_limits_state_the_validation(results):
-    assert "has not been validated against shake-table tests" in said(results, [motion(1)])
