@@ -16,10 +16,11 @@ from report.typeset.pdf import TEMPLATES
 from report.words.validation import NOT_VALIDATED, explained
 from solver.verification.checks import SECTIONS
 from solver.verification.design_checks import design_checks
-from solver.verification.evidence import CheckRow, Verification
+from solver.verification.evidence import CheckRow
 from solver.verification.features import FEATURES, statuses
 from solver.verification.shake_table import compare
 from solver.verification.table_tests import table_tests
+from verified import only
 
 compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
 
@@ -30,26 +31,18 @@ def row(id, *, passed=True):
                     passed=passed)  # fmt: skip
 
 
-def verification(checks=(), *found):
-    nothing = dict.fromkeys(
-        ("work", "maps", "convergence", "links", "curves", "conditioning", "roofs", "rungs"), ()
-    )
-    return Verification(**nothing, checks=tuple(checks), tables=found, peers=(), records=(),
-                        quick=True, seconds=1.0)  # fmt: skip
-
-
 def every():
     return [row(id) for feature in FEATURES for id in feature.checks]
 
 
-def page(section, *found):
+def page(section):
     """A section of the manual."""
-    return printed.manual(verification((), *found), section)
+    return printed.manual(only(), section)
 
 
 def features_of(checks, *found):
     """The rows of the table of features by name."""
-    table = page(features(verification(checks, *found))).table("Features")
+    table = page(features(only(checks=tuple(checks), tables=found))).table("Features")
     return {name: list(cells) for name, *cells in table.cells}
 
 
@@ -130,7 +123,7 @@ def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_
 
 
 def test_without_tests_the_manual_says_that_nothing_is_validated():
-    said = page(shake_table(verification()))
+    said = page(shake_table(only()))
     assert explained(()) in said
     assert "option --table" in said
     assert "the median of the ratios is 0.9 to 1.1" in said
@@ -139,7 +132,7 @@ def test_without_tests_the_manual_says_that_nothing_is_validated():
 @compiled
 def test_computed_slip_validates_nothing_however_well_it_agrees(table):
     made = table((0.99, 1.0, 1.0, 1.0, 1.01))
-    said = page(shake_table(verification(every(), made)))
+    said = page(shake_table(only(tables=(made,))))
     assert "the slip of 0 was measured and that of 5 was computed" in said
     assert "A slip that was computed validates nothing" in said
     assert f"The acceptance is satisfied. {NOT_VALIDATED}" in said
@@ -171,9 +164,9 @@ def test_what_is_not_accepted_is_said_with_its_numbers(table):
 
 @compiled
 def test_the_chart_has_a_dot_for_each_test(table):
-    section = shake_table(verification((), table((1.0, 1.1, 1.2))))
+    section = shake_table(only(tables=(table((1.0, 1.1, 1.2)),)))
     assert section.charts["shake-table"].count("<use ") >= 3
-    assert "gray: ratios of 0.75 to 1.33" in page(section, table((1.0, 1.1, 1.2)))
+    assert "gray: ratios of 0.75 to 1.33" in page(section)
 
 
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():

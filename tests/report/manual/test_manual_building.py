@@ -24,9 +24,9 @@ from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification import building_checks as checks
 from solver.verification.building import BY_HEIGHT, SPECTRUM_S, compare, recorded_buildings
-from solver.verification.evidence import Verification
 from solver.verification.identification import identify
 from solver.verification.scenes import own_records
+from verified import only
 
 pytestmark = [
     pytest.mark.skipif(
@@ -59,28 +59,9 @@ def fonts():
     load_fonts(TEMPLATES / "fonts")
 
 
-def verification(*roofs):
-    nothing = dict.fromkeys(
-        (
-            "checks",
-            "work",
-            "maps",
-            "convergence",
-            "links",
-            "curves",
-            "conditioning",
-            "tables",
-            "rungs",
-            "peers",
-        ),
-        (),
-    )
-    return Verification(**nothing, roofs=roofs, records=(), quick=True, seconds=1.0)
-
-
 def page(*roofs):
     """The section on buildings below the summary."""
-    found = verification(*roofs)
+    found = only(roofs=roofs)
     return printed.manual(found, summary(found), building(found))
 
 
@@ -265,8 +246,8 @@ def test_with_records_the_manual_says_how_far_off_each_prediction_is(comparison,
 
 def test_charts_name_each_line_and_only_records_have_a_history(comparison, recorded):
     name = "building-model-building-of-24-stories"
-    first = building(verification(comparison)).charts[name]
-    (other,) = building(verification(recorded)).charts.values()
+    first = building(only(roofs=(comparison,))).charts[name]
+    (other,) = building(only(roofs=(recorded,))).charts.values()
     for text in (">ground<", ">roof, integrated directly<", ">fitted to the 12th floor<"):
         assert text in first
     for text in (">roof, recorded<", f">{BY_HEIGHT}<", ">Roof acceleration: recorded (solid)"):

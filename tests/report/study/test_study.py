@@ -23,16 +23,13 @@ import printed
 from report.cli.main import main
 from report.cli.study import make
 from report.results.publish import locked
-from report.sheet.schema import UnitsFirst
 from report.study import figures, files
 from report.study.exports import component_id, export_files, known_states, probabilities_of
 from report.study.files import study_html
 from report.study.prescribed import compare
-from report.study.read import read_study
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.tables import curves_csv, study_xlsx
-from report.study.template import write_study
 from report.study.words import design_words, headline
 from report.typeset.pdf import lay_out
 from report.words.units import Quantity
@@ -536,12 +533,6 @@ def test_an_array_whose_runs_are_censored_has_no_chance_of_zero_in_openquake(res
 def test_without_arrays_there_is_nothing_to_export(other):
     found = other(study_arrays=(), site_intensity=None, intensity_beta=0.0)
     assert export_files(found) == {}
-
-
-def test_the_workbook_of_a_study_is_the_same_in_si(tmp_path):
-    write(tmp_path, small())
-    write_study(tmp_path / "input.xlsx", units=UnitsFirst.SI, example=small(units_first="SI"))
-    assert read_study(tmp_path).input.study.allowed_m == pytest.approx(0.1)
 
 
 # What a user may do to the folder of a study
