@@ -1,7 +1,5 @@
 """Small campaigns for the tests of studies."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from solver.model import Motion
@@ -48,11 +46,3 @@ def campaign(letters="x", count=2, *, mus=MUS, intensities=INTENSITIES, building
         for b in range(buildings)
     )
     return Campaign(motions=sets, cases=grid(buildings, SLOPES, mus, intensities))
-
-
-def with_study(results, **changes):
-    """The results of a study whose sheet Study has other values."""
-    given = results.plan.input
-    study = given.study.model_copy(update=changes)
-    plan = replace(results.plan, input=replace(given, study=study))
-    return replace(results, plan=plan)

@@ -4,10 +4,8 @@ import os
 import signal
 
 import pytest
-from click.testing import CliRunner
-from test_study_read import write
+from test_study_read import command, write
 
-from report.cli.main import main
 from report.study import cluster as clusters
 from report.study.cluster import connected, run_on_cluster
 from report.study.manifest import manifest_of
@@ -71,9 +69,7 @@ def test_workers_of_another_version_are_an_error_before_anything_runs(cluster):
 @pytest.mark.nightly("report/study/cluster.py")
 def test_a_study_runs_on_a_cluster(cluster, tmp_path):
     folder = write(tmp_path)
-    done = CliRunner().invoke(
-        main, ["study", str(folder), "--scheduler", cluster.scheduler_address, "--quiet"]
-    )
+    done = command(folder, "--scheduler", cluster.scheduler_address, "--quiet")
     assert done.exit_code == 0, done.output
     assert (folder / "out" / "study" / "study.pdf").is_file()
 
@@ -101,7 +97,7 @@ def test_a_cluster_that_cannot_be_reached_is_an_error_before_anything_runs(
 ):
     monkeypatch.setattr(clusters, "TIMEOUT_S", 0.5)
     folder = write(tmp_path)
-    done = CliRunner().invoke(main, ["study", str(folder), "--scheduler", address])
+    done = command(folder, "--scheduler", address)
     assert done.exit_code == 2
     assert wanted in done.output
     assert not (folder / "out").exists()

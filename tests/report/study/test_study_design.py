@@ -1,7 +1,6 @@
 """The design displacement of a study: that of a package; and answers on the safe side."""
 
 import dataclasses
-import io
 import json
 import math
 import re
@@ -11,8 +10,7 @@ import pytest
 from hypothesis import HealthCheck, example, settings
 from hypothesis import given as over
 from hypothesis import strategies as st
-from openpyxl import load_workbook
-from test_study_read import given, write
+from test_study_read import given, sheet_rows, with_study, write
 
 import printed
 import stand_in
@@ -23,7 +21,6 @@ from report.study.prescribed import compare
 from report.study.results import STATISTICS
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, Mat, RuleSetName, StudyArray
-from report.study.tables import study_xlsx
 from report.study.words import both, design_words, headline
 from solver.rules.provisions import (
     RULE_SETS,
@@ -32,7 +29,6 @@ from solver.rules.provisions import (
     prescriptive_displacement,
 )
 from solver.studies.fragility import Lognormal
-from studied import with_study
 
 S_DS = 1.0
 S_DS_GIVEN = {"intensity": Intensity.S_DS, "s_ds_g": 0.5, "intensities": "0.5, 1, 2"}
@@ -127,8 +123,7 @@ def test_the_manifest_states_the_rule_and_the_answers_have_the_design_displaceme
     about = results.manifest["design_displacement"]
     assert json.loads(json.dumps(about))["floor_m"] == results.plan.design_rule.floor_m.tolist()
     assert (about["rule_set"], about["statistic"]) == ("SEAOC PV1-2012", "1.1 x mean")
-    book = load_workbook(io.BytesIO(study_xlsx(results)))
-    named = {row[1].value for row in book["Least friction"].iter_rows(min_row=2)}
+    named = {row["Displacement"] for row in sheet_rows(results, "Least friction")}
     assert named == {"design displacement", *STATISTICS}
 
 

@@ -1,21 +1,18 @@
 """The goodness of fit of a fragility: its chart, its column and its cells in study.xlsx."""
 
 import dataclasses
-import io
 import math
 import re
 
 import numpy as np
 import pytest
-from openpyxl import load_workbook
-from test_study_read import given, write
+from test_study_read import given, sheet_rows, write
 
 import printed
 from report.figures.base import load_fonts
 from report.study.array_page import fragility as pages
 from report.study.results import LimitState
 from report.study.run import planned, run_study
-from report.study.tables import study_xlsx
 from report.typeset.pdf import TEMPLATES
 from report.words.units import digits_down
 from solver.studies.capacity import Capacities
@@ -82,9 +79,7 @@ def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(res
 
 
 def test_the_workbook_has_the_p_value_and_the_motions_that_fall_below_the_limit_again(results):
-    sheet = load_workbook(io.BytesIO(study_xlsx(results)))["Fragility"]
-    heads = [cell.value for cell in sheet[1]]
-    rows = [dict(zip(heads, (c.value for c in row), strict=True)) for row in sheet.iter_rows(2)]
+    rows = sheet_rows(results, "Fragility")
     assert [row["Motions below the limit again"] for row in rows] == [0, 2, 0]
     assert [row["Censored capacities"] for row in rows] == [0, 0, 1]
     p = [row["Lilliefors p of fit"] for row in rows]

@@ -2,7 +2,9 @@
 
 import datetime as dt
 import importlib.util
+import io
 import shutil
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,6 +12,7 @@ from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner
+from openpyxl import load_workbook
 
 from cells import address, addressed, cell
 from places import ROOT
@@ -29,6 +32,7 @@ from report.study.schema import (
     StudyMotion,
     values,
 )
+from report.study.tables import study_xlsx
 from report.study.template import write_study
 from sheets import edit, type_into
 from solver.model import InputError
@@ -67,6 +71,24 @@ def write(folder, study=None, *, motions=3, letters="x"):
             write_record(records / f"{name}.csv", record)
     write_study(folder / "input.xlsx", units=UnitsFirst.US, example=study or given())
     return folder
+
+
+def command(source, *options):
+    """Do what `roofslip study` does with a folder or a workbook."""
+    return CliRunner().invoke(main, ["study", str(source), *map(str, options)])
+
+
+def with_study(results, **changes):
+    """The results of a study whose sheet Study has other values."""
+    former = results.plan.input
+    study = former.study.model_copy(update=changes)
+    return replace(results, plan=replace(results.plan, input=replace(former, study=study)))
+
+
+def sheet_rows(results, sheet):
+    """The rows of a sheet of study.xlsx, each cell by its heading."""
+    heads, *rows = load_workbook(io.BytesIO(study_xlsx(results)))[sheet].values
+    return [dict(zip(heads, row, strict=True)) for row in rows]
 
 
 def plan(folder):
@@ -299,7 +321,7 @@ def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
     assert cell.startswith("Mats!")
     assert text.startswith("the sheet is hidden, and cells ")
     assert text.endswith(" on it are read: show it, or clear what is not meant")
-    shown = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
+    shown = command(folder, "--dry-run")
     assert f"warning: {cell}: {text}" in shown.stderr
 
 

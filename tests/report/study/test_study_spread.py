@@ -10,11 +10,9 @@ from statistics import NormalDist
 import defusedxml.ElementTree
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from test_study_read import given, write
+from test_study_read import command, given, with_study, write
 
 import printed
-from report.cli.main import main
 from report.study import files
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
@@ -26,7 +24,7 @@ from report.study.words import headline, warning
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
-from studied import motion, with_study
+from studied import motion
 
 
 def like(number, factor):
@@ -181,12 +179,12 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
 def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "lay_out", str.encode)
     folder = write(tmp_path, given(intensities="0.2 to 2.4 by 0.2"), motions=1)
-    first = CliRunner().invoke(main, ["study", str(folder), "--allow-matched"])
+    first = command(folder, "--allow-matched")
     assert first.exit_code == 0, first.output
     out = folder / "out" / "study"
     assert (out / "fragility.xml").exists()
     assert "Warning: the record-to-record spread of 1 motion cannot be measured" in first.output
-    again = CliRunner().invoke(main, ["study", str(folder)])
+    again = command(folder)
     assert again.exit_code == 0, again.output
     assert "The fragility files are not written" in again.output
     assert not FILES & {path.name for path in out.iterdir()}
