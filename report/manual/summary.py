@@ -21,6 +21,13 @@ from solver.verification.evidence import CheckRow, Verification, WorkPoint
 from solver.verification.features import statuses
 from solver.verification.rung_evidence import SECOND, WORST
 
+_KEY_RESULTS = (
+    (words("Quantity", 2.6), str),
+    (words("Result", 2.9), str),
+    (words("Section", 0.7), str),
+)
+"""Its rows are in the template."""
+
 
 def judged(is_passed: bool) -> Markup:
     """Return PASS, or FAIL highlighted."""
@@ -45,6 +52,7 @@ def summary(verification: Verification) -> Section:
         title="Summary",
         template="manual/summary.html",
         content={
+            "key_results": listed((), _KEY_RESULTS),
             "floor": floor(verification),
             "exact_s": float(np.median(exact)) if exact else math.nan,
             "times_longer": _times_longer(work, paper),
