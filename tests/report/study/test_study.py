@@ -466,8 +466,9 @@ def test_openquake_takes_the_levels_in_its_unit_and_each_file_says_of_which_moti
 ):
     made = export_files(with_study(results, **changes))
     _, found = read_nrml(made["fragility.xml"])
-    for name, _, x, _ in found.values():
+    for name, limit, x, _ in found.values():
         assert name == imt
+        assert limit == pytest.approx(1e-3 * x[0])
         assert x == pytest.approx(per_unit * np.array(results.plan.input.intensities))
     assert said in made["fragility.xml"].decode()
     placed = list(csv.DictReader(io.StringIO(made["placement.csv"].decode())))
