@@ -6,6 +6,7 @@ with its figures not drawn and without layout. Tests read pages here, whatever m
 
 from __future__ import annotations
 
+import datetime as dt
 import re
 from collections import OrderedDict
 from collections.abc import Iterator, Mapping
@@ -21,12 +22,16 @@ from report.assessment.evidence import plotted
 from report.assessment.highpass import beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.remedies import remedies
+from report.document.sections import Section
+from report.manual.machine import this_machine
+from report.manual.render import manual_html
 from report.package.html import part
 from report.pages.parts import PackageData
 from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
 from report.pages.registry import PAGES, package_data
 from report.study.files import study_html
 from report.study.results import StudyResults
+from solver.verification.evidence import Verification
 
 FRONT = ("cover", "contents", "letter")
 IDS = tuple(page.id for page in PAGES)
@@ -107,6 +112,11 @@ def study(results: StudyResults) -> Page:
     """Return the pages of a study."""
     with packages.undrawn():
         return read(study_html(results))
+
+
+def manual(verification: Verification, *sections: Section) -> Page:
+    """Return the cover of the manual and some of its sections."""
+    return read(manual_html(verification, sections, this_machine(), dt.date(2026, 3, 5)))
 
 
 class _Evidence:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copyreg
 import datetime as dt
 import pickle
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -23,6 +23,12 @@ from solver.verification.evidence import Verification
 from solver.verification.run import verify
 
 DATE = dt.date(2026, 3, 5)
+
+
+def only(**found: object) -> Verification:
+    """Return a verification that has found nothing but this."""
+    nothing = dict.fromkeys((field.name for field in fields(Verification)), ())
+    return Verification(**{**nothing, "quick": True, "seconds": 1.0, **found})
 
 
 def read_only(mapping: dict[str, object]) -> MappingProxyType[str, object]:

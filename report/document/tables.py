@@ -6,7 +6,7 @@ Templates print these. Owns no content. Read `table_of`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Any
 
@@ -16,6 +16,9 @@ from report.assessment.verdict import Verdict
 from report.entities.columns import TableColumn, UnitFormat
 from report.entities.shown import Entity, Shown, shown_by
 from solver.model import DefectError
+
+PLAIN = UnitFormat(us_first=True, none="—")
+"""The format of a table without quantities in two systems of units."""
 
 WHOLE_ROWS = 6  # longer tables may break across pages, with the heading repeated
 
@@ -153,8 +156,8 @@ A value that is `Wide` covers the columns that follow.
 def listed(
     items: Iterable[Any],
     columns: Sequence[Column],
-    caption: str,
-    fmt: UnitFormat,
+    caption: str = "",
+    fmt: UnitFormat = PLAIN,
     *,
     kind: str = "",
     notes: Sequence[str] = (),
@@ -183,6 +186,31 @@ def listed(
         kind=kind,
         whole_rows=whole_rows,
     )
+
+
+def grouped(
+    groups: Mapping[str, Iterable[Any]], columns: Sequence[Column], kind: str = ""
+) -> Table:
+    """Return the same below a row that names each group of items."""
+    table, rows = listed((), columns, kind=kind), []
+    for name, items in groups.items():
+        rows.append(TableRow(cells=(Wide(name, len(table.columns)),), kind="total"))
+        rows += listed(items, columns).rows
+    return replace(table, rows=tuple(rows))
+
+
+def with_total(table: Table, cells: Sequence[str], *, is_first: bool = False) -> Table:
+    """Return a table with a row that the others are compared with, first or last."""
+    row = TableRow(cells=tuple(cells), kind="total")
+    return replace(table, rows=(row, *table.rows) if is_first else (*table.rows, row))
+
+
+def by_name(items: Iterable[Any], name_of: Callable[[Any], str]) -> Mapping[str, list[Any]]:
+    """Return items in groups of one name, in the order of their first items."""
+    groups: dict[str, list[Any]] = {}
+    for item in items:
+        groups.setdefault(name_of(item), []).append(item)
+    return groups
 
 
 def _listed_cells(columns: Sequence[Column], item: Any, fmt: UnitFormat) -> Iterator[str | Wide]:

@@ -13,15 +13,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from jinja2 import pass_context
+from markupsafe import Markup
 
 from report.assessment.foresight import limit_value
 from report.assessment.friction import mu_words
 from report.document.tables import Table, stamp, table_of
 from report.entities.marks import dagger
-from report.typeset.equations import symbol
-from report.words.counts import capitalized, counted, spelled
-from report.words.letters import below_mm, power_above
-from report.words.units import Quantity, number
+from report.typeset.equations import data_uri, symbol
+from report.words.counts import capitalized, counted, joined, spelled
+from report.words.formats import general, percent, scientific, seconds
+from report.words.letters import below_mm, lettered, power_above
+from report.words.units import Quantity, digits_down, digits_up, number
 from solver.rules.provisions import Check
 
 if TYPE_CHECKING:
@@ -38,6 +40,12 @@ def sentence(folder: Path, name: str, package: object) -> str:
     """Return a sentence that pages and the screen share, from `sentences.html`."""
     macros = _environment(folder).get_template("sentences.html").module
     return " ".join(str(getattr(macros, name)(package)).split())
+
+
+def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
+    """Return what a macro of a template says, as plain text: for tables and the screen."""
+    module = _environment(folder).get_template(path).make_module(dict(context))
+    return Markup(getattr(module, name)()).unescape().strip()
 
 
 @cache
@@ -58,15 +66,24 @@ def _environment(folder: Path) -> Environment:
         "capitalized": capitalized,
         "clause": _clause,
         "counted": counted,
+        "data_uri": data_uri,
         "degrees": lambda value_rad, decimals: number(math.degrees(value_rad), decimals),
         "dagger": dagger,
+        "digits_down": digits_down,
+        "digits_up": digits_up,
         "friction": mu_words,
+        "general": general,
+        "joined": joined,
+        "lettered": lettered,
         "lowered": lambda text: text[:1].lower() + text[1:],
         "mark": _mark,
         "number": number,
+        "percent": percent,
         "power_above": power_above,
         "of_check": _of_check,
         "rule_length": _rule_length,
+        "scientific": scientific,
+        "seconds": seconds,
         "spelled": spelled,
         "stamp": stamp,
         "symbol": symbol,

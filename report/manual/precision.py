@@ -3,31 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from report.document.blocks import Picture
-from report.document.tables import Table, TableRow
-from report.entities.columns import TableColumn
+from report.document.sections import Section
+from report.document.tables import Column, Table, by_name, listed
+from report.entities.shown import text, words
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
-from report.manual.blocks import (
-    Block,
-    Chart,
-    ManualSection,
-    joined,
-    percent,
-    scientific,
-    seconds,
-    slug,
-)
+from report.words.formats import percent, seconds, slug
 from report.words.letters import lettered
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import (
-    Verification,
-    WorkPoint,
-)
+from solver.verification.evidence import Verification, WorkPoint
 
 LEAST_PERCENT = 1e-6
 """Smallest error drawn in the charts of single methods; smaller ones are drawn there."""
@@ -39,53 +28,32 @@ def floor(verification: Verification) -> float:
     return max([1e-16, *errors])
 
 
-def work(verification: Verification) -> ManualSection:
+def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
-    least = floor(verification)
-    cases = len({(p.record, p.scene) for p in verification.work})
-    lost = [p for p in verification.work if math.isnan(p.seconds) or math.isnan(p.prd_error_m)]
-    missing = f"All {len(verification.work)} runs gave a result."
-    if lost:
-        missing = (
-            f"{len(lost)} of {len(verification.work)} runs failed and are not drawn "
-            f"({_lost(lost)})."
-        )
-    meters = least * _typical_prd_m(verification.work)
-    return ManualSection(
+    points, least = verification.work, floor(verification)
+    envelopes = {name: f"work-each-{slug(name)}" for _, name in figures.PANELS}
+    return Section(
         id="work",
         title="Accuracy against run time",
-        blocks=(
-            Block(
-                texts=(
-                    f"Every method is run on {cases} analysis cases with its settings from coarse "
-                    "to fine. Lower points are more accurate; points further left are faster. The "
-                    f"exact method has no setting; it is drawn at {scientific(100.0 * least)} %, "
-                    "its largest error against 50-digit arithmetic (section 3).",
-                ),
-                charts=(
-                    Chart(
-                        name="work-percent",
-                        picture=Picture(
-                            svg=figures.overview(verification.work, "percent", 100.0 * least),
-                            caption=f"Error in percent: medians over the analysis cases. {missing}",
-                            alt="Error in percent against time per run, all methods",
-                        ),
-                    ),
-                    Chart(
-                        name="work-meters",
-                        picture=Picture(
-                            svg=figures.overview(verification.work, "m", meters),
-                            caption="Error in meters: medians over the analysis cases. The exact "
-                            "method is drawn at its relative error times the median PRD. "
-                            f"{missing}",
-                            alt="Error in meters against time per run, all methods",
-                        ),
-                    ),
-                    *_envelopes(verification),
-                ),
-                tables=(_work_table(verification.work),),
+        template="manual/work.html",
+        content={
+            "cases": len({(p.record, p.scene) for p in points}),
+            "lost": Counter(
+                p.method for p in points if math.isnan(p.seconds) or math.isnan(p.prd_error_m)
             ),
-        ),
+            "floor_percent": 100.0 * least,
+            "least_percent": power_of_ten(LEAST_PERCENT),
+            "envelopes": envelopes,
+            "medians": _medians(points),
+        },
+        charts={
+            "work-percent": figures.overview(points, "percent", 100.0 * least),
+            "work-meters": figures.overview(points, "m", least * _typical_prd_m(points)),
+            **{
+                envelopes[name]: figures.by_method(points, measure, LEAST_PERCENT)
+                for measure, name in figures.PANELS
+            },
+        },
     )
 
 
@@ -97,78 +65,60 @@ def _typical_prd_m(points: Sequence[WorkPoint]) -> float:
     return float(np.median(prds)) if prds else 1.0
 
 
-def _lost(points: Sequence[WorkPoint]) -> str:
-    names = dict.fromkeys(p.method for p in points)
-    return joined([f"{name}: {sum(p.method == name for p in points)}" for name in names])
-
-
-def _envelopes(verification: Verification) -> Iterator[Chart]:
-    for measure, name in figures.PANELS:
-        yield Chart(
-            name=f"work-each-{slug(name)}",
-            picture=Picture(
-                svg=figures.by_method(verification.work, measure, LEAST_PERCENT),
-                caption=f"Error in {name} by method. Dots: runs; band: least to largest error over "
-                "the analysis cases, at the median time; dark line: medians; light lines: medians "
-                f"of the other methods. Errors below {power_of_ten(LEAST_PERCENT)} % are drawn at "
-                f"{power_of_ten(LEAST_PERCENT)} %.",
-                alt=f"Error in {name} against time per run, a panel for each method",
-            ),
-        )
-
-
-def _work_table(points: Sequence[WorkPoint]) -> Table:
-    rows = []
-    for name in dict.fromkeys(p.method for p in points):
-        own = [p for p in points if p.method == name]
-        settings = list(dict.fromkeys(p.setting for p in own if not math.isnan(p.setting)))
-        shown = settings[::2] if len(settings) > 5 else settings
-        groups = [[p for p in own if p.setting == value] for value in shown] or [own]
-        rows += [_work_row(name, group, is_first=n == 0) for n, group in enumerate(groups)]
-    return Table(
-        caption="Median times, and median and largest errors, over the analysis cases",
-        columns=(
-            TableColumn(head="Method", align="left", share=3.6),
-            TableColumn(head="Setting", align="left", share=1.4),
-            TableColumn(head="Time per run", share=1.2),
-            TableColumn(head="Error in PRD", unit="median", share=1.2),
-            TableColumn(head="Error in PRD", unit="largest", share=1.2),
-            TableColumn(head="Error in residual", unit="median", share=1.2),
-            TableColumn(head="Error in residual", unit="largest", share=1.2),
-            TableColumn(head="Failed", share=0.7),
-        ),
-        rows=tuple(rows),
-        notes=(
-            "Where a method has more than five settings, every second one is shown; all are in "
-            "verification.csv.",
+def _medians(points: Sequence[WorkPoint]) -> Table:
+    return listed(
+        _shown(points),
+        (
+            (words("Method", 3.6), lambda row: row[0]),
+            (words("Setting", 1.4), lambda row: _setting(row[1][0])),
+            (text("Time per run", share=1.2), lambda row: _time(row[1])),
+            *_errors("Error in PRD", "prd_error_percent"),
+            *_errors("Error in residual", "residual_error_percent"),
+            (text("Failed", share=0.7), lambda row: len(row[1]) - len(_good(row[1]))),
         ),
         kind="compact",
     )
 
 
-def _work_row(name: str, points: Sequence[WorkPoint], *, is_first: bool) -> TableRow:
-    good = [p for p in points if not math.isnan(p.seconds)]
-    errors: tuple[str, ...] = ("—",) * 4
-    if name == "exact":
-        errors = ("reference",) * 4
-    elif good:
-        prd = [p.prd_error_percent for p in good]
-        residual = [p.residual_error_percent for p in good]
-        errors = tuple(percent(float(f(v))) for v in (prd, residual) for f in (np.median, np.max))
-    return TableRow(
-        cells=(
-            lettered(METHODS[name].title) if is_first else "",
-            _setting(name, points[0].setting),
-            seconds(float(np.median([p.seconds for p in good]))) if good else "—",
-            *errors,
-            str(len(points) - len(good)),
-        )
+def _shown(points: Sequence[WorkPoint]) -> Iterator[tuple[str, Sequence[WorkPoint]]]:
+    """Yield the runs of each setting that is shown, the first with the name of its method."""
+    for name, own in by_name(points, lambda point: point.method).items():
+        settings = list(dict.fromkeys(p.setting for p in own if not math.isnan(p.setting)))
+        shown = settings[::2] if len(settings) > 5 else settings
+        groups = [[p for p in own if p.setting == value] for value in shown] or [own]
+        for count, group in enumerate(groups):
+            yield "" if count else lettered(METHODS[name].title), group
+
+
+def _setting(point: WorkPoint) -> str:
+    knob = METHODS[point.method].knob
+    if knob == "substeps":
+        return f"P = {point.setting:g}"
+    form = {"stiffness_per_m": "k = {} /m", "tolerance": "tol. {}"}
+    return form[knob].format(power_of_ten(point.setting)) if knob in form else "none"
+
+
+def _good(points: Sequence[WorkPoint]) -> list[WorkPoint]:
+    return [point for point in points if not math.isnan(point.seconds)]
+
+
+def _time(points: Sequence[WorkPoint]) -> str:
+    good = _good(points)
+    return seconds(float(np.median([p.seconds for p in good]))) if good else "—"
+
+
+def _errors(head: str, measure: str) -> tuple[Column, Column]:
+    """Return the columns of the median and of the largest error."""
+    return (
+        (text(head, "median", 1.2), lambda row: _error(row[1], measure, np.median)),
+        (text(head, "largest", 1.2), lambda row: _error(row[1], measure, np.max)),
     )
 
 
-def _setting(name: str, value: float) -> str:
-    knob = METHODS[name].knob
-    if knob == "substeps":
-        return f"P = {value:g}"
-    form = {"stiffness_per_m": "k = {} /m", "tolerance": "tol. {}"}
-    return form[knob].format(power_of_ten(value)) if knob in form else "none"
+def _error(
+    points: Sequence[WorkPoint], measure: str, of: Callable[[Sequence[float]], float]
+) -> str:
+    if points[0].method == "exact":
+        return "reference"
+    errors = [getattr(point, measure) for point in _good(points)]
+    return percent(float(of(errors))) if errors else "—"

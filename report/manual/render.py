@@ -6,17 +6,19 @@ Read `report.manual.sections` next.
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from markupsafe import Markup
 
+from report.document.sections import Section, filled
 from report.document.templates import rendered
 from report.figures.base import load_fonts
-from report.manual.blocks import ManualSection, numbered
-from report.manual.front import extent, passed, verdict_line
 from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
+from report.manual.summary import verdict_line
 from report.manual.table import verification_csv
+from report.pages.symbols import with_symbols
 from report.typeset.pdf import TEMPLATES, lay_out
 from report.words.validation import validation
 from solver.verification.evidence import Verification
@@ -38,36 +40,31 @@ def files(
     parts = sections(verification, machine)
     on_stage("Laying out the manual")
     pdf = lay_out(manual_html(verification, parts, machine, date))
-    charts = [chart for part in parts for block in part.blocks for chart in block.charts]
+    charts = {name: svg for part in parts for name, svg in part.charts.items()}
     return {
         "verification.pdf": pdf,
         "verification.csv": verification_csv(verification),
-        **{f"charts/{chart.name}.svg": chart.picture.svg.encode() for chart in charts},
+        **{f"charts/{name}.svg": svg.encode() for name, svg in charts.items()},
     }
 
 
 def manual_html(
-    verification: Verification, parts: tuple[ManualSection, ...], machine: Machine, date: dt.date
+    verification: Verification, parts: Sequence[Section], machine: Machine, date: dt.date
 ) -> str:
     """Return the manual as HTML, before layout."""
     styles = (TEMPLATES / name for name in ("package.css", "verification.css"))
-    context: dict[str, object] = {
-        "css": Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
-        "version": dict(machine.rows)["Roofslip"],
-        "date": date.isoformat(),
-        "kind": "quick" if verification.quick else "full",
-        "extent": extent(verification),
-        "verdict": verdict_line(verification),
-        "validation": validation(verification.tables),
-        "checks": passed(verification.checks),
-        "machine": machine.line,
-        "libraries": ", ".join(
-            f"{name} {version}" for name, version in machine.rows[1:] if name in _ON_COVER
-        ),
-        "sections": list(zip(numbered(parts), parts, strict=True)),
+    context: dict[str, Any] = {
+        "v": verification,
+        "with_symbols": with_symbols,
         "pictures": {},
+        "verdict_line": verdict_line(verification),
+        "validation": validation(verification.tables),
+        "version": dict(machine.rows)["Roofslip"],
     }
-    return rendered(TEMPLATES, "verification.html", context)
-
-
-_ON_COVER = ("Python", "numpy", "numba")
+    cover = {
+        "css": Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
+        "date": date.isoformat(),
+        "machine": machine,
+        "sections": list(filled(TEMPLATES, parts, context)),
+    }
+    return rendered(TEMPLATES, "verification.html", context | cover)

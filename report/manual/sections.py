@@ -1,26 +1,28 @@
-"""The sections of the manual, in order. Read `front` first."""
+"""The sections of the manual, in order. Read `summary` first."""
 
 from __future__ import annotations
 
-from report.manual.blocks import ManualSection
+from report.document.sections import Section
 from report.manual.building import building
 from report.manual.features import features, known_errors
-from report.manual.front import scope, summary
 from report.manual.machine import Machine
 from report.manual.precision import work
 from report.manual.robustness import conditioning, stability
 from report.manual.rungs import rungs
 from report.manual.shake_table import shake_table
 from report.manual.studies import convergence, curves, links
+from report.manual.summary import summary
 from report.manual.tables import checks, methods, peers, software
 from solver.verification.evidence import Verification
 
+_SCOPE = Section(id="scope", title="Scope and terms", template="manual/scope.html")
 
-def sections(verification: Verification, machine: Machine) -> tuple[ManualSection, ...]:
+
+def sections(verification: Verification, machine: Machine) -> tuple[Section, ...]:
     """Return all sections except cover and contents."""
     return (
         summary(verification),
-        scope(verification),
+        _SCOPE,
         checks(verification),
         methods(),
         work(verification),
@@ -35,5 +37,5 @@ def sections(verification: Verification, machine: Machine) -> tuple[ManualSectio
         features(verification),
         known_errors(),
         *((peers(verification.peers),) if verification.peers else ()),
-        software(verification, machine),
+        software(machine),
     )

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from report.document.blocks import Picture
-from report.document.tables import Table, TableRow, Wide
-from report.entities.columns import TableColumn
+from report.document.sections import Section
+from report.document.tables import by_name, grouped, listed
+from report.entities.shown import centered, text, words
 from report.figures.shake_table import computed_against_measured
-from report.manual.blocks import FAIL, PASS, Block, Chart, ManualSection, joined
-from report.pages.parts import verdict
+from report.manual.summary import judged
+from report.words.counts import joined
 from report.words.units import number
 from report.words.validation import NOT_VALIDATED, explained
 from solver.verification.evidence import Verification
@@ -23,84 +23,59 @@ from solver.verification.shake_table import (
     ShakeTable,
     TableRun,
 )
-from solver.verification.table_tests import Data
+
+_TEST = (
+    (words("Test", 1.6), lambda run: run.test.name),
+    (words("Axes", 0.7), lambda run: _axes(run)),
+    (text("θ", "deg", 0.6), lambda run: f"{math.degrees(run.test.scene.slope_rad):.3g}"),
+    (text("μ", share=0.9), lambda run: _mus(run)),
+    (text("Model", share=0.7), lambda run: int(run.rung)),
+    (text("PRD, stated", "mm"), lambda run: _mm(run.test.prd_m)),
+    (text("PRD, computed", "mm", 1.1), lambda run: _prd(run)),
+    (text("Ratio", share=0.7), lambda run: number(run.ratio, 3)),
+    (text("Residual, stated", "mm", 1.1), lambda run: _mm(run.test.residual_m)),
+    (text("Residual, computed", "mm", 1.2), lambda run: _mm(run.residual_m)),
+)
+
+_JUDGED = (
+    (words("Requirement", 3.0), lambda row: row[0]),
+    (text("Found", share=1.2), lambda row: row[1]),
+    (text("Accepted", share=1.4), lambda row: row[2]),
+    (centered("Result", 0.8), lambda row: judged(row[3])),
+)
 
 
-def shake_table(verification: Verification) -> ManualSection:
+def shake_table(verification: Verification) -> Section:
     """Return the section."""
-    return ManualSection(
+    return Section(
         id="shake-table",
         title="Comparison with a shake table",
-        blocks=(
-            Block(title="Acceptance, stated before any comparison", texts=_acceptance()),
-            *(block for table in verification.tables for block in _blocks(table)),
-            *(() if verification.tables else (_none(),)),
-        ),
+        template="manual/shake-table.html",
+        content={
+            "MEDIAN": MEDIAN,
+            "SHARE": SHARE,
+            "RATIOS": RATIOS,
+            "LEAST_TESTS": LEAST_TESTS,
+            "LEAST_M": LEAST_M,
+            "explained": explained(()),
+            "tables": [
+                (
+                    table,
+                    grouped(by_name(table.runs, _source), _TEST, kind="compact"),
+                    listed(_rows(table), _JUDGED),
+                    result(table),
+                )
+                for table in verification.tables
+            ],
+        },
+        charts=dict(_charts(verification.tables)),
     )
 
 
-def _acceptance() -> tuple[str, ...]:
-    return (
-        "Each test is run with the accelerations of the table, its slope and its friction "
-        "coefficient, by the model that a calculation package would use. The ratio is computed "
-        f"PRD / measured PRD. Accepted: the median of the ratios is {MEDIAN[0]:g} to "
-        f"{MEDIAN[1]:g}; at least {100.0 * SHARE:g}\u00a0% of the ratios are {RATIOS[0]:g} to "
-        f"{RATIOS[1]:g}; there are at least {LEAST_TESTS} ratios. A test with a measured PRD of "
-        f"less than {1e3 * LEAST_M:g} mm has no ratio; a run without a result counts as a ratio "
-        "outside of the range. Residual displacements are listed and not judged: they may nearly "
-        "cancel.",
-    )
-
-
-def _none() -> Block:
-    return Block(
-        title="Result",
-        texts=(
-            f"No tests of a shake table were given to this run (option --table). {explained(())}",
-        ),
-    )
-
-
-def _blocks(table: ShakeTable) -> Iterator[Block]:
-    yield Block(title="Tests", texts=(_origin(table),), tables=(_tests(table),))
-    drawn = [run for run in table.runs if run.ratio > 0.0]
-    yield Block(
-        title="Result",
-        texts=(result(table),),
-        top=(_judged(table),),
-        charts=(
-            Chart(
-                name="shake-table",
-                picture=Picture(
-                    svg=computed_against_measured(table),
-                    caption="Computed PRD against the stated PRD of each test. Line: equal "
-                    f"values; gray: ratios of {RATIOS[0]:g} to {RATIOS[1]:g}.",
-                    alt="Computed PRD against the PRD of the shake-table tests",
-                ),
-            ),
-        )
-        if drawn
-        else (),
-    )
-
-
-def _origin(table: ShakeTable) -> str:
-    """Return where the slip of the tests comes from, in the words of the file."""
-    counts = {
-        data: sum(run.test.data is data for run in table.runs)
-        for data in (Data.MEASURED, Data.COMPUTED)
-    }
-    words = (
-        f"{len(table.runs)} tests were given. The file tests.csv states that the slip of "
-        f"{counts[Data.MEASURED]} was measured and that of {counts[Data.COMPUTED]} was computed. "
-        "The program cannot check this statement or the sources below."
-    )
-    if counts[Data.COMPUTED]:
-        words += (
-            " A slip that was computed validates nothing: this comparison exercises the procedure "
-            "only."
-        )
-    return words
+def _charts(tables: Sequence[ShakeTable]) -> Iterator[tuple[str, str]]:
+    for table in tables:
+        if any(run.ratio > 0.0 for run in table.runs):
+            yield "shake-table", computed_against_measured(table)
 
 
 def result(table: ShakeTable) -> str:
@@ -118,94 +93,32 @@ def _unsatisfied(table: ShakeTable) -> Iterator[str]:
 
 
 def _rows(table: ShakeTable) -> Iterator[tuple[str, str, str, bool]]:
-    count, low, high = table.ratios.size, *MEDIAN
+    """Yield what is required, what was found, what is accepted, and whether it is."""
+    count, share, (low, high) = table.ratios.size, 100.0 * table.share_within, MEDIAN
+    named = f"Share of the ratios in {RATIOS[0]:g} to {RATIOS[1]:g}"
     yield "Number of ratios", str(count), f"{LEAST_TESTS} or more", count >= LEAST_TESTS
-    yield (
-        "Median ratio",
-        _ratio(table.median),
-        f"{low:g} to {high:g}",
-        low <= table.median <= high,
-    )
-    yield (
-        f"Share of the ratios in {RATIOS[0]:g} to {RATIOS[1]:g}",
-        f"{100.0 * table.share_within:.0f} %",
-        f"{100.0 * SHARE:g} % or more",
-        table.share_within >= SHARE,
-    )
+    is_within = low <= table.median <= high
+    yield "Median ratio", number(table.median, 3), f"{low:g} to {high:g}", is_within
+    yield named, f"{share:.0f} %", f"{100.0 * SHARE:g} % or more", table.share_within >= SHARE
 
 
-def _judged(table: ShakeTable) -> Table:
-    return Table(
-        caption="Acceptance",
-        columns=(
-            TableColumn(head="Requirement", align="left", share=3.0),
-            TableColumn(head="Found", share=1.2),
-            TableColumn(head="Accepted", share=1.4),
-            TableColumn(head="Result", align="center", share=0.8),
-        ),
-        rows=tuple(
-            TableRow(cells=(name, found, limit, verdict(is_satisfied, (PASS, FAIL))))
-            for name, found, limit, is_satisfied in _rows(table)
-        ),
-    )
+def _source(run: TableRun) -> str:
+    return f"Slip {run.test.data}: {run.test.source}"
 
 
-def _tests(table: ShakeTable) -> Table:
-    return Table(
-        caption="Tests and computed values",
-        columns=(
-            TableColumn(head="Test", align="left", share=1.6),
-            TableColumn(head="Axes", align="left", share=0.7),
-            TableColumn(head="θ", unit="deg", share=0.6),
-            TableColumn(head="μ", share=0.9),
-            TableColumn(head="Model", share=0.7),
-            TableColumn(head="PRD, stated", unit="mm", share=1.0),
-            TableColumn(head="PRD, computed", unit="mm", share=1.1),
-            TableColumn(head="Ratio", share=0.7),
-            TableColumn(head="Residual, stated", unit="mm", share=1.1),
-            TableColumn(head="Residual, computed", unit="mm", share=1.2),
-        ),
-        rows=tuple(_test_rows(table.runs)),
-        notes=(
-            "Stated: the value in tests.csv. Residual: magnitude. Model: number of the model, "
-            "section 12. μ: kinetic, and static if it is another.",
-        ),
-        kind="compact",
-    )
-
-
-def _test_rows(runs: Sequence[TableRun]) -> Iterator[TableRow]:
-    """Yield the tests of each source below a row that names it."""
-    named = [(f"Slip {run.test.data}: {run.test.source}", run) for run in runs]
-    for name in dict.fromkeys(name for name, _ in named):
-        yield TableRow(cells=(Wide(name, 10),), kind="total")
-        yield from (_test_row(run) for other, run in named if other == name)
-
-
-def _test_row(run: TableRun) -> TableRow:
+def _axes(run: TableRun) -> str:
     scene = run.test.scene
-    law = scene.friction
-    mu = f"{law.mu_slow:g}" if law.is_constant else f"{law.mu_slow:g}, {law.mu_static:g}"
-    axes = "x" + ("y" if scene.ay_mps2.size else "") + ("z" if scene.az_mps2.size else "")
-    return TableRow(
-        cells=(
-            run.test.name,
-            axes,
-            f"{math.degrees(scene.slope_rad):.3g}",
-            mu,
-            str(int(run.rung)),
-            _mm(run.test.prd_m),
-            run.status.value if math.isnan(run.prd_m) else _mm(run.prd_m),
-            _ratio(run.ratio),
-            _mm(run.test.residual_m),
-            _mm(run.residual_m),
-        )
-    )
+    return "x" + ("y" if scene.ay_mps2.size else "") + ("z" if scene.az_mps2.size else "")
 
 
-def _ratio(value: float) -> str:
-    return "—" if math.isnan(value) else f"{value:.3f}"
+def _mus(run: TableRun) -> str:
+    law = run.test.scene.friction
+    return f"{law.mu_slow:g}" if law.is_constant else f"{law.mu_slow:g}, {law.mu_static:g}"
+
+
+def _prd(run: TableRun) -> str:
+    return run.status.value if math.isnan(run.prd_m) else _mm(run.prd_m)
 
 
 def _mm(value_m: float) -> str:
-    return "—" if math.isnan(value_m) else number(1e3 * value_m, 1)
+    return number(1e3 * value_m, 1)

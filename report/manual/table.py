@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import pandas as pd
 
 from solver.verification.evidence import CheckRow, Verification, WorkPoint
 from solver.verification.rung_evidence import PlaneWork
+
+_OF_CHECK = ("id", "section", "problem", "source", "quantity", "unit", "expected", "computed")
+_OF_RUN = {
+    "method": "method",
+    "record": "record",
+    "case": "scene",
+    "time per run [s]": "seconds",
+    "PRD error [m]": "prd_error_m",
+    "PRD error [%]": "prd_error_percent",
+    "residual error [m]": "residual_error_m",
+    "residual error [%]": "residual_error_percent",
+    "status": "status",
+}
+_COLUMNS = (
+    "kind", *_OF_CHECK, "error [-]", "tolerance [-]", "passed", "method", "parameters",
+    *list(_OF_RUN)[1:],
+)  # fmt: skip
 
 
 def verification_csv(verification: Verification) -> bytes:
@@ -20,66 +39,23 @@ def verification_csv(verification: Verification) -> bytes:
     return text.encode()
 
 
-_COLUMNS = (
-    "kind",
-    "id",
-    "section",
-    "problem",
-    "source",
-    "quantity",
-    "unit",
-    "expected",
-    "computed",
-    "error [-]",
-    "tolerance [-]",
-    "passed",
-    "method",
-    "parameters",
-    "record",
-    "case",
-    "time per run [s]",
-    "PRD error [m]",
-    "PRD error [%]",
-    "residual error [m]",
-    "residual error [%]",
-    "status",
-)
-
-
-def _check(row: CheckRow) -> dict[str, object]:
+def _check(row: CheckRow) -> Mapping[str, object]:
     return {
         "kind": "check",
-        "id": row.id,
-        "section": row.section,
-        "problem": row.problem,
-        "source": row.source,
-        "quantity": row.quantity,
-        "unit": row.unit,
-        "expected": row.expected,
-        "computed": row.computed,
+        **{name: getattr(row, name) for name in _OF_CHECK},
         "error [-]": row.error,
         "tolerance [-]": row.tolerance,
         "passed": "yes" if row.passed else "no",
     }
 
 
-def _run(point: WorkPoint) -> dict[str, object]:
-    return {
-        "kind": "run",
-        "method": point.method,
-        "parameters": " ".join(f"{key}={value:g}" for key, value in point.parameters.items()),
-        "record": point.record,
-        "case": point.scene,
-        "time per run [s]": point.seconds,
-        "PRD error [m]": point.prd_error_m,
-        "PRD error [%]": point.prd_error_percent,
-        "residual error [m]": point.residual_error_m,
-        "residual error [%]": point.residual_error_percent,
-        "status": point.status.value,
-    }
+def _run(point: WorkPoint) -> Mapping[str, object]:
+    given = " ".join(f"{key}={value:g}" for key, value in point.parameters.items())
+    found = {column: getattr(point, name) for column, name in _OF_RUN.items()}
+    return {"kind": "run", "parameters": given, **found}
 
 
-def _run_in_two_axes(scene: str, point: PlaneWork) -> dict[str, object]:
+def _run_in_two_axes(scene: str, point: PlaneWork) -> Mapping[str, object]:
     return {
         "kind": "run in two axes",
         "method": point.method,

@@ -1,6 +1,6 @@
 """The dispersions of an exported fragility by name, as FEMA P-58 has them; none is assumed.
 
-Runs nothing. Read `exported`, then `refusal`.
+Runs nothing. Read `exported`, then `is_refused`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
-from report.words.units import digits_up
 from solver.studies.fragility import Lognormal
 
 NAMES = ("record-to-record", "modeling", "quality of data", "friction", "slope")
@@ -99,40 +98,12 @@ def lacks_record_spread(results: StudyResults) -> bool:
     return results.plan.input.study.record_beta is None and not results.spread.is_record_to_record
 
 
-def refusal(results: StudyResults) -> str:
-    """Return why no fragility is exported; empty if there is no reason."""
-    if not (results.arrays and is_exportable(results)):
-        return ""
-    if results.allow_matched or not lacks_record_spread(results):
-        return ""
-    return (
-        f"The fragility files are not written: {_little(results)} Enter a record-to-record "
-        "dispersion with its source on the sheet Study, or write the files with --allow-matched"
-    )
+def is_refused(results: StudyResults) -> bool:
+    """Whether no fragility is exported, although a format has the measure of intensity."""
+    is_wanted = bool(results.arrays) and is_exportable(results)
+    return is_wanted and lacks_record_spread(results) and not results.allow_matched
 
 
-def warning(results: StudyResults) -> str:
-    """Return what each file says that is written in spite of that; empty without a reason."""
-    if not (results.allow_matched and lacks_record_spread(results)):
-        return ""
-    return f"Warning: {_little(results)} Written with --allow-matched."
-
-
-def notice(results: StudyResults) -> str:
-    """Return the refusal, or the warning that is in its place; empty for neither."""
-    return refusal(results) or warning(results).rstrip(".")
-
-
-def _little(results: StudyResults) -> str:
-    """Return that the dispersion has no record-to-record part, with what was measured."""
-    spread, count = results.spread, len(results.plan.motions.motions[0])
-    if not spread.is_known:
-        return (
-            f"the record-to-record spread of {count} motion{'s' if count > 1 else ''} cannot be "
-            "measured, and β does not contain it."
-        )
-    return (
-        f"the spectra of the {count} motions differ by a standard deviation of ln Sa of "
-        f"{digits_up(spread.median, 2)} in the median, as motions matched to one spectrum do, and "
-        "β does not contain the record-to-record dispersion of earthquakes."
-    )
+def is_warned(results: StudyResults) -> bool:
+    """Whether fragilities are exported in spite of that."""
+    return results.allow_matched and lacks_record_spread(results)

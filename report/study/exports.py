@@ -10,16 +10,19 @@ import io
 import json
 import re
 from collections.abc import Mapping
+from functools import partial
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from report.manual.blocks import joined
+from report.document.templates import said
 from report.sheet.schema import RecordedAt
-from report.study.dispersion import MASS, dispersions, exported, refusal, warning
+from report.study.dispersion import MASS, dispersions, exported, is_refused
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.schema import Intensity
-from report.study.words import NO_NUMBER, both
+from report.study.words import NO_NUMBER, context, warning
+from report.typeset.pdf import TEMPLATES
+from report.words.counts import capitalized
 from report.words.units import digits_down, digits_up, round_up
 from solver.model import Floats
 
@@ -67,9 +70,9 @@ _COLUMNS = ("Family", "Theta_0", "Theta_1", "DamageStateWeights", "Description")
 def export_files(results: StudyResults) -> Mapping[str, bytes]:
     """Return the files of `EXPORTS`.
 
-    None without an array, where a format has no measure, or where `refusal` gives a reason.
+    None without an array, where a format has no measure, or where `is_refused` says so.
     """
-    if refusal(results):
+    if is_refused(results):
         return {}
     kind = results.plan.input.study.intensity
     files: dict[str, bytes] = {}
@@ -78,7 +81,7 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
         files["fragility.csv"] = _library(results, known).encode()
         files["fragility.json"] = _metadata(results, known).encode()
         files["placement.csv"] = _placement(results, known).encode()
-    if kind in MEASURES and any(map(has_chances, results.arrays)):
+    if kind in MEASURES and any(map(has_probabilities, results.arrays)):
         files["fragility.xml"] = _nrml(results)
     return files
 
@@ -88,8 +91,8 @@ def known_states(one: ArrayResult) -> tuple[LimitState, ...]:
     return tuple(state for state in one.states if state.fragility.fitted.is_known)
 
 
-def has_chances(one: ArrayResult) -> bool:
-    """Whether the chance of each limit state is known at every level.
+def has_probabilities(one: ArrayResult) -> bool:
+    """Whether the probability of each limit state is known at every level.
 
     A state without a lognormal has the fractions of the motions, if none of its runs is censored.
     """
@@ -149,7 +152,7 @@ def sentence(state: LimitState) -> str:
 
 
 def _sentence(words: str) -> str:
-    return f"{words[:1].upper()}{words[1:]}."
+    return f"{capitalized(words)}."
 
 
 def _metadata(results: StudyResults, known: list[ArrayResult]) -> str:
@@ -170,18 +173,10 @@ def _metadata(results: StudyResults, known: list[ArrayResult]) -> str:
 
 
 def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
-    array = one.plan.array
+    kind = results.plan.input.study.intensity
     return {
-        "Description": f"Ballasted solar array {array.id}",
-        "Comments": (
-            f"Mat {array.mat}, friction coefficient {one.plan.mu:g}, slope {array.slope_deg:g} "
-            "deg, "
-            f"clearance {both(results, array.clearance_m)}. Limit states are on the peak relative "
-            "displacement of a motion, not on a design displacement. "
-            f"{_of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])} "
-            f"{_dispersions(results, one)}{_warned(results)} Study "
-            f"{results.manifest['identity'][:16]}."
-        ),
+        "Description": f"Ballasted solar array {one.plan.array.id}",
+        "Comments": _said(results, "comments", DEMANDS[kind], one=one),
         "SuggestedComponentBlockSize": "1 EA",
         "RoundUpToIntegerQuantity": "True",
         "LimitStates": {
@@ -200,8 +195,8 @@ def _placement(results: StudyResults, known: list[ArrayResult]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"])
-    about = _of_which_motion(results, *DEMANDS[results.plan.input.study.intensity])
-    about += _warned(results)
+    kind = results.plan.input.study.intensity
+    about = _said(results, "measured", DEMANDS[kind]) + _warned(results)
     for one in known:
         comment = f"Array {one.plan.array.id}. {about}"
         row = ["ea", "roof", 0, 1, "", comment]
@@ -221,11 +216,11 @@ def _nrml(results: StudyResults) -> bytes:
         f"{{{NRML}}}fragilityModel",
         {"id": "roofslip", "assetCategory": "contents", "lossCategory": "contents"},
     )
-    imt, _, per_unit = MEASURES[results.plan.input.study.intensity]
-    ET.SubElement(model, f"{{{NRML}}}description").text = _description(results)
+    imt, unit, per_unit = MEASURES[results.plan.input.study.intensity]
+    ET.SubElement(model, f"{{{NRML}}}description").text = _said(results, "description", (imt, unit))
     states = [state.name for state in results.arrays[0].states]
     ET.SubElement(model, f"{{{NRML}}}limitStates").text = " ".join(states)
-    for one in filter(has_chances, results.arrays):
+    for one in filter(has_probabilities, results.arrays):
         function = ET.SubElement(
             model,
             f"{{{NRML}}}fragilityFunction",
@@ -235,76 +230,45 @@ def _nrml(results: StudyResults) -> bytes:
         limit = f"{NO_DAMAGE_SHARE * levels[0]:.9g}"
         imls = ET.SubElement(function, f"{{{NRML}}}imls", {"imt": imt, "noDamageLimit": limit})
         imls.text = " ".join(f"{x:.9g}" for x in levels)
-        for state, row in zip(one.states, chances_of(results, one), strict=True):
-            chances = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
-            chances.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
+        for state, row in zip(one.states, probabilities_of(results, one), strict=True):
+            poes = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
+            poes.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"
-
-
-def _description(results: StudyResults) -> str:
-    """Return the title, what the limit states of each array are, and which arrays it lacks."""
-    states = [
-        f"{component_id(results, one)}: "
-        + " ".join(f"{state.name}: {sentence(state)}{_fractions(state)}" for state in one.states)
-        + f" {_dispersions(results, one)}".rstrip()
-        for one in filter(has_chances, results.arrays)
-    ]
-    states += [
-        f"{component_id(results, one)} is left out: {joined(lost)} "
-        f"{'have' if len(lost) > 1 else 'has'} no lognormal and censored runs."
-        for one in results.arrays
-        if (lost := _lost_states(one))
-    ]
-    imt, unit, _ = MEASURES[results.plan.input.study.intensity]
-    title = f"{results.plan.input.study.title}."
-    measure = _of_which_motion(results, imt, unit)
-    return " ".join([title, measure, *states]) + _warned(results)
-
-
-def _fractions(state: LimitState) -> str:
-    if state.fragility.fitted.is_known:
-        return ""
-    return f" {_sentence(NO_NUMBER)} Fractions of the motions, without any dispersion."
 
 
 def _warned(results: StudyResults) -> str:
     return f" {text}" if (text := warning(results)) else ""
 
 
-def _dispersions(results: StudyResults, one: ArrayResult) -> str:
-    """Return the dispersions of each state that has a lognormal by name; nothing without one."""
-    states = [
-        f"Dispersions of {state.name}: "
-        + ", ".join(
-            f"{part.name} {digits_up(part.beta, 2)} ({part.source})"
-            if part.beta
-            else f"{part.name} not included ({part.source})"
-            for part in dispersions(results, one, state)
-        )
-        + "."
-        for state in known_states(one)
-    ]
-    return " ".join([*states, f"{MASS}."] if states else [])
-
-
-def _of_which_motion(results: StudyResults, name: str, unit: str) -> str:
-    """Return what a measure of a format is here: those of the roof and of the ground differ."""
+def _said(results: StudyResults, name: str, of: tuple[str, str], **more: object) -> str:
+    """Return a text of the templates on a measure of a format and its unit."""
     study = results.plan.input.study
     is_roof = study.intensity in (Intensity.PPA, Intensity.PPV) or (
         study.intensity is Intensity.SA1 and study.recorded_at is RecordedAt.ROOF
     )
-    which = "roof motion, not of the ground" if is_roof else "ground motion, not of the roof"
-    return f"{name} in {unit} is the {QUANTITIES[study.intensity]} of the {which}."
+    given = {
+        "name": of[0],
+        "unit": of[1],
+        "quantity": QUANTITIES[study.intensity],
+        "is_roof": is_roof,
+        "component_id": partial(component_id, results),
+        "dispersions": partial(dispersions, results),
+        "known_states": known_states,
+        "lost_states": _lost_states,
+        "warned": _warned(results),
+        "MASS": MASS,
+    }
+    return said(TEMPLATES, "study/exports.html", name, context(results) | given | more)
 
 
-def chances_of(results: StudyResults, one: ArrayResult) -> Floats:
-    """Return the chance of each limit state at each level, shape (states, levels).
+def probabilities_of(results: StudyResults, one: ArrayResult) -> Floats:
+    """Return the probability of each limit state at each level, shape (states, levels).
 
     That of the lognormal, or the fractions of the motions where there is none; the array must have
-    them (`has_chances`). A state that is exceeded includes those before it: where lognormals of
-    different dispersion cross, the larger chance counts, or OpenQuake would subtract a larger
-    chance from a smaller one.
+    them (`has_probabilities`). A state that is exceeded includes those before it: where lognormals
+    of different dispersion cross, the larger one counts, or OpenQuake would subtract a larger one
+    from a smaller one.
     """
     rows = [
         lognormal.at(state.fragility.levels)

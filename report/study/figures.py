@@ -154,7 +154,10 @@ def _places(
     """Yield where the labels of contours are: three heights in turn, and none beyond the edge."""
     low, span = np.array([v[0] for v in grid]), np.array([np.ptp(v) for v in grid])
     for count, parts in enumerate(drawn.allsegs):
-        shares = (_dense(max(parts, key=len)) - low) / span
+        lines = [line for line in parts if len(line)]  # cases without a value may leave none
+        if not lines:
+            continue
+        shares = (_dense(max(lines, key=len)) - low) / span
         inside = shares[((shares > 0.04) & (shares < 0.96)).all(axis=1)]
         if inside.size:
             nearest = np.abs(inside[:, 1] - height - 0.1 * (count % 3)).argmin()
@@ -248,10 +251,10 @@ def _ranked(axes: Axes, state: LimitState) -> None:
     x = np.sort(f.capacities.intensity)
     far = max(3.0, float(np.abs(np.log(x / f.fitted.theta)).max()) / f.fitted.beta + 0.3)
     fine = f.fitted.theta * np.exp(f.fitted.beta * np.linspace(-far, far, 200))
-    chance = f.fitted.at(fine)
-    band = np.clip([chance - f.critical, chance + f.critical], 0.0, 1.0)
+    exceeded = f.fitted.at(fine)
+    band = np.clip([exceeded - f.critical, exceeded + f.critical], 0.0, 1.0)
     axes.fill_between(fine, *band, color=PALE, linewidth=0.0, label="band of Lilliefors")
-    axes.plot(fine, chance, color=ACCENT, linewidth=1.2, label="lognormal")
+    axes.plot(fine, exceeded, color=ACCENT, linewidth=1.2, label="lognormal")
     ranks = np.arange(x.size + 1) / x.size
     axes.plot(
         np.concatenate([fine[:1], np.repeat(x, 2), fine[-1:]]), np.repeat(ranks, 2), color=INK,

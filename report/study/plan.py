@@ -1,4 +1,4 @@
-"""From the sheet to the runs: which cases belong to the curves, the fragilities and the chances.
+"""From the sheet to the runs: which cases belong to curves, fragilities and exceedances.
 
 Runs nothing. Read `plan_study`.
 """
@@ -50,7 +50,7 @@ class ArrayPlan:
         Friction and slope [deg] where one of them, by its name, is one standard deviation below and
         above its center; of those alone whose distribution is given.
     fragility, samples, bars : slice
-        Cases of its fragility, of its chance and of its tornado chart; the last two are empty
+        Cases of its fragility, of its exceedance and of its tornado chart; the last two are empty
         without an intensity at the site.
     """
 

@@ -1,4 +1,4 @@
-"""The results of a study from its parts: curves, fragilities, chances and the fitted formula.
+"""The results of a study from its parts: curves, fragilities, exceedances and the fitted formula.
 
 Reads one part at a time; runs the capacities of the motions. Read `results_of`.
 """
@@ -25,7 +25,7 @@ from solver.studies.curves import Statistics, largest_slope, least_friction, sta
 from solver.studies.fit import Fit, fit_prd
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner
-from solver.studies.uncertainty import Bar, Chance, exceedance, tornado
+from solver.studies.uncertainty import Bar, Exceedance, exceedance, tornado
 
 MEAN = "mean PRD"
 STATISTICS = (MEAN, "84th percentile of the PRD", "largest PRD")
@@ -65,7 +65,7 @@ class ArrayResult:
     ----------
     plan : ArrayPlan
     states : tuple of LimitState
-    chances : tuple of Chance
+    exceedances : tuple of Exceedance
         That the clearance is exceeded at the site; empty without an intensity there.
     bars : tuple of Bar
     center_m : float
@@ -76,7 +76,7 @@ class ArrayResult:
 
     plan: ArrayPlan
     states: tuple[LimitState, ...]
-    chances: tuple[Chance, ...]
+    exceedances: tuple[Exceedance, ...]
     bars: tuple[Bar, ...]
     center_m: float
     capacity_runs: int
@@ -278,17 +278,17 @@ def _array(
         )
         for k, share in enumerate(SHARES)
     ]
-    chances: tuple[Chance, ...] = ()
+    exceedances: tuple[Exceedance, ...] = ()
     bars: tuple[Bar, ...] = ()
     center = math.nan
     if array.samples.stop > array.samples.start:
-        chances = (exceedance(prd[of(array.samples)], clearance, seed=seed),)
+        exceedances = (exceedance(prd[of(array.samples)], clearance, seed=seed),)
         means = prd[of(array.bars)].mean(axis=1)
         bars, center = tornado(array.spreads, means), float(means[0])
     return ArrayResult(
         plan=array,
         states=tuple(states),
-        chances=chances,
+        exceedances=exceedances,
         bars=bars,
         center_m=center,
         capacity_runs=searched.runs,

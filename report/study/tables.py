@@ -9,16 +9,20 @@ import csv
 import datetime as dt
 import io
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import product
 from typing import Any
 
+import numpy as np
 import xlsxwriter
 
 from report.entities.marks import UNVERIFIED
-from report.study.dispersion import NAMES, dispersions, exported, is_exportable, refusal
+from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
+from report.words.counts import capitalized
 from report.words.units import Quantity, Unit
+from solver.model import Floats
 from solver.studies.fit import Fit
 
 Row = Sequence[Any]
@@ -26,25 +30,26 @@ Row = Sequence[Any]
 
 def curves_csv(results: StudyResults) -> bytes:
     """Return the curves, one row for each case of the grid; an empty field for no value."""
-    given, plan = results.plan.input, results.plan
+    plan, lost = results.plan, results.curves.without_value
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    measure = given.study.intensity
     writer.writerow(
-        ["building", "slope_deg", "mu", f"intensity ({measure.value})",
+        ["building", "slope_deg", "mu", f"intensity ({plan.input.study.intensity.value})",
          f"{plan.design_rule.name.replace(' ', '_')}_m", "mean_prd_m", "p84_prd_m",
          "largest_prd_m", "motions_without_value"]
     )  # fmt: skip
-    lost = results.curves.without_value
-    for b, building in enumerate(plan.motions.buildings):
-        for s, slope in enumerate(given.slopes_deg):
-            for m, mu in enumerate(given.mus):
-                for x, level in enumerate(given.intensities):
-                    at = b, s, m, x
-                    values = [float(lengths[at]) for lengths in results.displacements.values()]
-                    shown = ["" if math.isnan(v) else repr(v) for v in values]
-                    writer.writerow([building, slope, mu, level, *shown, int(lost[at])])
+    for case, at in _cases(results):
+        values = [float(lengths[at]) for lengths in results.displacements.values()]
+        shown = ["" if math.isnan(v) else repr(v) for v in values]
+        writer.writerow([*case, *shown, int(lost[at])])
     return text.getvalue().encode()
+
+
+def _cases(results: StudyResults) -> Iterator[tuple[Row, tuple[int, ...]]]:
+    """Yield building, slope, friction and intensity of each case, and its place in the curves."""
+    plan, given = results.plan, results.plan.input
+    axes = product(plan.motions.buildings, given.slopes_deg, given.mus, given.intensities)
+    yield from zip(axes, np.ndindex(plan.shape), strict=True)
 
 
 def length_unit(results: StudyResults) -> Unit:
@@ -59,14 +64,23 @@ def study_xlsx(results: StudyResults) -> bytes:
     book = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": False})
     book.set_properties({"title": results.plan.input.study.title, "created": _midnight(results)})
     formats = {"head": book.add_format({"bold": True, "text_wrap": True, "bottom": 1})}
-    unit = length_unit(results)
+    unit, given = length_unit(results), results.plan.input
+    measure = given.study.intensity.value
     for title, head, rows in (
         ("Study", ("What", "Value"), _about(results)),
         ("Curves", _curve_head(results, unit), _curves(results, unit)),
-        ("Least friction", _least_head(results), _least(results)),
-        ("Largest slope", _slope_head(results), _slopes(results)),
+        (
+            "Least friction",
+            ("Building", "Displacement", "Slope [deg]", measure, "Least friction"),
+            _answers(results, given.slopes_deg, results.least_frictions),
+        ),
+        (
+            "Largest slope",
+            ("Building", "Displacement", "Friction", measure, "Largest slope [deg]"),
+            _answers(results, given.mus, results.largest_slopes),
+        ),
         ("Fragility", _FRAGILITY, _fragilities(results, unit)),
-        ("Chances", _CHANCES, _chances(results, unit)),
+        ("Chances", _EXCEEDANCES, _exceedances(results, unit)),
         ("Formula", ("Building", "What", "Value"), _formula(results)),
     ):
         sheet = book.add_worksheet(title)
@@ -103,61 +117,27 @@ def _about(results: StudyResults) -> Iterator[Row]:
 
 def _curve_head(results: StudyResults, unit: Unit) -> Row:
     measure = results.plan.input.study.intensity.value
-    lengths = [f"{name[:1].upper()}{name[1:]} [{unit.symbol}]" for name in results.displacements]
+    lengths = [f"{capitalized(name)} [{unit.symbol}]" for name in results.displacements]
     return ("Building", "Slope [deg]", "Friction", measure, *lengths, "Motions without a value")
 
 
 def _curves(results: StudyResults, unit: Unit) -> Iterator[Row]:
-    given, lost = results.plan.input, results.curves.without_value
-    for b, building in enumerate(results.plan.motions.buildings):
-        for s, slope in enumerate(given.slopes_deg):
-            for m, mu in enumerate(given.mus):
-                for x, level in enumerate(given.intensities):
-                    at = b, s, m, x
-                    lengths = (float(v[at]) / unit.si for v in results.displacements.values())
-                    yield building, slope, mu, level, *lengths, int(lost[at])
+    lost = results.curves.without_value
+    for case, at in _cases(results):
+        lengths = (float(values[at]) / unit.si for values in results.displacements.values())
+        yield *case, *lengths, int(lost[at])
 
 
-def _least_head(results: StudyResults) -> Row:
-    measure = results.plan.input.study.intensity.value
-    return (
-        "Building",
-        "Displacement",
-        "Slope [deg]",
-        measure,
-        "Least friction",
-    )
-
-
-def _least(results: StudyResults) -> Iterator[Row]:
-    given = results.plan.input
-    for b, building in enumerate(results.plan.motions.buildings):
-        for name in results.displacements if given.study.allowed_m else ():
-            values = results.least_frictions(b, name, float(given.study.allowed_m or 0.0))
-            for s, slope in enumerate(given.slopes_deg):
-                for x, level in enumerate(given.intensities):
-                    yield building, name, slope, level, float(values[s, x])
-
-
-def _slope_head(results: StudyResults) -> Row:
-    measure = results.plan.input.study.intensity.value
-    return (
-        "Building",
-        "Displacement",
-        "Friction",
-        measure,
-        "Largest slope [deg]",
-    )
-
-
-def _slopes(results: StudyResults) -> Iterator[Row]:
-    given = results.plan.input
-    for b, building in enumerate(results.plan.motions.buildings):
-        for name in results.displacements if given.study.allowed_m else ():
-            values = results.largest_slopes(b, name, float(given.study.allowed_m or 0.0))
-            for m, mu in enumerate(given.mus):
-                for x, level in enumerate(given.intensities):
-                    yield building, name, mu, level, float(values[m, x])
+def _answers(
+    results: StudyResults, along: Sequence[float], of: Callable[[int, str, float], Floats]
+) -> Iterator[Row]:
+    """Yield the answers for the allowed displacement, along an axis of the grid."""
+    allowed_m, levels = results.plan.input.study.allowed_m, results.plan.input.intensities
+    names = results.displacements if allowed_m else ()
+    for (b, building), name in product(enumerate(results.plan.motions.buildings), names):
+        values = of(b, name, float(allowed_m or 0.0))
+        for (value, level), answer in zip(product(along, levels), values.ravel(), strict=True):
+            yield building, name, value, level, float(answer)
 
 
 _FRAGILITY = (
@@ -195,29 +175,29 @@ def _dispersions(results: StudyResults, one: ArrayResult, state: LimitState) -> 
     """Return the dispersions of a limit state by name, and that exported; NaN for none."""
     if not (is_exportable(results) and state.fragility.fitted.is_known):
         return [math.nan] * (len(NAMES) + 1)
-    total = math.nan if refusal(results) else exported(results, one, state).beta
+    total = math.nan if is_refused(results) else exported(results, one, state).beta
     return [*(part.beta or math.nan for part in dispersions(results, one, state)), total]
 
 
-_CHANCES = (
+_EXCEEDANCES = (
     "Building", "Array", "Clearance", "Unit", "Chance of exceedance", "5 %", "95 %", "Runs",
     "Runs without a value",
 )  # fmt: skip
 
 
-def _chances(results: StudyResults, unit: Unit) -> Iterator[Row]:
+def _exceedances(results: StudyResults, unit: Unit) -> Iterator[Row]:
     for one in results.arrays:
-        for chance in one.chances:
+        for found in one.exceedances:
             yield (
                 results.plan.motions.buildings[one.plan.building],
                 one.plan.array.id,
                 one.plan.array.clearance_m / unit.si,
                 unit.symbol,
-                chance.value,
-                chance.low,
-                chance.high,
-                chance.runs,
-                chance.without_value,
+                found.value,
+                found.low,
+                found.high,
+                found.runs,
+                found.without_value,
             )
 
 

@@ -1,18 +1,51 @@
-"""Sentences of a study, from its results. Read `headline`."""
+"""What the templates of a study may print, and their sentences for its tables and the screen.
+
+Read `context`, then `headline`.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
 
-from report.entities.marks import dagger
+from report.document.templates import said
+from report.entities.marks import UNVERIFIED
+from report.pages.symbols import with_symbols
 from report.study.design import I_E, SDC
-from report.study.dispersion import notice
+from report.study.dispersion import is_refused, is_warned
 from report.study.results import MEAN, SLOPE_DECIMALS, StudyResults
-from report.words.units import Quantity, digits_down, digits_up, no_less, pair
-from solver.rules.provisions import SEPARATION_KEYS, RuleSet
-from solver.studies.uncertainty import Chance
+from report.typeset.pdf import TEMPLATES
+from report.words.units import Quantity, no_less, pair
+from solver.rules.provisions import SEPARATION_KEYS
 
 NO_NUMBER = "not determined"
+_SENTENCES = "study/sentences.html"
+
+
+def context(results: StudyResults) -> dict[str, Any]:
+    """Return what every template of a study may print."""
+    rule, given = results.plan.design_rule, results.plan.input
+    return {
+        "r": results,
+        "rule": rule,
+        "given": given,
+        "study": given.study,
+        "both": partial(both, results),
+        "level": partial(level, results),
+        "on": partial(on_building, results),
+        "with_symbols": with_symbols,
+        "separations": sorted(SEPARATION_KEYS.values(), key=lambda key: rule.rules[key]),
+        "is_refused": is_refused(results),
+        "is_warned": is_warned(results),
+        "I_E": I_E,
+        "MEAN": MEAN,
+        "NO_NUMBER": NO_NUMBER,
+        "pictures": {},
+        "SDC": SDC,
+        "UNVERIFIED": UNVERIFIED,
+    }
 
 
 def both(results: StudyResults, value_m: float) -> str:
@@ -26,134 +59,58 @@ def both(results: StudyResults, value_m: float) -> str:
     return pair(value_m, Quantity.DISPLACEMENT, us_first, no_less)
 
 
-def provision(rules: RuleSet, key: str, unit: str = "") -> str:
-    """Return a number of the rule set with its mark."""
-    return f"{rules[key]:.3g}{unit}{dagger(rules.values[key])}"
+def level(results: StudyResults, value: float) -> str:
+    """Return an intensity with its letters and unit."""
+    measure = results.plan.input.study.intensity
+    return f"{measure.letters} = {value:g} {measure.unit}"
+
+
+def on_building(results: StudyResults, building: int, before: str = " on ") -> str:
+    """Return " on NAME" in a study with several buildings, else nothing."""
+    names = results.plan.motions.buildings
+    return before + names[building] if len(names) > 1 else ""
 
 
 def analysis_words(results: StudyResults) -> str:
     """Return what the value from analysis is; it must have one."""
-    rule = results.plan.design_rule
-    peak = "largest" if rule.basis.takes_largest else "mean"
-    return f"{provision(rule.rules, 'analysis_factor')} times the {peak} PRD"
+    return said(TEMPLATES, _SENTENCES, "analysis", context(results))
 
 
 def design_words(results: StudyResults) -> str:
     """Return what the design displacement is, or that there is none."""
-    rule = results.plan.design_rule
-    if not rule.has_value:
-        least = provision(rule.rules, "analysis_min_motions")
-        return (
-            f"There is no design displacement: {rule.rules.name} needs {least} motions or more, "
-            f"and there {'is' if rule.n_motions == 1 else 'are'} {rule.n_motions}. The statistics "
-            "of the PRD are shown alone and are not for design."
-        )
-    least, *_, most = sorted(SEPARATION_KEYS.values(), key=lambda key: rule.rules[key])
-    importance = (
-        ". The prescriptive displacement is larger for a larger I_e"
-        if _has_importance(results)
-        else ", and times the importance factor"
-    )
-    return (
-        f"The design displacement is that of {design_basis(results)}. A clearance is "
-        f"{provision(rule.rules, least)} to {provision(rule.rules, most)} times it, by what it is "
-        f"measured to{importance}."
-    )
+    return said(TEMPLATES, _SENTENCES, "design", context(results))
 
 
-def design_basis(results: StudyResults) -> str:
-    """Return by what the design displacement is found; it must have a value."""
-    rule = results.plan.design_rule
-    share = provision(rule.rules, "analysis_floor")
-    floor = (
-        f"not less than the floor of {share} times the prescriptive displacement "
-        f"{prescriptive(results)}"
-        if rule.has_floor
-        else f"before its floor of {share} times the prescriptive displacement, which follows from "
-        "the S_DS of each site and must be compared with it there"
-    )
-    return (
-        f"{rule.rules.name} by response history without peer review: {analysis_words(results)} of "
-        f"the {rule.n_motions} motions, {floor}"
-    )
-
-
-def prescriptive(results: StudyResults) -> str:
-    """Return for what the prescriptive displacement is taken."""
-    return f"for SDC {SDC}{f' and I_e = {I_E:g}' if _has_importance(results) else ''}"
-
-
-def _has_importance(results: StudyResults) -> bool:
-    """Whether the prescriptive displacement includes the importance factor."""
-    return not results.plan.design_rule.rules.importance_in_separation
+def warning(results: StudyResults) -> str:
+    """Return what each exported file says of its dispersion; empty without a reason."""
+    return said(TEMPLATES, _SENTENCES, "warning", context(results)) if is_warned(results) else ""
 
 
 def headline(results: StudyResults) -> list[str]:
     """Return the main results, one line each."""
-    given, manifest = results.plan.input, results.manifest
-    count = len(results.plan.motions.motions[0])
-    measure = given.study.intensity
-    lines = [
-        f"{manifest['rows']:,} runs of {manifest['cases']['count']:,} cases under {count} "
-        f"motion{'s' if count > 1 else ''}"
-        + (f", and {results.capacity_runs:,} for the capacities" if results.arrays else "")
-    ]
-    if given.study.allowed_m:
-        lines += _allowed(results, given.study.allowed_m)
-    for one in results.arrays:
-        where = _where(results, one.plan.building)
-        for state in one.states:
-            f = state.fragility.fitted
-            text = (
-                f"median {measure.letters} {digits_down(f.theta, 3)} {measure.unit}, beta "
-                f"{digits_up(f.beta, 2)}"
-                if f.is_known
-                else NO_NUMBER
-            )
-            lines.append(f"{one.plan.array.id}{where}, {state.words}: {text}")
-        for chance in one.chances:
-            lines.append(
-                f"{one.plan.array.id}{where}: chance that the clearance of "
-                f"{both(results, one.plan.array.clearance_m)} is exceeded at {measure.letters} "
-                f"{given.study.site_intensity:g} {measure.unit}: {chance_words(chance)}"
-            )
-    return [*lines, *filter(None, [notice(results)])]
+    levels = results.plan.input.intensities
+    more = {"middle": levels[len(levels) // 2], "steepest": list(_steepest(results))}
+    text = said(TEMPLATES, _SENTENCES, "headline", context(results) | more)
+    return [line.strip() for line in text.splitlines() if line.strip()]
 
 
-def chance_words(chance: Chance) -> str:
-    """Return a chance, rounded up to two digits, with its confidence interval, rounded outward."""
-    low, high = digits_down(100.0 * chance.low, 2), digits_up(100.0 * chance.high, 2)
-    return f"{digits_up(100.0 * chance.value, 2)} % ({low} % to {high} %)"
-
-
-def _where(results: StudyResults, building: int) -> str:
-    names = results.plan.motions.buildings
-    return f" on {names[building]}" if len(names) > 1 else ""
-
-
-def _allowed(results: StudyResults, allowed_m: float) -> list[str]:
-    given, study = results.plan.input, results.plan.input.study
-    middle = len(given.intensities) // 2
-    level = f"{study.intensity.letters} {given.intensities[middle]:g} {study.intensity.unit}"
-    names = dict.fromkeys((results.leading, MEAN))
-    lines = []
-    for b in range(len(results.plan.motions.buildings)):
-        slopes = [results.largest_slopes(b, name, allowed_m)[:, middle] for name in names]
-        for mu, leading, *means in zip(given.mus, *slopes, strict=True):
-            beside = "".join(f"; {MEAN}: {_slope(results, mean)}" for mean in means)
-            lines.append(
-                f"{results.leading} of at most {both(results, allowed_m)} at {level}, friction "
-                f"{mu:g}{_where(results, b)}: largest slope {_slope(results, leading)}{beside}"
-            )
-    return lines
+def _steepest(results: StudyResults) -> Iterator[tuple[str, float, list[str]]]:
+    """Yield building, friction, and the largest slope for the allowed displacement by its name."""
+    given, allowed_m = results.plan.input, results.plan.input.study.allowed_m
+    names, middle = dict.fromkeys((results.leading, MEAN)), len(given.intensities) // 2
+    if not allowed_m:
+        return
+    for building in range(len(results.plan.motions.buildings)):
+        found = [results.largest_slopes(building, name, allowed_m)[:, middle] for name in names]
+        for mu, *slopes in zip(given.mus, *found, strict=True):
+            yield on_building(results, building), mu, [_slope(results, one) for one in slopes]
 
 
 def _slope(results: StudyResults, slope: float) -> str:
     if math.isnan(slope):
         return "none of the study"
-    if slope == results.plan.input.slopes_deg[-1]:
-        return f"≥ {shown(slope, SLOPE_DECIMALS)} deg"
-    return f"{shown(slope, SLOPE_DECIMALS)} deg"
+    least = "≥ " if slope == results.plan.input.slopes_deg[-1] else ""
+    return f"{least}{shown(slope, SLOPE_DECIMALS)} deg"
 
 
 def shown(value: float, decimals: int) -> str:

@@ -1,6 +1,8 @@
-"""Counts in sentences: spelled out up to nine, in digits beyond."""
+"""Counts and lists in sentences: counts are spelled out up to nine, in digits beyond."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 _WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
@@ -18,3 +20,9 @@ def counted(count: int, noun: str) -> str:
 def capitalized(text: str) -> str:
     """Return a text with its first letter in upper case, the rest as it is."""
     return text[:1].upper() + text[1:]
+
+
+def joined(names: Sequence[str]) -> str:
+    """Return `a, b and c`."""
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last

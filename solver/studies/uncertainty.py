@@ -104,8 +104,8 @@ def all_combinations(values: Sequence[Sequence[float]]) -> Floats:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Chance:
-    """Chance that a limit is exceeded.
+class Exceedance:
+    """Probability that a limit is exceeded.
 
     Attributes
     ----------
@@ -125,8 +125,8 @@ class Chance:
     runs: int
 
 
-def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Chance:
-    """Return the chance that a limit is exceeded.
+def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Exceedance:
+    """Return the probability that a limit is exceeded.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def exceedance(prd_m: Floats, limit_m: float, *, seed: int) -> Chance:
     drawn = rng.integers(by_motion.size, size=(CHANCE_REPEATS, by_motion.size))
     tails = (0.5 * (1.0 - CHANCE_CONFIDENCE), 0.5 * (1.0 + CHANCE_CONFIDENCE))
     low, high = np.quantile(by_motion[drawn].mean(axis=1), tails)
-    return Chance(
+    return Exceedance(
         value=float(by_motion.mean()),
         low=float(low),
         high=float(high),

@@ -20,7 +20,7 @@ import tables
 import verified
 from commands import refused, run
 from report.figures import work
-from report.manual import blocks
+from report.words import formats
 from report.words.letters import lettered
 from report.words.validation import NOT_VALIDATED
 from solver.model import Status
@@ -169,8 +169,8 @@ def test_every_check_is_printed_with_source_values_error_tolerance_and_verdict(v
         line = (
             f"{lettered(row.problem)} {row.quantity}"
             + (f" [{lettered(row.unit)}]" if row.unit != "1" else "")
-            + f" {blocks.digits(row.expected)} {blocks.digits(row.computed)} "
-            + f"{blocks.scientific(row.error)} {blocks.scientific(row.tolerance)} PASS"
+            + f" {formats.ten_digits(row.expected)} {formats.ten_digits(row.computed)} "
+            + f"{formats.scientific(row.error)} {formats.scientific(row.tolerance)} PASS"
         )
         assert line in words, line
 
@@ -180,8 +180,8 @@ def test_the_papers_own_figures_stand_beside_those_found(words, verification):
         assert percent in words
     assert "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm" in words
     for comparison in verification.links:
-        assert blocks.percent(comparison.worst_percent) in words
-        assert blocks.percent(comparison.mean_percent) in words
+        assert formats.percent(comparison.worst_percent) in words
+        assert formats.percent(comparison.mean_percent) in words
     assert f"{verification.curves[0].least_mu(2.0, 1.5, 0.5):.3f}" in words
 
 
@@ -345,25 +345,25 @@ def test_a_fault_in_the_tests_of_a_shake_table_is_an_input_error_before_any_run(
 @pytest.mark.parametrize(
     ("write", "value", "text"),
     [
-        (blocks.scientific, 3.24e-15, "3.2 × 10⁻¹⁵"),
-        (blocks.scientific, 0.0, "0"),
-        (blocks.scientific, math.nan, "—"),
-        (blocks.scientific, math.inf, "∞"),
-        (blocks.scientific, 25.0, "2.5 × 10¹"),
-        (blocks.percent, 0.0, "0 %"),
-        (blocks.percent, 6.78, "6.78 %"),
-        (blocks.percent, 0.361, "0.361 %"),
-        (blocks.percent, 478.2, "478 %"),
-        (blocks.percent, math.nan, "—"),
-        (blocks.percent, 1e-6, "1.0 × 10⁻⁶ %"),
-        (blocks.seconds, 2.5, "2.5 s"),
-        (blocks.seconds, 0.0123, "12.3 ms"),
-        (blocks.seconds, 3.7e-6, "3.7 µs"),
-        (blocks.seconds, 5e-8, "50 ns"),
-        (blocks.seconds, math.nan, "—"),
+        (formats.scientific, 3.24e-15, "3.2 × 10⁻¹⁵"),
+        (formats.scientific, 0.0, "0"),
+        (formats.scientific, math.nan, "—"),
+        (formats.scientific, math.inf, "∞"),
+        (formats.scientific, 25.0, "2.5 × 10¹"),
+        (formats.percent, 0.0, "0 %"),
+        (formats.percent, 6.78, "6.78 %"),
+        (formats.percent, 0.361, "0.361 %"),
+        (formats.percent, 478.2, "478 %"),
+        (formats.percent, math.nan, "—"),
+        (formats.percent, 1e-6, "1.0 × 10⁻⁶ %"),
+        (formats.seconds, 2.5, "2.5 s"),
+        (formats.seconds, 0.0123, "12.3 ms"),
+        (formats.seconds, 3.7e-6, "3.7 µs"),
+        (formats.seconds, 5e-8, "50 ns"),
+        (formats.seconds, math.nan, "—"),
         (lettered, "mu = tan(theta), -0.3 m/s2, v0 a-1", "μ = tan(θ), −0.3 m/s², v₀ a-1"),
         (lettered, "multi-axial -g sqrt(a - b) >= pi", "multi-axial −g √(a − b) ≥ π"),
-        (blocks.unbroken, "2°, μ = 0.4, PPA = 1.5 g, flat",
+        (formats.unbroken, "2°, μ = 0.4, PPA = 1.5 g, flat",
          "2°, μ\xa0=\xa00.4, PPA\xa0=\xa01.5\xa0g, flat"),
     ],
 )  # fmt: skip

@@ -6,6 +6,7 @@ from importlib.metadata import version
 import numba
 import pytest
 
+import printed
 import tables
 from report.figures.base import load_fonts
 from report.manual.features import features, known_errors, spans
@@ -15,10 +16,11 @@ from report.typeset.pdf import TEMPLATES
 from report.words.validation import NOT_VALIDATED, explained
 from solver.verification.checks import SECTIONS
 from solver.verification.design_checks import design_checks
-from solver.verification.evidence import CheckRow, Verification
+from solver.verification.evidence import CheckRow
 from solver.verification.features import FEATURES, statuses
 from solver.verification.shake_table import compare
 from solver.verification.table_tests import table_tests
+from verified import only
 
 compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
 
@@ -29,25 +31,19 @@ def row(id, *, passed=True):
                     passed=passed)  # fmt: skip
 
 
-def verification(checks=(), *found):
-    nothing = dict.fromkeys(
-        ("work", "maps", "convergence", "links", "curves", "conditioning", "roofs", "rungs"), ()
-    )
-    return Verification(**nothing, checks=tuple(checks), tables=found, peers=(), records=(),
-                        quick=True, seconds=1.0)  # fmt: skip
-
-
 def every():
     return [row(id) for feature in FEATURES for id in feature.checks]
 
 
-def cells(section):
-    rows = [row for block in section.blocks for table in block.tables for row in table.rows]
-    return {str(row.cells[0]): [str(cell) for cell in row.cells[1:]] for row in rows}
+def page(section):
+    """A section of the manual."""
+    return printed.manual(only(), section)
 
 
-def words(section):
-    return " ".join(text for block in section.blocks for text in block.texts)
+def features_of(checks, *found):
+    """The rows of the table of features by name."""
+    table = page(features(only(checks=tuple(checks), tables=found))).table("Features")
+    return {name: list(cells) for name, *cells in table.cells}
 
 
 @pytest.fixture
@@ -67,14 +63,14 @@ def test_a_feature_is_verified_if_all_its_checks_ran_and_passed():
     for feature in FEATURES:
         assert found[feature.name].is_verified == bool(feature.checks)
         assert not found[feature.name].is_validated
-    table = cells(features(verification(every())))
+    table = features_of(every())
     assert table["Tipping"] == ["DV-5", "1 of 1", "verified, not validated", ""]
     assert table["Formats of records"] == ["—", "—", "neither", "Automatic tests only"]
 
 
 def test_a_check_that_did_not_run_leaves_a_feature_unverified_and_is_named():
     left = [row for row in every() if row.id != "TA-8"]
-    table = cells(features(verification(left)))
+    table = features_of(left)
     assert table["Static friction above kinetic"][2] == "neither"
     assert table["Static friction above kinetic"][3].endswith("Did not run: TA-8")
 
@@ -83,7 +79,7 @@ def test_a_check_that_failed_marks_every_feature_that_names_it():
     checks = [*every(), row("CF-3", passed=False)]
     failed = [s.feature.name for s in statuses(checks, ()) if s.n_passed < s.n_checks]
     assert failed == ["Sliding in one axis", "Sliding in one axis with vertical shaking"]
-    table = cells(features(verification(checks)))
+    table = features_of(checks)
     assert all("FAIL" in table[name][2] for name in failed)
 
 
@@ -127,20 +123,20 @@ def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_
 
 
 def test_without_tests_the_manual_says_that_nothing_is_validated():
-    section = shake_table(verification())
-    assert explained(()) in words(section)
-    assert "option --table" in words(section)
-    assert "the median of the ratios is 0.9 to 1.1" in words(section)
+    said = page(shake_table(only()))
+    assert explained(()) in said
+    assert "option --table" in said
+    assert "the median of the ratios is 0.9 to 1.1" in said
 
 
 @compiled
 def test_computed_slip_validates_nothing_however_well_it_agrees(table):
     made = table((0.99, 1.0, 1.0, 1.0, 1.01))
-    said = words(shake_table(verification(every(), made)))
+    said = page(shake_table(only(tables=(made,))))
     assert "the slip of 0 was measured and that of 5 was computed" in said
     assert "A slip that was computed validates nothing" in said
     assert f"The acceptance is satisfied. {NOT_VALIDATED}" in said
-    assert tables.MADE in str(cells(shake_table(verification((), made))))
+    assert tables.MADE in said
     assert not any(status.is_validated for status in statuses(every(), [made]))
 
 
@@ -150,7 +146,7 @@ def test_measured_slip_validates_the_models_that_its_tests_use_and_no_other(tabl
     stated = table((0.99, 1.0, 1.0, 1.0, 1.01), data="measured")
     validated = [s.feature.name for s in statuses(every(), [stated]) if s.is_validated]
     assert validated == ["Sliding in one axis"]
-    listed = cells(features(verification(every(), stated)))
+    listed = features_of(every(), stated)
     assert listed["Sliding in one axis"][2] == "verified, validated by 5 tests"
     assert listed["Sliding in two axes"][2] == "verified, not validated"
 
@@ -168,17 +164,16 @@ def test_what_is_not_accepted_is_said_with_its_numbers(table):
 
 @compiled
 def test_the_chart_has_a_dot_for_each_test(table):
-    section = shake_table(verification((), table((1.0, 1.1, 1.2))))
-    (chart,) = [chart for block in section.blocks for chart in block.charts]
-    assert chart.picture.svg.count("<use ") >= 3
-    assert "0.75 to 1.33" in chart.picture.caption
+    section = shake_table(only(tables=(table((1.0, 1.1, 1.2)),)))
+    assert section.charts["shake-table"].count("<use ") >= 3
+    assert "gray: ratios of 0.75 to 1.33" in page(section)
 
 
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():
-    table = known_errors().blocks[0].tables[0]
-    printed = [row.cells for row in table.rows if len(row.cells) == 3]
-    assert printed == [(error.what, error.effect, error.action) for error in KNOWN_ERRORS]
+    said = page(known_errors())
+    printed_rows = [cells for cells in said.table("Errors").cells if cells[1]]
+    assert printed_rows == [(error.what, error.effect, error.action) for error in KNOWN_ERRORS]
     for error in KNOWN_ERRORS:
         assert all(text.endswith(".") for text in (error.what, error.effect, error.action))
     is_released = version("roofslip") in {error.version for error in KNOWN_ERRORS}
-    assert ("is a later state with the same number" in words(known_errors())) == is_released
+    assert ("is a later state with the same number" in said) == is_released

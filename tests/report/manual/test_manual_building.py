@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+import printed
 from places import RECORDS
 from report.cli.main import main
 from report.figures.base import load_fonts
-from report.manual.building import answer, building
+from report.manual.building import building
+from report.manual.summary import summary
 from report.typeset.pdf import TEMPLATES
 from solver.building.beam import beam_modes
 from solver.building.roof import absolute_accelerations, building_of_periods, roof_motion
@@ -22,9 +24,9 @@ from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification import building_checks as checks
 from solver.verification.building import BY_HEIGHT, SPECTRUM_S, compare, recorded_buildings
-from solver.verification.evidence import Verification
 from solver.verification.identification import identify
 from solver.verification.scenes import own_records
+from verified import only
 
 pytestmark = [
     pytest.mark.skipif(
@@ -57,27 +59,10 @@ def fonts():
     load_fonts(TEMPLATES / "fonts")
 
 
-def verification(*roofs):
-    nothing = dict.fromkeys(
-        (
-            "checks",
-            "work",
-            "maps",
-            "convergence",
-            "links",
-            "curves",
-            "conditioning",
-            "tables",
-            "rungs",
-            "peers",
-        ),
-        (),
-    )
-    return Verification(**nothing, roofs=roofs, records=(), quick=True, seconds=1.0)
-
-
-def texts(section):
-    return " ".join(text for block in section.blocks for text in block.texts)
+def page(*roofs):
+    """The section on buildings below the summary."""
+    found = only(roofs=roofs)
+    return printed.manual(found, summary(found), building(found))
 
 
 # What the verification finds
@@ -232,25 +217,23 @@ def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
 
 
 def test_without_records_the_manual_says_that_no_real_building_was_compared(comparison):
-    section = building(verification(comparison))
-    assert "No records of a real building were given to this run" in texts(section)
-    assert "does not show how well a uniform beam represents a real building" in texts(section)
-    assert [block.title for block in section.blocks] == ["", comparison.title]
-    assert answer(verification(comparison)) == ""
+    said = page(comparison)
+    assert "No records of a real building were given to this run" in said
+    assert "does not show how well a uniform beam represents a real building" in said
+    headed = [line for line in said.splitlines() if line.startswith("## ")]
+    assert headed[1:] == [f"## 2.1 {comparison.title}"]
+    assert "computed from its ground motion" not in said
 
 
 def test_with_records_the_manual_says_how_far_off_each_prediction_is(comparison, recorded):
-    both = verification(comparison, recorded)
-    section = building(both)
-    said = texts(section)
+    said = page(comparison, recorded)
     assert "Records of a real building were given: A tower." in said
     ratios = recorded.predictions[2].prd_m / recorded.prd_m
     span = f"{ratios.min():.2f} to {ratios.max():.2f}"
     assert f"{BY_HEIGHT}: {span}" in said
-    assert f"{BY_HEIGHT}: PRD {span} times" in answer(both)
+    assert f"{BY_HEIGHT}: PRD {span} times" in said
     assert "One building in one earthquake does not establish a margin for another" in said
-    tables = [*section.blocks[2].top, *section.blocks[2].tables]
-    cells = [str(cell) for table in tables for row in table.rows for cell in row.cells]
+    cells = [cell for table in said.tables[-3:] for row in table.cells for cell in row]
     for prediction in recorded.predictions:
         assert cells.count(prediction.name[0].upper() + prediction.name[1:]) == 3
         for ratio, scatter in zip(prediction.band_ratios, prediction.band_scatters, strict=True):
@@ -262,11 +245,12 @@ def test_with_records_the_manual_says_how_far_off_each_prediction_is(comparison,
 
 
 def test_charts_name_each_line_and_only_records_have_a_history(comparison, recorded):
-    first, other = (building(verification(f)).blocks[1].charts[0] for f in (comparison, recorded))
-    assert first.name == "building-model-building-of-24-stories"
+    name = "building-model-building-of-24-stories"
+    first = building(only(roofs=(comparison,))).charts[name]
+    (other,) = building(only(roofs=(recorded,))).charts.values()
     for text in (">ground<", ">roof, integrated directly<", ">fitted to the 12th floor<"):
-        assert text in first.picture.svg
+        assert text in first
     for text in (">roof, recorded<", f">{BY_HEIGHT}<", ">Roof acceleration: recorded (solid)"):
-        assert text in other.picture.svg
-    assert "Roof acceleration" not in first.picture.svg
-    assert "ground motion applied at the roof" not in other.picture.svg
+        assert text in other
+    assert "Roof acceleration" not in first
+    assert "ground motion applied at the roof" not in other

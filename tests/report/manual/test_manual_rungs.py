@@ -9,19 +9,22 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import printed
 from report.figures.base import load_fonts
-from report.manual.blocks import percent
-from report.manual.rungs import answers, rungs
+from report.manual.rungs import rungs
+from report.manual.summary import summary
 from report.manual.table import verification_csv
 from report.typeset.pdf import TEMPLATES
-from solver.verification import plane_scipy, rung_study
-from solver.verification.evidence import Verification
+from report.words.formats import percent
+from solver.verification import rung_study
 from solver.verification.rung_evidence import HELD, SECOND
 from solver.verification.triples import own_triples
+from verified import only
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="generated motions take minutes without JIT"
 )
+TWO_AXES = "PRD in two axes relative to one axis, median"
 
 
 @pytest.fixture(scope="module")
@@ -30,44 +33,27 @@ def evidence():
     return rung_study.rung_evidence(own_triples(True), quick=True)
 
 
-def verification(*evidence):
-    nothing = dict.fromkeys(
-        (
-            "checks",
-            "work",
-            "maps",
-            "convergence",
-            "links",
-            "curves",
-            "conditioning",
-            "tables",
-            "roofs",
-        ),
-        (),
-    )
-    return Verification(**nothing, rungs=evidence, peers=(), records=(), quick=True, seconds=1.0)
+def page(evidence):
+    """The section on the models below the summary."""
+    found = only(rungs=(evidence,))
+    return printed.manual(found, summary(found), rungs(found))
 
 
-def words(section):
-    blocks = section.blocks
-    tables = [table for block in blocks for table in (*block.top, *block.tables)]
-    cells = [cell for table in tables for row in table.rows for cell in row.cells]
-    texts = [text for block in blocks for text in block.texts]
-    return " ".join([*texts, *cells, *(note for table in tables for note in table.notes)])
+@pytest.fixture(scope="module")
+def said(evidence):
+    return page(evidence)
 
 
-def test_the_factor_of_the_second_axis_is_told(evidence):
-    said = words(rungs(verification(evidence)))
+def test_the_factor_of_the_second_axis_is_told(evidence, said):
     second = evidence.study.named(SECOND)
     assert f"PRD is {second.median:.2f} times that of one axis with the same heading" in said
     assert "One axis underestimates the PRD." in said
     assert "No records of three components were given" in said
-    (answer,) = answers(verification(evidence))
-    assert f"{second.median:.2f} times" in answer[1]
+    result = said.table("Key results").row(TWO_AXES)["Result"]
+    assert result.startswith(f"{second.median:.2f} times")
 
 
-def test_static_friction_is_told_beside_friction_by_speed(evidence):
-    said = words(rungs(verification(evidence)))
+def test_static_friction_is_told_beside_friction_by_speed(evidence, said):
     held, least = evidence.study.named(HELD), evidence.static.differences[-1]
     span = f"({held.at(10.0):.2f} to {held.at(90.0):.2f})"
     assert f"{held.median:.2f} times in two axes {span}" in said
@@ -75,55 +61,60 @@ def test_static_friction_is_told_beside_friction_by_speed(evidence):
     assert "the power 2.0 and 2.0 of the difference" in said
 
 
-def test_the_distribution_of_error_over_bound_is_told(evidence):
-    said = words(rungs(verification(evidence)))
+def test_the_distribution_of_error_over_bound_is_told(evidence, said):
     assert "Every pair is within its bound." in said
     pairs = sum(group.n_pairs for group in evidence.bounds)
     assert f"{pairs:,} pairs of runs" in said
-    group = evidence.bounds[0]
-    broken = replace(group, ratios=np.array([0.5, 3.0]), n_unanswered=2)
-    said = words(rungs(verification(replace(evidence, bounds=(broken, *evidence.bounds[1:])))))
-    assert "Pairs over their bounds: 1; without a result: 2." in said
 
 
-def test_no_number_is_printed_raw(evidence):
-    said = words(rungs(verification(evidence)))
-    assert not re.search(r"\bnan\b|\d+e[-+]?\d|None|\{|\}", said)
+def test_no_number_is_printed_raw(said):
+    _, models = said.split("# 2 Models")
+    assert not re.search(r"\bnan\b|\d+e[-+]?\d|None|\{|\}", models)
 
 
-def test_recorded_motions_and_lifted_runs_are_told(evidence):
-    study = replace(evidence.study, n_recorded=1, n_uplift=3)
-    said = words(rungs(verification(replace(evidence, study=study))))
-    assert "1 recorded in earthquakes" in said
-    assert "In 3 runs the vertical component lifts the block" in said
-    assert "No records of three" not in said
+def over_their_bounds(evidence):
+    broken = replace(evidence.bounds[0], ratios=np.array([0.5, 3.0]), n_unanswered=2)
+    return replace(evidence, bounds=(broken, *evidence.bounds[1:]))
 
 
-def test_where_nothing_slides_nothing_is_claimed(evidence):
-    none = [replace(change, ratios=np.empty(0)) for change in evidence.study.changes]
-    study = replace(evidence.study, changes=tuple(none))
+def recorded_and_lifted(evidence):
+    return replace(evidence, study=replace(evidence.study, n_recorded=1, n_uplift=3))
+
+
+def nothing_slides(evidence):
+    changes = tuple(replace(change, ratios=np.empty(0)) for change in evidence.study.changes)
     static = replace(evidence.static, n_scenes=0)
-    still = verification(replace(evidence, study=study, static=static))
-    assert "No run slides 5 mm or more" in words(rungs(still))
-    assert answers(still) == ()
+    return replace(evidence, study=replace(evidence.study, changes=changes), static=static)
 
 
-def test_without_scipy_the_manual_says_so(evidence, monkeypatch):
-    monkeypatch.setattr(plane_scipy, "is_installed", lambda: False)
-    work = tuple(point for point in evidence.work if "SciPy" not in point.method)
-    said = words(rungs(verification(replace(evidence, work=work))))
-    assert "SciPy is not installed here" in said
+def without_scipy(evidence):
+    return replace(evidence, work=tuple(p for p in evidence.work if "SciPy" not in p.method))
+
+
+@pytest.mark.parametrize(
+    ("changed", "wanted", "unsaid"),
+    [
+        (over_their_bounds, "over their bounds: 1; without a result: 2.", "Every pair is within"),
+        (recorded_and_lifted, "1 recorded in earthquakes", "No records of three"),
+        (recorded_and_lifted, "In 3 runs the vertical component lifts the block", "No records of"),
+        (nothing_slides, "No run slides 5 mm or more", TWO_AXES),
+        (without_scipy, "SciPy is not installed here", "SciPy's DOP853"),
+    ],
+)
+def test_what_differs_in_another_run_is_told(evidence, changed, wanted, unsaid):
+    said = page(changed(evidence))
+    assert wanted in said
+    assert unsaid not in said
 
 
 def test_the_charts_are_the_same_every_time(evidence):
-    first, other = (rungs(verification(evidence)) for _ in range(2))
-    charts = [[c.picture.svg for b in part.blocks for c in b.charts] for part in (first, other)]
-    assert charts[0] == charts[1]
-    assert len(charts[0]) == 3
+    first, other = (rungs(only(rungs=(evidence,))).charts for _ in range(2))
+    assert first == other
+    assert len(first) == 3
 
 
 def test_the_runs_are_in_the_table_of_the_verification(evidence):
-    table = pd.read_csv(io.BytesIO(verification_csv(verification(evidence))))
+    table = pd.read_csv(io.BytesIO(verification_csv(only(rungs=(evidence,)))))
     assert set(table["kind"]) == {"run in two axes"}
     assert list(table["PRD error [%]"]) == pytest.approx(
         [point.error_percent for point in evidence.work], rel=1e-12

@@ -12,6 +12,7 @@ from cells import cell
 from recalculated import converted, recalculated
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
+from report.words.units import ratio
 from sheets import of, put
 
 INCH = 0.0254
@@ -104,7 +105,7 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
     for number, gap in enumerate(after.clearances, start=1):
         row = f"Clearances/{number}"
         lengths = (gap.design_m, gap.factor * INCH, gap.required_m, gap.clearance.provided_m)
-        wanted = [*(value / INCH for value in lengths), gap.demand_capacity]
+        wanted = [*(value / INCH for value in lengths), float(ratio(gap.demand_capacity))]
         headings = ("Design", "Factor", "Required [in]", "Provided", "D/C")
         assert compared(book, row, headings) == pytest.approx(wanted, rel=1e-9)
         governing = f"{gap.governing_array}, {gap.governing_direction.value}"

@@ -7,6 +7,7 @@ import json
 import math
 import re
 import sys
+from statistics import NormalDist
 
 import defusedxml.ElementTree
 import numpy as np
@@ -16,31 +17,24 @@ from click.testing import CliRunner
 from dlml import get_fragility, get_metadata, vocabulary
 from dlml._tabular import load_tabular
 from openpyxl import load_workbook
-from pypdf import PdfReader
-from test_study_exports import read_nrml
-from test_study_read import at, given, write
+from test_study_read import at, command, given, sheet_rows, with_study, write
 
-import packages
 import printed
 from report.cli.main import main
 from report.cli.study import make
-from report.pages.symbols import with_symbols
 from report.results.publish import locked
-from report.sheet.schema import UnitsFirst
-from report.study import files
-from report.study.exports import chances_of, component_id, export_files, known_states
-from report.study.files import study_files, study_html
+from report.study import figures, files
+from report.study.exports import component_id, export_files, known_states, probabilities_of
+from report.study.files import study_html
 from report.study.prescribed import compare
-from report.study.read import read_study
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
-from report.study.template import write_study
+from report.study.tables import curves_csv, study_xlsx
 from report.study.words import design_words, headline
 from report.typeset.pdf import lay_out
-from report.words.units import digits_down
+from report.words.units import Quantity
 from solver import solve
 from solver.model import InputError, coulomb
-from solver.studies.curves import least_friction
 from solver.studies.fragility import UNKNOWN, Lognormal
 
 
@@ -74,22 +68,9 @@ def made(tmp_path_factory, laid_out):
     folder = write(tmp_path_factory.mktemp("study"), small(), motions=6)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(files, "lay_out", lambda html: laid_out.append(html) or lay_out(html))
-        done = CliRunner().invoke(main, ["study", str(folder)])
+        done = command(folder)
     assert done.exit_code == 0, done.output
     return folder, done.output
-
-
-@pytest.fixture
-def unlaid(monkeypatch):
-    """Have reports written as HTML."""
-    monkeypatch.setattr(files, "lay_out", str.encode)
-
-
-@pytest.fixture
-def undrawn(unlaid):
-    """Have reports written as HTML, their charts left out."""
-    with packages.undrawn():
-        yield
 
 
 @pytest.fixture(scope="module")
@@ -168,8 +149,8 @@ def test_the_chance_is_that_of_the_samples(results):
         for slope, mu, x in zip(cases.slope_rad, cases.mu, cases.intensity, strict=True)
         for k in range(6)
     ]
-    assert array.chances[0].value == pytest.approx(np.mean(over), abs=1e-12)
-    assert array.chances[0].runs == 120
+    assert array.exceedances[0].value == pytest.approx(np.mean(over), abs=1e-12)
+    assert array.exceedances[0].runs == 120
     assert {bar.name for bar in array.bars} == {"friction coefficient", "slope", "intensity"}
 
 
@@ -180,21 +161,28 @@ def test_a_chance_without_a_value_at_the_medians_has_no_chart_and_says_so(result
         dataclasses.replace(bar, prd_low_m=math.nan, prd_high_m=math.nan) for bar in one.bars
     )
     one = dataclasses.replace(one, bars=bars, center_m=math.nan)
-    page = printed.study(dataclasses.replace(results, arrays=(one,)))
+    page = printed.study(having(results, one))
     _, chances = page.split("no final PRD with all variables at their medians")
     assert "[" not in chances.partition("#")[0]
 
 
+def test_a_sheet_is_drawn_where_cases_without_a_value_leave_a_contour_no_line():
+    """Such as uplift on one slope: the end of a study whose runs are done."""
+    design_m = np.array([[0.1, 0.2, 0.3], [np.nan] * 3, [3.0] * 3])
+    inch, x = Quantity.DISPLACEMENT.us, np.arange(3.0)
+    drawn = figures.contours(x, x, design_m, design_m, inch, along="PPA [g]", allowed_m=1.0)
+    assert ">PPA [g]<" in drawn
+
+
+def test_motions_without_a_final_prd_are_counted(results):
+    lost = dataclasses.replace(results.curves, without_value=results.curves.without_value + 1)
+    cases, said = lost.mean_m.size, printed.study(dataclasses.replace(results, curves=lost))
+    assert int(results.curves.without_value.sum()) == 0
+    assert f"{cases} of {6 * cases} pairs of case and motion have no final PRD" in said
+
+
 def test_a_mat_without_tests_has_no_bar_for_friction(results):
     assert {bar.name for bar in results.arrays[1].bars} == {"slope", "intensity"}
-
-
-def test_least_friction_is_read_off_the_curve(results):
-    mus = np.array(results.plan.input.mus)
-    found = results.least_frictions(0, "largest PRD", 0.1)
-    wanted = least_friction(mus, results.curves.largest_m[0, 1, :, 6], 0.1)
-    assert found[1, 6] == pytest.approx(wanted, abs=0.01, nan_ok=True)
-    assert not found[1, 6] < wanted
 
 
 def test_censored_and_exceeding_runs_without_a_value_differ_as_stated(other):
@@ -226,18 +214,17 @@ def test_the_command_writes_every_file_and_prints_the_results(made, results):
     assert len(rows) == manifest["rows"]
 
 
-def test_a_second_run_runs_nothing_and_writes_the_same_bytes(made, results, laid_out, unlaid):
+def test_a_second_run_runs_nothing_and_writes_the_same_bytes(made, results, laid_out):
     """Layout is tested for it in tests/report/proof/test_verify_package.py."""
-    out = made[0] / "out" / "study"
-    written = study_files(results)
-    assert [written.pop("study.pdf").decode()] == laid_out
-    for name, content in written.items():
-        assert (out / name).read_bytes() == content, name
+    assert [study_html(results)] == laid_out
+    tables = {"curves.csv": curves_csv(results), "study.xlsx": study_xlsx(results)}
+    for name, content in {**tables, **export_files(results)}.items():
+        assert (made[0] / "out" / "study" / name).read_bytes() == content, name
 
 
 def test_a_dry_run_prints_and_writes_nothing(tmp_path):
     folder = write(tmp_path, small())
-    done = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
+    done = command(folder, "--dry-run")
     assert done.exit_code == 0
     found = estimate(planned(folder)[0])
     assert f"{found.runs:,} runs" in done.output
@@ -249,7 +236,7 @@ def test_a_dry_run_prints_and_writes_nothing(tmp_path):
 @pytest.mark.parametrize("missing", ["pyarrow", "pyarrow.parquet"])
 def test_without_the_extra_the_command_says_what_to_type(tmp_path, monkeypatch, missing):
     monkeypatch.setitem(sys.modules, missing, None)
-    done = CliRunner().invoke(main, ["study", str(tmp_path)])
+    done = command(tmp_path)
     assert done.exit_code == 2
     assert "pip install 'roofslip[study]'" in done.output
     assert "./roofslip study" in done.output
@@ -257,7 +244,7 @@ def test_without_the_extra_the_command_says_what_to_type(tmp_path, monkeypatch, 
 
 def test_an_input_error_ends_with_two_and_the_cell(tmp_path):
     folder = write(tmp_path, small(slopes_deg="no"))
-    done = CliRunner().invoke(main, ["study", str(folder)])
+    done = command(folder)
     assert done.exit_code == 2
     assert at("<Study/Slopes>") in done.output
 
@@ -268,7 +255,7 @@ def test_new_writes_a_blank_study_that_is_read(tmp_path):
     assert "roofslip study" in done.output
     both = CliRunner().invoke(main, ["new", str(tmp_path / "x"), "--study", "--example"])
     assert both.exit_code == 2
-    done = CliRunner().invoke(main, ["study", str(tmp_path / "new")])
+    done = command(tmp_path / "new")
     assert done.exit_code == 2
     assert "title is missing" in done.output
 
@@ -289,63 +276,31 @@ def test_the_workbook_holds_summaries_only(made, results):
         "Study", "Curves", "Least friction", "Largest slope", "Fragility", "Chances", "Formula",
     ]  # fmt: skip
     assert max(sheet.max_row for sheet in book) <= results.curves.mean_m.size * 3 + 1
-    heads = [cell.value for cell in book["Curves"][1]]
+    curve = sheet_rows(results, "Curves")[11]
     for head, values in (
         ("Design displacement before the floor [in]", results.design_m),
         ("Mean PRD [in]", results.curves.mean_m),
     ):
-        value = book["Curves"].cell(2 + 11, 1 + heads.index(head)).value
-        assert value == pytest.approx(values[0, 0, 0, 11] / 0.0254)
-    about = {row[0].value: row[1].value for row in book["Study"]}
+        assert curve[head] == pytest.approx(values[0, 0, 0, 11] / 0.0254)
+    about = {row["What"]: row["Value"] for row in sheet_rows(results, "Study")}
     assert about["Design displacement"] == design_words(results)
-    theta = [row[6].value for row in book["Fragility"].iter_rows(min_row=2)]
-    for found, state in zip(theta[:3], results.arrays[0].states, strict=True):
+    for row, state in zip(sheet_rows(results, "Fragility"), results.arrays[0].states, strict=False):
         wanted = state.fragility.fitted.theta
-        assert found == ("none" if math.isnan(wanted) else pytest.approx(wanted))
+        assert row["Median theta"] == ("none" if math.isnan(wanted) else pytest.approx(wanted))
 
 
-def text_of(pdf):
-    return " ".join(" ".join(page.extract_text() for page in PdfReader(pdf).pages).split())
-
-
-def test_the_pages_state_what_was_found(made, results):
-    text = text_of(made[0] / "out/study/study.pdf")
-    assert "1 Results" in text
-    assert "Fragility of S1" in text
-    assert "of the PRD, not of the design displacement" in text
-    assert "RTU & co" in text
-    lost = int(results.curves.without_value.sum())
-    assert ("Every motion gave a final PRD" in text) == (lost == 0)
-    fit = results.fits[0]
-    assert f"{results.manifest['rows']:,} runs" in text
-    assert "outside" in text or isinstance(fit, str)
-    state = results.arrays[0].states[2].fragility
-    assert digits_down(state.fitted.theta, 3) in text
-
-
-def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(
-    other, results, undrawn
-):
+def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(other, results):
+    """There pelicun and OpenQuake have no measure. Of six motions the largest counts."""
     assert compare(results, 0) == ()
     found = other(intensity=Intensity.S_DS, s_ds_g=1.0, intensities="0.2 to 2 by 0.2")
-    one = compare(found, 0)[0]
-    at = 0, 1, 1, 6
+    (one,) = compare(found, 0)
     level = found.plan.input.intensities[6]
     wanted = max(60.0 * 0.0254 * (level - 0.4) ** 2, 6.0 * 0.0254)
-    # Six motions: the largest counts.
-    ratio = 1.1 * found.curves.largest_m[at] / wanted
+    ratio = 1.1 * found.curves.largest_m[0, 1, 1, 6] / wanted
     assert one.ratio[1, 1, 6] == pytest.approx(ratio, nan_ok=True)
-    written = study_files(found)
-    prose = written["study.pdf"].decode()
-    text = packages.words(prose)
-    assert "Beside the prescriptive displacement" in text
     safe = int((one.ratio <= 1.0).sum())
-    assert f"enough in {safe:,} of {one.ratio.size:,} cases" in text
-    # Set as a symbol on the pages; the charts write it as the sheet does.
-    assert str(with_symbols("S_DS")) in prose
-    assert not re.search(r"<(p|li|figcaption)[^>]*>[^<]*S_DS", prose)
-    # pelicun and OpenQuake have no measure S_DS.
-    assert set(written) == {"study.pdf", "curves.csv", "study.xlsx"}
+    assert f"enough in {safe:,} of {one.ratio.size:,} cases" in printed.study(found)
+    assert export_files(found) == {}
 
 
 @pytest.mark.nightly("report/study/", "solver/studies/")
@@ -360,9 +315,9 @@ def test_a_family_of_buildings_has_curves_each(other):
     for b in (0, 1):
         prd = [peak(found.plan, k, b, 3.0, 0.4, 0.8) for k in range(6)]
         assert found.curves.mean_m[b, 1, 0, 1] == pytest.approx(np.mean(prd), nan_ok=True)
-    text = packages.words(study_html(found))
-    assert "building T1" in text
-    assert "building T2" in text
+    said = printed.study(found)
+    assert "Design curves, building T1" in said
+    assert "Design curves, building T2" in said
 
 
 def test_one_case_makes_a_report(other):
@@ -371,15 +326,66 @@ def test_one_case_makes_a_report(other):
         site_intensity=None, intensity_beta=0.0, allowed_m=None,
     )  # fmt: skip
     assert isinstance(found.fits[0], str)
-    assert "None is given" in packages.words(study_html(found))
+    assert "None is given" in printed.study(found)
 
 
 # The exports
 
+# Of openquake.commonlib.nrml and openquake.hazardlib.valid
+SIMPLE_ID = re.compile(r"[\w_\-]{1,75}")
+IMT = re.compile(r"PGA|PGV|SA\(\d+\.\d+\)")
+ROOF, GROUND = "roof motion, not of the ground.", "ground motion, not of the roof."
 
-def known(results):
-    """The arrays with a lognormal of any limit state."""
-    return [a for a in results.arrays if known_states(a)]
+
+def read_nrml(content):
+    """Read a discrete fragility model of NRML 0.5 as OpenQuake does, which reads no unit.
+
+    Its functions have (imt, limit of no damage, levels, chances by limit state).
+    """
+    space = "{http://openquake.org/xmlns/nrml/0.5}"
+    root = defusedxml.ElementTree.fromstring(content)
+    assert root.tag == f"{space}nrml"
+    (model,) = root
+    assert model.tag == f"{space}fragilityModel"
+    assert set(model.attrib) == {"id", "assetCategory", "lossCategory"}
+    assert SIMPLE_ID.fullmatch(model.attrib["id"])
+    description, states, *functions = model
+    assert (description.tag, states.tag) == (f"{space}description", f"{space}limitStates")
+    assert description.text.strip()
+    names = states.text.split()
+    assert all(SIMPLE_ID.fullmatch(name) for name in names)
+    found = {}
+    for function in functions:
+        assert function.tag == f"{space}fragilityFunction"
+        assert function.attrib["format"] == "discrete"
+        levels, *chances = function
+        assert levels.tag == f"{space}imls"
+        assert set(levels.attrib) == {"imt", "noDamageLimit"}
+        assert IMT.fullmatch(levels.attrib["imt"])
+        x = np.array(levels.text.split(), float)
+        assert x[0] > 0.0
+        assert (np.diff(x) > 0.0).all()
+        limit = float(levels.attrib["noDamageLimit"])
+        assert 0.0 < limit < x[0]  # 0 is warned of; without one nothing is known below x[0]
+        assert [c.attrib["ls"] for c in chances] == names
+        p = np.array([c.text.split() for c in chances], float)
+        assert p.shape == (len(names), x.size)
+        assert (np.diff(p, axis=0) <= 0.0).all()  # a damage state is the difference of two
+        assert ((p >= 0.0) & (p <= 1.0)).all()
+        assert function.attrib["id"] not in found
+        found[function.attrib["id"]] = levels.attrib["imt"], limit, x, p
+    return names, found
+
+
+def having(results, *arrays):
+    """The results with other arrays."""
+    return dataclasses.replace(results, arrays=arrays)
+
+
+def with_fit(state, fit, **counts):
+    """A limit state with another lognormal, and no dispersion beside its own."""
+    found = dataclasses.replace(state.fragility, fitted=fit, **counts)
+    return dataclasses.replace(state, fragility=found, effects={})
 
 
 # The reader sets an option that its pandas no longer needs.
@@ -390,11 +396,12 @@ def test_pelicun_reads_the_library(made, results, tmp_path):
     theirs = get_fragility(P58)
     assert found.columns.names == theirs.columns.names
     assert [c for c in theirs.columns if c[0] == "LS1" and c not in found.columns] == []
-    assert len(found) == len(known(results)) > 0
+    known = [one for one in results.arrays if known_states(one)]
+    assert len(found) == len(known) > 0
     row = found.iloc[0]
     assert row["Demand", "Type"] in vocabulary.EDP_TYPES
     assert row["Demand", "Unit"] == "g"
-    array = min(known(results), key=lambda one: component_id(results, one))  # the reader sorts
+    array = min(known, key=lambda one: component_id(results, one))  # the reader sorts
     for state in known_states(array):
         name, fitted = state.name, state.fragility.fitted
         assert row[name, "Family"] == "lognormal"
@@ -409,13 +416,8 @@ def test_pelicun_reads_the_library(made, results, tmp_path):
 @pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")
 def test_an_undetermined_state_leaves_the_others_their_names_in_every_file(results, tmp_path):
     fits = Lognormal(theta=0.5, beta=0.1), UNKNOWN, Lognormal(theta=1.5, beta=0.2)
-    states = tuple(
-        dataclasses.replace(state, fragility=dataclasses.replace(state.fragility, fitted=fit))
-        for state, fit in zip(results.arrays[0].states, fits, strict=True)
-    )
-    one, _, three = states
-    array = dataclasses.replace(results.arrays[0], states=states)
-    made = export_files(dataclasses.replace(results, arrays=(array,)))
+    states = one, _, three = tuple(map(with_fit, results.arrays[0].states, fits))
+    made = export_files(having(results, dataclasses.replace(results.arrays[0], states=states)))
     (tmp_path / "fragility.csv").write_bytes(made["fragility.csv"])
     row = load_tabular(tmp_path / "fragility.csv").iloc[0]
     for state in (one, three):
@@ -452,38 +454,27 @@ def test_the_metadata_have_the_keys_of_fema_p58(made, results):
 
 
 @pytest.mark.parametrize(
-    ("changes", "imt", "per_unit", "said"),
-    [({}, "PGA", 1.0, "PGA in g is the peak horizontal acceleration of the roof motion, not of"),
-     ({"intensity": Intensity.PPV}, "PGV", 100.0,
-      "PGV in cm/s is the peak horizontal velocity of the roof motion, not of the ground."),
+    ("changes", "imt", "per_unit", "said", "which"),
+    [({}, "PGA", 1.0, "PGA in g is the peak horizontal acceleration of the roof", ROOF),
+     ({"intensity": Intensity.PGA}, "PGA", 1.0, "PGA in g is the peak horizontal", GROUND),
+     ({"intensity": Intensity.PPV}, "PGV", 100.0, "PGV in cm/s is the peak horizontal velo", ROOF),
      ({"intensity": Intensity.SA1}, "SA(1.0)", 1.0,
-      "SA(1.0) in g is the horizontal spectral acceleration at 1 s with 5 % damping of the roof")],
+      "SA(1.0) in g is the horizontal spectral acceleration at 1 s with 5 % damping", ROOF)],
 )  # fmt: skip
-def test_openquake_takes_the_levels_in_its_unit_and_is_told_that_they_are_of_the_roof(
-    results, changes, imt, per_unit, said
+def test_openquake_takes_the_levels_in_its_unit_and_each_file_says_of_which_motion_they_are(
+    results, changes, imt, per_unit, said, which
 ):
-    study = results.plan.input.study.model_copy(update=changes)
-    given_ = dataclasses.replace(results.plan.input, study=study)
-    plan = dataclasses.replace(results.plan, input=given_)
-    made = export_files(dataclasses.replace(results, plan=plan))
+    made = export_files(with_study(results, **changes))
     _, found = read_nrml(made["fragility.xml"])
-    for name, _, x, _ in found.values():
+    for name, limit, x, _ in found.values():
         assert name == imt
-        assert x == pytest.approx(per_unit * np.array(plan.input.intensities))
+        assert limit == pytest.approx(1e-3 * x[0])
+        assert x == pytest.approx(per_unit * np.array(results.plan.input.intensities))
     assert said in made["fragility.xml"].decode()
     placed = list(csv.DictReader(io.StringIO(made["placement.csv"].decode())))
     comments = [json.loads(made["fragility.json"])[row[""]]["Comments"] for row in placed]
-    for text in (*comments, *(row["Comment"] for row in placed)):
-        assert "of the roof motion, not of the ground." in text
-
-
-def test_pga_of_the_ground_is_told_to_be_of_the_ground(results):
-    study = results.plan.input.study.model_copy(update={"intensity": Intensity.PGA})
-    plan = dataclasses.replace(
-        results.plan, input=dataclasses.replace(results.plan.input, study=study)
-    )
-    made = export_files(dataclasses.replace(results, plan=plan))
-    assert "of the ground motion, not of the roof." in made["fragility.xml"].decode()
+    for text in (*comments, *(row["Comment"] for row in placed), made["fragility.xml"].decode()):
+        assert which in text
 
 
 def test_openquake_has_the_chances_at_every_intensity(made, results):
@@ -493,35 +484,58 @@ def test_openquake_has_the_chances_at_every_intensity(made, results):
     for (imt, _, x, p), array in zip(found.values(), results.arrays, strict=True):
         assert imt == "PGA"
         assert x == pytest.approx(results.plan.input.intensities)
-        for row, wanted in zip(p, chances_of(results, array), strict=True):
+        for row, wanted in zip(p, probabilities_of(results, array), strict=True):
             assert row == pytest.approx(wanted, abs=1.01e-6)
             assert (row >= wanted - 1e-11).all()
             assert (np.diff(row) >= 0.0).all()
 
 
-def test_without_arrays_there_is_nothing_to_export(other):
-    found = other(study_arrays=(), site_intensity=None, intensity_beta=0.0)
-    assert export_files(found) == {}
+def test_limit_states_that_cross_have_no_negative_chance_between_them(results):
+    """OpenQuake's chance of a damage state is the difference of two limit states."""
+    one = results.arrays[0]
+    fits = Lognormal(theta=1.0, beta=0.1), Lognormal(theta=1.2, beta=0.8)
+    crossing = dataclasses.replace(one, states=tuple(map(with_fit, one.states[:2], fits)))
+    _, found = read_nrml(export_files(having(results, crossing))["fragility.xml"])
+    ((_, _, x, (first, second)),) = found.values()
+    alone = [[NormalDist(math.log(f.theta), f.beta).cdf(math.log(v)) for v in x] for f in fits]
+    assert second == pytest.approx(alone[1], abs=1.01e-6)
+    assert first == pytest.approx(np.max(alone, axis=0), abs=1.01e-6)
 
 
-def test_the_workbook_of_a_study_is_the_same_in_si(tmp_path):
-    write(tmp_path, small())
-    write_study(tmp_path / "input.xlsx", units=UnitsFirst.SI, example=small(units_first="SI"))
-    assert read_study(tmp_path).input.study.allowed_m == pytest.approx(0.1)
+def test_an_array_whose_runs_are_censored_has_no_chance_of_zero_in_openquake(results):
+    """Of a motion without a value it is not known whether it exceeds: 0 of 0 is no chance."""
+    one, levels = results.arrays[0], len(results.plan.input.intensities)
+
+    def without_lognormal(name, **counts):
+        first = with_fit(one.states[0], UNKNOWN, **counts)
+        array = one.plan.array.model_copy(update={"id": name})
+        plan = dataclasses.replace(one.plan, array=array)
+        return dataclasses.replace(one, states=(first, *one.states[1:]), plan=plan)
+
+    counted, exceeded = np.array([7] * (levels - 2) + [1, 0]), np.minimum(np.arange(levels), 7)
+    lost = without_lognormal("A2", counted=counted, exceeded=0 * exceeded, censored=13)
+    whole = without_lognormal("A3", counted=np.full(levels, 7), exceeded=exceeded, censored=0)
+    made = export_files(having(results, one, lost, whole))["fragility.xml"]
+    _, found = read_nrml(made)
+    assert list(found) == ["BSA.S1", "BSA.A3"]
+    assert "BSA.A2 is left out: LS1 has no lognormal and censored runs." in made.decode()
+    *_, p = found["BSA.A3"]
+    assert p[0] == pytest.approx(np.maximum(exceeded / 7.0, p[1]), abs=1.01e-6)
+    assert "fragility.xml" not in export_files(having(results, lost))
+
+
+def test_without_arrays_there_is_nothing_to_export(results):
+    assert export_files(having(results)) == {}
 
 
 # What a user may do to the folder of a study
-
-
-def run_command(folder, *options):
-    return CliRunner().invoke(main, ["study", str(folder), *map(str, options)])
 
 
 def test_a_study_does_not_replace_its_own_workbook(tmp_path):
     folder = write(tmp_path, small())
     book = (folder / "input.xlsx").rename(folder / "study.xlsx")
     content = book.read_bytes()
-    done = run_command(book, "--out", folder)
+    done = command(book, "--out", folder)
     assert done.exit_code == 2, done.output
     assert "is an input of this run, and would be replaced by its study.xlsx" in done.output
     assert book.read_bytes() == content
@@ -531,7 +545,7 @@ def test_a_study_does_not_replace_its_own_workbook(tmp_path):
 def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
     folder = write(tmp_path, small())
     (tmp_path / "out").write_text("mine")
-    done = run_command(folder)
+    done = command(folder)
     assert done.exit_code == 2
     assert "is a file, not a folder; choose another folder" in done.output
 

@@ -4,10 +4,8 @@ import os
 import signal
 
 import pytest
-from click.testing import CliRunner
-from test_study_read import write
+from test_study_read import command, write
 
-from report.cli.main import main
 from report.study import cluster as clusters
 from report.study.cluster import connected, run_on_cluster
 from report.study.manifest import manifest_of
@@ -43,14 +41,12 @@ def test_a_killed_worker_loses_nothing_and_every_part_has_the_bytes_of_this_mach
     run_missing(here, c, identity, NAMES, numbers, lambda done: None)
     killed = []
 
+    def on_done(done):
+        if not killed:
+            killed.append(next(iter(client.run(os.getpid).values())))
+            os.kill(killed[0], signal.SIGKILL)
+
     with connected(cluster.scheduler_address, manifest) as client:
-
-        def on_done(done):
-            if not killed:
-                pids = client.run(os.getpid)
-                killed.append(next(iter(pids.values())))
-                os.kill(killed[0], signal.SIGKILL)
-
         begin(there, manifest)
         run_on_cluster(client, there, c, identity, NAMES, numbers, on_done)
     assert killed
@@ -59,7 +55,7 @@ def test_a_killed_worker_loses_nothing_and_every_part_has_the_bytes_of_this_mach
         assert (there / part_name(number)).read_bytes() == (here / part_name(number)).read_bytes()
 
 
-def test_workers_of_another_version_are_an_error_before_anything_runs(cluster, tmp_path):
+def test_workers_of_another_version_are_an_error_before_anything_runs(cluster):
     manifest = manifest_of(campaign("x"), {})
     manifest["program"] = {**manifest["program"], "numba": "0.1"}
     with (
@@ -70,39 +66,38 @@ def test_workers_of_another_version_are_an_error_before_anything_runs(cluster, t
     assert "here 0.1" in str(caught.value)
 
 
-@pytest.mark.nightly("report/study/clusters.py")
+@pytest.mark.nightly("report/study/cluster.py")
 def test_a_study_runs_on_a_cluster(cluster, tmp_path):
     folder = write(tmp_path)
-    done = CliRunner().invoke(
-        main, ["study", str(folder), "--scheduler", cluster.scheduler_address, "--quiet"]
-    )
+    done = command(folder, "--scheduler", cluster.scheduler_address, "--quiet")
     assert done.exit_code == 0, done.output
     assert (folder / "out" / "study" / "study.pdf").is_file()
 
 
-def test_a_cluster_without_workers_is_an_error(tmp_path):
+def test_a_cluster_without_workers_is_an_error():
     from distributed import LocalCluster
 
-    with LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
-        manifest = manifest_of(campaign("x"), {})
-        with (
-            pytest.raises(InputError, match="has no worker"),
-            connected(empty.scheduler_address, manifest),
-        ):
-            pass
+    with (
+        LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty,
+        pytest.raises(InputError, match="has no worker"),
+        connected(empty.scheduler_address, manifest_of(campaign("x"), {})),
+    ):
+        pass
 
 
-def test_a_cluster_that_cannot_be_reached_is_an_error_before_anything_runs(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("address", "wanted"),
+    [
+        ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
+        ("nowhere://x", "--scheduler nowhere://x"),
+    ],
+)
+def test_a_cluster_that_cannot_be_reached_is_an_error_before_anything_runs(
+    tmp_path, monkeypatch, address, wanted
+):
     monkeypatch.setattr(clusters, "TIMEOUT_S", 0.5)
     folder = write(tmp_path)
-    done = CliRunner().invoke(main, ["study", str(folder), "--scheduler", "tcp://127.0.0.1:9"])
+    done = command(folder, "--scheduler", address)
     assert done.exit_code == 2
-    assert "no Dask scheduler answers" in done.output
+    assert wanted in done.output
     assert not (folder / "out").exists()
-
-
-def test_an_address_that_is_none_is_an_error(tmp_path, monkeypatch):
-    monkeypatch.setattr(clusters, "TIMEOUT_S", 0.5)
-    done = CliRunner().invoke(main, ["study", str(write(tmp_path)), "--scheduler", "nowhere://x"])
-    assert done.exit_code == 2
-    assert "--scheduler nowhere://x" in done.output

@@ -1,8 +1,6 @@
 """The design displacement of a study: that of a package; and answers on the safe side."""
 
-import csv
 import dataclasses
-import io
 import json
 import math
 import re
@@ -12,22 +10,17 @@ import pytest
 from hypothesis import HealthCheck, example, settings
 from hypothesis import given as over
 from hypothesis import strategies as st
-from openpyxl import load_workbook
-from test_study_read import given, write
+from test_study_read import given, sheet_rows, with_study, write
 
-import packages
 import printed
 import stand_in
 from report.assessment.arrays import Route
-from report.study.answer_pages import allowed
-from report.study.files import study_html
+from report.study.allowed import allowed
 from report.study.page_parts import design_length
-from report.study.pages import sections
 from report.study.prescribed import compare
-from report.study.results import MEAN, STATISTICS
+from report.study.results import STATISTICS
 from report.study.run import planned, run_study
 from report.study.schema import Intensity, Mat, RuleSetName, StudyArray
-from report.study.tables import curves_csv, study_xlsx
 from report.study.words import both, design_words, headline
 from solver.rules.provisions import (
     RULE_SETS,
@@ -110,7 +103,7 @@ def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_s
 def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, motions):
     found = run(tmp_path, motions=motions, allowed_m=0.3)
     assert np.isnan(found.design_m).all()
-    text = packages.words(study_html(found))
+    text = printed.study(found)
     assert "There is no design displacement: SEAOC PV1-2012 needs 3† motions or more" in text
     assert compare(found, 0) == ()
     assert "For a mean PRD of at most" in text
@@ -120,54 +113,30 @@ def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, mo
 def test_without_s_ds_the_displacement_is_called_before_the_floor(tmp_path):
     found = run(tmp_path, intensity=Intensity.PPA, intensities="0.5, 1", s_ds_g=None, allowed_m=0.3)
     assert found.design_m == pytest.approx(1.1 * found.curves.mean_m, nan_ok=True)
-    text = packages.words(study_html(found))
+    text = printed.study(found)
     assert "before its floor of 0.5† times the prescriptive displacement, which follows" in text
     assert "For a design displacement before the floor of at most" in text
     assert "the floor alone" not in text
 
 
-def test_tables_and_manifest_carry_the_design_displacement_beside_the_mean(results, tmp_path):
-    rows = list(csv.DictReader(io.StringIO(curves_csv(results).decode())))
-    for name, values in (
-        ("design_displacement_m", results.design_m),
-        ("mean_prd_m", results.curves.mean_m),
-    ):
-        found = [float(row[name] or "nan") for row in rows]
-        assert np.array_equal(found, values.ravel(), equal_nan=True)
+def test_the_manifest_states_the_rule_and_the_answers_have_the_design_displacement(results):
     about = results.manifest["design_displacement"]
     assert json.loads(json.dumps(about))["floor_m"] == results.plan.design_rule.floor_m.tolist()
     assert (about["rule_set"], about["statistic"]) == ("SEAOC PV1-2012", "1.1 x mean")
-    book = load_workbook(io.BytesIO(study_xlsx(results)))
-    heads = [cell.value for cell in book["Curves"][1]]
-    assert {"Design displacement [in]", "Mean PRD [in]"} <= set(heads)
-    named = {row[1].value for row in book["Least friction"].iter_rows(min_row=2)}
+    named = {row["Displacement"] for row in sheet_rows(results, "Least friction")}
     assert named == {"design displacement", *STATISTICS}
-
-
-def test_the_floor_alone_is_named_where_it_exceeds_the_allowed_displacement(results):
-    text = printed.study(results)
-    # 0.5 x 60 in x 1.6^2 at 2 g, 10.8 in at 1 g, 3 in at 0.5 g; 0.3 m are 11.8 in.
-    assert "At SDS = 2 g and more the floor alone exceeds it" in text
-    assert "on slopes up to 7°†; IBC 1613.3 permits ballasted systems up to 4.76°†" in text
 
 
 # The prescriptive displacement
 
 
-def test_where_the_prescriptive_displacement_is_too_small_it_says_where_it_is_permitted(results):
+def test_the_prescriptive_displacement_is_permitted_by_slope_and_friction(results):
     (found,) = compare(results, 0)
     slopes, mus = results.plan.input.slopes_deg, results.plan.input.mus
     permitted = np.array([[slope <= 3.0 and mu >= 0.4 for mu in mus] for slope in slopes])
     assert (found.permitted == permitted).all()
-    text = packages.words(study_html(results))
-    unsafe, inside = found.unsafe, found.unsafe & permitted[..., None]
-    assert found.unsafe_not_permitted.sum() == unsafe.sum() - inside.sum()
-    assert unsafe.any()
-    count = {0: "none", int(unsafe.sum()): f"all {unsafe.sum()}"}
-    parts = [
-        count.get(int(part), str(part)) for part in (inside.sum(), unsafe.sum() - inside.sum())
-    ]
-    assert f"it is permitted in {parts[0]} and not permitted in {parts[1]}" in text
+    assert (found.unsafe_not_permitted == found.unsafe & ~permitted[..., None]).all()
+    assert found.unsafe.any()
 
 
 def with_analysis(results, ratio):
@@ -176,18 +145,24 @@ def with_analysis(results, ratio):
     return dataclasses.replace(results, analysis_m=values * results.plan.design_rule.prescriptive_m)
 
 
-def test_a_prescriptive_displacement_that_is_enough_is_not_said_to_be_too_small(results):
-    text = printed.study(with_analysis(results, 0.5))
-    size = results.design_m.size
-    assert f"enough in {size} of {size} cases and too small in 0." in text
-    assert "cases in which it is too small" not in text
-
-
-def test_cases_that_are_permitted_and_too_small_are_counted(results):
-    text = printed.study(with_analysis(results, 2.0))
-    # Two of three frictions are 0.4 or more, one of three slopes 3 degrees or less.
-    assert "Of the 27 cases in which it is too small, it is permitted in 6 and not" in text
-    assert "not permitted in 21: slopes of 0° to 6°, μ of 0.3 to 0.6." in text
+@pytest.mark.parametrize(
+    ("ratio", "wanted"),
+    [
+        (0.5, "enough in 27 of 27 cases and too small in 0."),
+        # Two of three frictions are 0.4 or more, one of three slopes 3 degrees or less.
+        (
+            2.0,
+            "Of the 27 cases in which it is too small, it is permitted in 6 and not permitted in "
+            "21: slopes of 0° to 6°, μ of 0.3 to 0.6.",
+        ),
+    ],
+)
+def test_cases_in_which_the_prescriptive_displacement_is_too_small_are_counted(
+    results, ratio, wanted
+):
+    said = printed.study(with_analysis(results, ratio))
+    assert wanted in said
+    assert ("cases in which it is too small" in said) == (ratio > 1.0)
 
 
 # The safe side
@@ -248,27 +223,23 @@ def test_printed_and_exported_answers_are_on_the_safe_side(results, values, allo
     found = made_up(results, values)
     axes = found.plan.input
     levels = axes.intensities
-    tables = [block.tables[0] for block in allowed(found, 0, allowed_m).blocks if block.tables]
-    for table in tables:
-        name = MEAN if MEAN in table.caption else found.plan.design_rule.name
+    for name, frictions, slopes in allowed(found, 0, allowed_m).content["answers"]:
         lengths = found.displacements[name][0]
-        for line, row in enumerate(table.rows):
+        for line, row in enumerate(frictions.rows):
             for x, cell in enumerate(row.cells[1:]):
-                if "friction coefficient" in table.caption:
-                    check(np.array(axes.mus), lengths[line, :, x], reading(cell), allowed_m, 0.01,
-                          upward=True)  # fmt: skip
-                else:
-                    check(np.array(axes.slopes_deg), lengths[:, line, x], reading(cell), allowed_m,
-                          0.1, upward=False)  # fmt: skip
-    assert len(tables) == 4
-    # The workbook and the first lines have the same numbers as the tables.
-    printed = [[reading(cell) for cell in row.cells[1:]] for row in tables[1].rows]
-    slopes = found.largest_slopes(0, found.plan.design_rule.name, allowed_m)
-    assert np.array_equal(slopes, np.array(printed), equal_nan=True)
-    study = axes.study.model_copy(update={"allowed_m": allowed_m})
-    plan = dataclasses.replace(found.plan, input=dataclasses.replace(axes, study=study))
-    lines = headline(dataclasses.replace(found, plan=plan))[1 : 1 + len(axes.mus)]
-    for line, values_at in zip(lines, slopes[:, len(levels) // 2], strict=True):
+                check(np.array(axes.mus), lengths[line, :, x], reading(cell), allowed_m, 0.01,
+                      upward=True)  # fmt: skip
+        for line, row in enumerate(slopes.rows):
+            for x, cell in enumerate(row.cells[1:]):
+                check(np.array(axes.slopes_deg), lengths[:, line, x], reading(cell), allowed_m,
+                      0.1, upward=False)  # fmt: skip
+        # The workbook and the first lines have the same numbers as the tables.
+        printed = [[reading(cell) for cell in row.cells[1:]] for row in slopes.rows]
+        values = found.largest_slopes(0, name, allowed_m)
+        assert np.array_equal(values, np.array(printed), equal_nan=True)
+    values = found.largest_slopes(0, found.plan.design_rule.name, allowed_m)
+    lines = headline(with_study(found, allowed_m=allowed_m))[1 : 1 + len(axes.mus)]
+    for line, values_at in zip(lines, values[:, len(levels) // 2], strict=True):
         number = re.search(r"largest slope (?:≥ )?([\d.]+|none)", line)[1]
         assert reading(number) == pytest.approx(values_at, abs=0.0, nan_ok=True)
         stated = float(re.search(r"of at most ([\d.]+) in", line)[1])
@@ -285,21 +256,15 @@ def test_design_displacements_and_clearances_print_rounded_up(results, value_m):
 
 
 def test_the_printed_column_of_the_design_displacement_is_rounded_up(results):
-    (table,) = (
-        table
-        for section in sections(results)
-        for block in section.blocks
-        for table in block.tables
-        if table.caption.startswith("Displacements at")
-    )
+    column = printed.study(results).table("Displacements at").column("Design displacement [in]")
     wanted = results.design_m[0, :, :, 1].T.ravel()  # friction by friction
-    assert [row.cells[2] for row in table.rows] == [design_length(results, v) for v in wanted]
+    assert column == [design_length(results, v) for v in wanted]
 
 
 def test_the_printed_formula_has_the_stated_error_in_every_case_fitted(tmp_path):
     found = run(tmp_path, slopes_deg="0 to 6 by 1", mus="0.2, 0.3", intensities="0.2 to 2.4 by 0.2")
-    text = packages.words(study_html(found)).replace("−", "-")
-    line = re.search(r"ln Δ RHA = (.*?) ln\(1 - r\).*?/ \(([\d.]+) x\)", text)
+    text = printed.study(found).replace("−", "-")
+    line = re.search(r"ln ΔRHA = (.*?) ln\(1 - r\).*?/ \(([\d.]+) x\)", text)
     assert line, text[text.index("Simplified formula") :][:400]
     b = [float(v) for v in re.findall(r"(?<![\d.])-?\d[\d.]*(?:e[-+]\d+)?", line[0])]
     b0, b1, b2, b3, b4 = (b[0], b[1], b[3], b[4], b[5])
@@ -330,15 +295,15 @@ def test_chances_and_medians_are_rounded_to_the_safe_side(tmp_path):
     found = run(tmp_path, study_arrays=arrays, site_intensity=1.0, intensities="0.2 to 2 by 0.2")
     array = found.arrays[0]
     for value, text in ((1.0, "100 %"), (0.9961, "100 %"), (0.1441, "15 %"), (0.00123, "0.13 %")):
-        chance = dataclasses.replace(array.chances[0], value=value, low=value, high=value)
-        one = dataclasses.replace(array, chances=(chance,))
+        chance = dataclasses.replace(array.exceedances[0], value=value, low=value, high=value)
+        one = dataclasses.replace(array, exceedances=(chance,))
         line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
         assert f": {text} (" in line
     for theta, beta in ((1.2345, 0.0561), (0.99999, 0.2), (12.39, 1.011)):
         state = array.states[2]
         known = dataclasses.replace(state.fragility, fitted=Lognormal(theta=theta, beta=beta))
         one = dataclasses.replace(
-            array, chances=(), states=(dataclasses.replace(state, fragility=known),)
+            array, exceedances=(), states=(dataclasses.replace(state, fragility=known),)
         )
         line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
         printed, spread = map(float, re.search(r" ([\d.]+) g, beta ([\d.]+)", line).groups())

@@ -1,25 +1,20 @@
 """The dispersions of a fragility by name: friction and slope against closed forms and scaling."""
 
 import dataclasses
-import io
 import json
 import math
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from openpyxl import load_workbook
-from test_study_read import given, write
+from test_study_read import command, given, sheet_rows, write
 
 import printed
-from report.cli.main import main
 from report.study.array_capacities import curves_of
 from report.study.dispersion import dispersions, exported
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, StudyArray
-from report.study.tables import study_xlsx
 from report.study.words import headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import fit_lognormal
@@ -66,7 +61,6 @@ def test_the_dispersions_of_slip_are_those_of_the_yield_acceleration(results):
     """It is proportional to the intensity at which slip begins, of every motion."""
     theta = math.radians(2.0)
     on_slope, flat, untested = (one.states[0].effects for one in results.arrays)
-    above, below = (yields(0.4 * math.exp(s * SIGMA), theta) for s in (1.0, -1.0))
     mu = results.arrays[0].plan.mu
     above, below = (yields(mu * math.exp(s * SIGMA), theta) for s in (1.0, -1.0))
     assert on_slope[FRICTION] == pytest.approx(half_log(above, below), rel=1e-9)
@@ -81,12 +75,8 @@ def test_a_slope_about_none_disperses_as_its_size(results):
     mu = results.arrays[1].plan.mu
     wanted = half_log(yields(mu, 0.0), yields(mu, OFF_RAD))
     assert results.arrays[1].states[0].effects[SLOPE] == pytest.approx(wanted, rel=1e-9)
-    said = ["The slope below is 0" in notes_of(results, one) for one in results.arrays]
-    assert said == [False, True, False]
-
-
-def notes_of(results, one):
-    return " ".join(table_of(results, one).notes)
+    notes = [" ".join(table_of(results, one).notes) for one in results.arrays]
+    assert ["The slope below is 0" in said for said in notes] == [False, True, False]
 
 
 def table_of(results, one):
@@ -143,9 +133,7 @@ def test_the_exported_dispersion_is_the_square_root_of_the_sum_of_squares(result
 
 
 def test_the_workbook_has_the_dispersions_by_name_and_the_exported_one(results):
-    sheet = load_workbook(io.BytesIO(study_xlsx(results)))["Fragility"]
-    heads = [cell.value for cell in sheet[1]]
-    rows = [dict(zip(heads, (c.value for c in row), strict=True)) for row in sheet.iter_rows(2)]
+    rows = sheet_rows(results, "Fragility")
     states = [(one, state) for one in results.arrays for state in one.states]
     for row, (one, state) in zip(rows, states, strict=True):
         if not state.fragility.fitted.is_known:
@@ -200,7 +188,7 @@ def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
     written = json.loads((folder / "out" / "manifest.json").read_text())
     assert written["capacity_runs"] == made.capacity_runs <= said.capacity_runs
     assert said.capacity_runs < 3 * made.capacity_runs
-    done = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
+    done = command(folder, "--dry-run")
     assert f"at most {said.capacity_runs:,} more runs for the capacities" in done.output
     assert f", and {made.capacity_runs:,} for the capacities" in headline(made)[0]
     assert f" {made.capacity_runs:,} more runs find the capacities" in printed.study(made)

@@ -1,21 +1,18 @@
 """The goodness of fit of a fragility: its chart, its column and its cells in study.xlsx."""
 
 import dataclasses
-import io
 import math
 import re
 
 import numpy as np
 import pytest
-from openpyxl import load_workbook
-from test_study_read import given, write
+from test_study_read import given, sheet_rows, write
 
 import printed
 from report.figures.base import load_fonts
-from report.study.array_pages import fragility as pages
+from report.study.array_page import fragility as pages
 from report.study.results import LimitState
 from report.study.run import planned, run_study
-from report.study.tables import study_xlsx
 from report.typeset.pdf import TEMPLATES
 from report.words.units import digits_down
 from solver.studies.capacity import Capacities
@@ -53,20 +50,20 @@ def results(tmp_path_factory):
     return dataclasses.replace(found, arrays=(one,))
 
 
-def test_the_chart_has_a_panel_for_each_state_with_a_p_value(results):
+def test_the_chart_has_a_panel_for_each_state_with_the_p_value_of_the_table(results):
     load_fonts(TEMPLATES / "fonts")
-    (block, *_) = pages(results, results.arrays[0]).blocks
-    assert [one.name for one in block.charts] == ["fragility-s1", "goodness-s1"]
-    texts = re.findall(r">(LS\d: [^<]*)<", block.charts[1].picture.svg)
+    charts = pages(results, results.arrays[0]).charts
+    assert list(charts) == ["fragility", "goodness"]
+    texts = re.findall(r">(LS\d: [^<]*)<", charts["goodness"])
     p = [digits_down(s.fragility.p_value, 2) for s in results.arrays[0].states[:2]]
     assert texts == [f"LS1: p = {p[0]}", f"LS2: p = {p[1]}"]
-    assert "5\u00a0%" in block.charts[1].picture.caption
+    assert printed.study(results).table("Fragilities").column("p of fit") == [*p, "—"]
+    assert "leave in 5\u00a0% of lognormal samples." in printed.study(results)
 
 
 def test_without_a_p_value_there_is_no_chart(results):
     one = dataclasses.replace(results.arrays[0], states=results.arrays[0].states[2:])
-    (block, *_) = pages(results, one).blocks
-    assert [chart.name for chart in block.charts] == ["fragility-s1"]
+    assert list(pages(results, one).charts) == ["fragility"]
 
 
 def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(results):
@@ -81,18 +78,8 @@ def test_the_band_leaves_out_the_capacities_whose_p_value_is_below_5_percent(res
     assert math.isnan(results.arrays[0].states[2].fragility.critical)
 
 
-def test_the_table_has_the_p_value_of_each_state(results):
-    table = printed.study(results).table("Fragilities")
-    shown = table.column("p of fit")
-    p = [digits_down(s.fragility.p_value, 2) for s in results.arrays[0].states[:2]]
-    assert shown == [*p, "—"]
-    assert "Lilliefors" in table.notes[0]
-
-
 def test_the_workbook_has_the_p_value_and_the_motions_that_fall_below_the_limit_again(results):
-    sheet = load_workbook(io.BytesIO(study_xlsx(results)))["Fragility"]
-    heads = [cell.value for cell in sheet[1]]
-    rows = [dict(zip(heads, (c.value for c in row), strict=True)) for row in sheet.iter_rows(2)]
+    rows = sheet_rows(results, "Fragility")
     assert [row["Motions below the limit again"] for row in rows] == [0, 2, 0]
     assert [row["Censored capacities"] for row in rows] == [0, 0, 1]
     p = [row["Lilliefors p of fit"] for row in rows]

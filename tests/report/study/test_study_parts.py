@@ -13,8 +13,7 @@ import pandas as pd
 import pytest
 
 from places import ROOT, TESTS
-from report.study import manifest as manifests
-from report.study.manifest import check_former, manifest_of
+from report.study.manifest import NAME, check_former, manifest_of
 from report.study.parts import (
     JOURNAL,
     begin,
@@ -103,11 +102,6 @@ def test_peaks_are_the_largest_of_the_headings_and_none_without_a_final_value(st
     assert np.concatenate([part.slips for part in found]).ravel().tolist() == slips.any().tolist()
 
 
-def test_nothing_runs_again(copy):
-    folder, c, _ = copy
-    assert run(folder, c)[1] == []
-
-
 def test_a_damaged_part_is_found_and_run_again(copy):
     folder, c, _ = copy
     good = (folder / part_name(3)).read_bytes()
@@ -165,49 +159,45 @@ def test_a_torn_line_of_the_journal_loses_one_part_only(copy):
 
 def test_parts_of_several_processor_models_are_stated(copy):
     folder, c, manifest = copy
-    done = list(done_parts(folder, c, manifest["identity"]).values())
+    done = done_parts(folder, c, manifest["identity"])
     text = (folder / JOURNAL).read_text().replace(done[0].machine, "another processor", 1)
     (folder / JOURNAL).write_text(text)
-    done = list(done_parts(folder, c, manifest["identity"]).values())
-    assert "1e-12" in finished(folder, manifest, done)["agreement"]
+    done = done_parts(folder, c, manifest["identity"])
+    assert "1e-12" in finished(folder, manifest, list(done.values()))["agreement"]
 
 
 @pytest.mark.parametrize("change", [{"numba": "0.1"}, {"solver_sha256": "0" * 64}])
-def test_a_manifest_of_another_version_is_refused_with_what_to_do(copy, monkeypatch, change):
-    folder, c, _ = copy
-    here = manifests.program()
-    monkeypatch.setattr(manifests, "program", lambda: here | change)
+def test_a_manifest_of_another_version_is_refused_with_what_to_do(copy, change):
+    folder, c, manifest = copy
+    other = manifest | {"program": manifest["program"] | change}
+    (folder.parent / NAME).write_text(json.dumps(other))
     with pytest.raises(InputError, match="written by another version") as caught:
         run(folder, c)
     assert next(iter(change)) in str(caught.value)
     assert "--out" in str(caught.value)
 
 
-@pytest.mark.parametrize("text", ["{", "[]", '{"schema_version": 1}', '"x"'])
-def test_a_damaged_manifest_is_refused(copy, text):
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [("{", "not the manifest of a study"), ("[]", "not the manifest of a study"),
+     ('{"schema_version": 1}', "not the manifest of a study"), ('"x"', "not the manifest"),
+     ('{"schema_version": 99, "program": {}}', "schema_version 99")],
+)  # fmt: skip
+def test_a_damaged_manifest_or_one_of_another_schema_is_refused(copy, text, wanted):
     folder, c, _ = copy
-    (folder.parent / "manifest.json").write_text(text)
-    with pytest.raises(InputError, match="not the manifest of a study"):
-        run(folder, c)
-
-
-def test_another_schema_is_refused(copy):
-    folder, c, manifest = copy
-    (folder.parent / "manifest.json").write_text(json.dumps({**manifest, "schema_version": 99}))
-    with pytest.raises(InputError, match="schema_version 99"):
+    (folder.parent / NAME).write_text(text)
+    with pytest.raises(InputError, match=wanted):
         run(folder, c)
 
 
 def test_what_determines_the_results_changes_the_identity():
-    one = manifest_of(campaign("x"), {"seed": 1})["identity"]
-    assert one == manifest_of(campaign("x"), {"seed": 1})["identity"]
-    others = [
-        manifest_of(campaign("x"), {"seed": 2}),
-        manifest_of(campaign("xz"), {"seed": 1}),
-        manifest_of(campaign("x", mus=(0.3,)), {"seed": 1}),
-        manifest_of(campaign("x", samples=401), {"seed": 1}),
-    ]
-    assert one not in {other["identity"] for other in others}
+    def identity(seed, *given, **changes):
+        return manifest_of(campaign(*given, **changes), {"seed": seed})["identity"]
+
+    one = identity(1, "x")
+    assert one == identity(1, "x")
+    others = {identity(2, "x"), identity(1, "xz"), identity(1, "x", mus=(0.3,))}
+    assert one not in others | {identity(1, "x", samples=401)}
 
 
 SLOW = """

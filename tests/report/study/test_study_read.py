@@ -2,7 +2,9 @@
 
 import datetime as dt
 import importlib.util
+import io
 import shutil
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,6 +12,7 @@ from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner
+from openpyxl import load_workbook
 
 from cells import address, addressed, cell
 from places import ROOT
@@ -29,6 +32,7 @@ from report.study.schema import (
     StudyMotion,
     values,
 )
+from report.study.tables import study_xlsx
 from report.study.template import write_study
 from sheets import edit, type_into
 from solver.model import InputError
@@ -67,6 +71,24 @@ def write(folder, study=None, *, motions=3, letters="x"):
             write_record(records / f"{name}.csv", record)
     write_study(folder / "input.xlsx", units=UnitsFirst.US, example=study or given())
     return folder
+
+
+def command(source, *options):
+    """Do what `roofslip study` does with a folder or a workbook."""
+    return CliRunner().invoke(main, ["study", str(source), *map(str, options)])
+
+
+def with_study(results, **changes):
+    """The results of a study whose sheet Study has other values."""
+    former = results.plan.input
+    study = former.study.model_copy(update=changes)
+    return replace(results, plan=replace(results.plan, input=replace(former, study=study)))
+
+
+def sheet_rows(results, sheet):
+    """The rows of a sheet of study.xlsx, each cell by its heading."""
+    heads, *rows = load_workbook(io.BytesIO(study_xlsx(results)))[sheet].values
+    return [dict(zip(heads, row, strict=True)) for row in rows]
 
 
 def plan(folder):
@@ -132,13 +154,9 @@ def test_a_folder_gives_motions_with_their_components(tmp_path):
 
 
 def test_intensity_one_has_the_measure_one(tmp_path):
-    folder = write(tmp_path)
-    for kind, s_ds, scale in (
-        (Intensity.PPA, None, 1.0), (Intensity.S_DS, 0.8, 1.25),
-    ):  # fmt: skip
-        write_study(folder / "input.xlsx", units=UnitsFirst.US,
-                    example=given(intensity=kind, s_ds_g=s_ds))  # fmt: skip
-        assert plan(folder).motions.motions[0][0].scale == pytest.approx(scale, rel=1e-6)
+    for kind, s_ds_g, scale in ((Intensity.PPA, None, 1.0), (Intensity.S_DS, 0.8, 1.25)):
+        found = plan(write(tmp_path, given(intensity=kind, s_ds_g=s_ds_g)))
+        assert found.motions.motions[0][0].scale == pytest.approx(scale, rel=1e-6)
 
 
 def test_ground_motions_go_through_every_building(tmp_path):
@@ -216,6 +234,10 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
          ("<Study/Intensity at the site>: is given, but no array is",)),
         ({"site_intensity": 1.0, "intensity_beta": 0.2, "sampling": Sampling.ALL_COMBINATIONS},
          ("<Study/Dispersion of intensity>: all combinations take the median",)),
+        ({"record_beta": 0.4},
+         ("<Study/Record-to-record source>: the record-to-record dispersion needs its source",)),
+        ({"record_source": "A paper"},
+         ("<Study/Record-to-record dispersion>: a source is given without the dispersion",)),
         ({"slopes_deg": "0 to 45 by 0.1", "intensities": "1 to 100 by 0.25",
           "mus": "0.1 to 2 by 0.01"}, ("<Study/Intensities>: make", "cases")),
     ],
@@ -235,29 +257,22 @@ def test_cells_of_a_wrong_kind_are_all_listed(tmp_path):
     assert [line.split(":")[0] for line in lines] == [address(usual(), name) for name in wrong]
 
 
-def test_a_damaged_record_is_named(tmp_path):
-    folder = write(tmp_path)
-    (folder / "records" / "M1-x.csv").write_text("no record")
-    assert at(FOLDER) in problems(folder)
-    assert "M1-x.csv" in problems(folder)
-
-
-def test_motions_with_other_components_are_refused(tmp_path):
-    folder = write(tmp_path, letters="xz")
-    (folder / "records" / "M2-z.csv").unlink()
-    assert "motion M2 has 1 components, the first has 2" in problems(folder)
-
-
-def test_a_component_without_its_first_is_refused(tmp_path):
-    folder = write(tmp_path, letters="xz")
-    (folder / "records" / "M1-x.csv").unlink()
-    assert "'records' has no record M1-x" in problems(folder)
-
-
-def test_an_empty_folder_is_refused(tmp_path):
-    folder = write(tmp_path, motions=0)
+@pytest.mark.parametrize(
+    ("letters", "change", "wanted"),
+    [("x", lambda folder: (folder / "M1-x.csv").write_text("no record"), "M1-x.csv"),
+     ("xz", lambda folder: (folder / "M2-z.csv").unlink(),
+      "motion M2 has 1 components, the first has 2"),
+     ("xz", lambda folder: (folder / "M1-x.csv").unlink(), "'records' has no record M1-x"),
+     ("x", lambda folder: [path.unlink() for path in folder.iterdir()], "'records' has no record")],
+    ids=["damaged", "other components", "without its first component", "empty"],
+)  # fmt: skip
+def test_a_folder_of_motions_is_refused_at_its_cell(tmp_path, letters, change, wanted):
+    folder = write(tmp_path, letters=letters)
     (folder / "records" / "suite.json").write_text("{}")
-    assert "'records' has no record" in problems(folder)
+    change(folder / "records")
+    (line,) = problems(folder).splitlines()
+    assert line.startswith(at(FOLDER))
+    assert wanted in line
 
 
 def test_too_many_samples_and_runs_are_refused_at_their_cell(tmp_path, monkeypatch):
@@ -300,17 +315,14 @@ def test_the_project_has_the_size_of_a_catalog():
 
 def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
     folder = write(tmp_path)
+    assert plan(folder).warnings == ()
     edit(folder / "input.xlsx", lambda book: setattr(book["Mats"], "sheet_state", "hidden"))
     ((cell, text),) = plan(folder).warnings
     assert cell.startswith("Mats!")
     assert text.startswith("the sheet is hidden, and cells ")
     assert text.endswith(" on it are read: show it, or clear what is not meant")
-    shown = CliRunner().invoke(main, ["study", str(folder), "--dry-run"])
+    shown = command(folder, "--dry-run")
     assert f"warning: {cell}: {text}" in shown.stderr
-
-
-def test_a_study_that_hides_nothing_has_no_warning(tmp_path):
-    assert plan(write(tmp_path)).warnings == ()
 
 
 def test_a_mat_shown_in_percent_as_text_is_an_error(tmp_path):

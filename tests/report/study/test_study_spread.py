@@ -10,20 +10,17 @@ from statistics import NormalDist
 import defusedxml.ElementTree
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from test_study_read import at, given, problems, write
+from test_study_read import command, given, with_study, write
 
 import printed
-from report.cli.main import main
 from report.study import files
-from report.study.dispersion import warning
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
 from report.study.results import ArrayResult, LimitState
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
 from report.study.spread import spectral_spread
-from report.study.words import headline
+from report.study.words import headline, warning
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import Fragility, Lognormal
 from solver.studies.uncertainty import Spread
@@ -112,18 +109,11 @@ def with_state(results, motions, *, allow_matched=False, **changes):
         fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
     one = ArrayResult(
-        plan=array, states=(state,), chances=(), bars=(), center_m=math.nan, capacity_runs=0
+        plan=array, states=(state,), exceedances=(), bars=(), center_m=math.nan, capacity_runs=0
     )
-    given_ = results.plan.input
-    study = given_.study.model_copy(update=changes)
-    plan = dataclasses.replace(results.plan, input=dataclasses.replace(given_, study=study))
-    return dataclasses.replace(
-        results,
-        plan=plan,
-        arrays=(one,),
-        spread=spectral_spread([motions]),
-        allow_matched=allow_matched,
-    )
+    spread = spectral_spread([motions])
+    other = with_study(results, **changes)
+    return dataclasses.replace(other, arrays=(one,), spread=spread, allow_matched=allow_matched)
 
 
 MATCHED = [like(1, 1.0), like(1, 1.02), like(1, 0.98)]
@@ -189,25 +179,12 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
 def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "lay_out", str.encode)
     folder = write(tmp_path, given(intensities="0.2 to 2.4 by 0.2"), motions=1)
-    first = CliRunner().invoke(main, ["study", str(folder), "--allow-matched"])
+    first = command(folder, "--allow-matched")
     assert first.exit_code == 0, first.output
     out = folder / "out" / "study"
     assert (out / "fragility.xml").exists()
     assert "Warning: the record-to-record spread of 1 motion cannot be measured" in first.output
-    again = CliRunner().invoke(main, ["study", str(folder)])
+    again = command(folder)
     assert again.exit_code == 0, again.output
     assert "The fragility files are not written" in again.output
     assert not FILES & {path.name for path in out.iterdir()}
-
-
-def test_a_dispersion_and_its_source_need_each_other(tmp_path):
-    for changes, line in (
-        ({"record_beta": 0.4}, "source>: the record-to-record dispersion needs its source"),
-        ({"record_source": "A paper"}, "dispersion>: a source is given without the dispersion"),
-    ):
-        found = problems(write(tmp_path, given(**changes)))
-        assert at(f"<Study/Record-to-record {line}") in found
-
-
-def test_the_limits_state_the_validation(results):
-    assert "has not been validated against shake-table tests" in said(results, [motion(1)])

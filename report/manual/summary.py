@@ -1,0 +1,109 @@
+"""The summary of the manual: verdict, key results, checks by section."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from markupsafe import Markup
+
+from report.document.sections import Section
+from report.document.tables import Table, by_name, listed
+from report.entities.shown import centered, text, words
+from report.manual import studies
+from report.manual.precision import floor
+from report.pages.parts import verdict
+from report.words.formats import scientific
+from report.words.validation import validation
+from solver.verification.building import BY_HEIGHT
+from solver.verification.evidence import CheckRow, Verification, WorkPoint
+from solver.verification.features import statuses
+from solver.verification.rung_evidence import SECOND, WORST
+
+_KEY_RESULTS = (
+    (words("Quantity", 2.6), str),
+    (words("Result", 2.9), str),
+    (words("Section", 0.7), str),
+)
+"""Its rows are in the template."""
+
+
+def judged(is_passed: bool) -> Markup:
+    """Return PASS, or FAIL highlighted."""
+    return verdict(is_passed, ("PASS", "FAIL"))
+
+
+def verdict_line(verification: Verification) -> Markup:
+    """Return PASS or FAIL with the count."""
+    checks = verification.checks
+    words = judged(verification.passed and len(checks) > 0)
+    return words + f" {sum(row.passed for row in checks)} of {len(checks)} checks passed."
+
+
+def summary(verification: Verification) -> Section:
+    """Return verdict, key results and checks by section."""
+    work, maps, links = verification.work, verification.maps, verification.links
+    exact = [p.seconds for p in work if p.method == "exact"]
+    paper = [p for p in work if p.method == "paper" and p.setting == 64]
+    worst = max(links, key=lambda link: link.worst_percent) if links else None
+    return Section(
+        id="summary",
+        title="Summary",
+        template="manual/summary.html",
+        content={
+            "key_results": listed((), _KEY_RESULTS),
+            "floor": floor(verification),
+            "exact_s": float(np.median(exact)) if exact else math.nan,
+            "times_longer": _times_longer(work, paper),
+            "paper_percent": max((p.prd_error_percent for p in paper), default=math.nan),
+            "failed_runs": sum(math.isnan(p.seconds) for p in work),
+            "failed_cells": sum(int(sweep.failed.sum()) for sweep in maps),
+            "cells": sum(sweep.failed.size for sweep in maps),
+            "worst": worst,
+            "worst_mm": studies.worst_mm(worst) if worst else math.nan,
+            "links_percent": float(np.mean([link.mean_percent for link in links] or [math.nan])),
+            "PAPER_WORST_PERCENT": studies.PAPER_WORST_PERCENT,
+            "PAPER_MEAN_PERCENT": studies.PAPER_MEAN_PERCENT,
+            "recorded": [roof for roof in verification.roofs if roof.is_recorded],
+            "BY_HEIGHT": BY_HEIGHT,
+            "two_axes": [
+                (evidence.study.named(SECOND), evidence.study.named(WORST))
+                for evidence in verification.rungs
+            ],
+            "validation": validation(verification.tables),
+            "features": statuses(verification.checks, verification.tables),
+            "by_section": _by_section(verification.checks),
+            "failed": [row for row in verification.checks if not row.passed],
+        },
+    )
+
+
+def _times_longer(points: Sequence[WorkPoint], paper: Sequence[WorkPoint]) -> float:
+    """Return the median ratio of the paper's time to that of the exact method."""
+    exact = {(p.record, p.scene): p.seconds for p in points if p.method == "exact"}
+    ratios = [p.seconds / exact[p.record, p.scene] for p in paper if (p.record, p.scene) in exact]
+    return float(np.median(ratios)) if ratios else math.nan
+
+
+def _by_section(checks: Sequence[CheckRow]) -> Table:
+    return listed(
+        by_name(checks, lambda row: row.section).items(),
+        (
+            (words("Section", 3.0), lambda group: group[0]),
+            (text("Checks"), lambda group: len(group[1])),
+            (text("Passed"), lambda group: sum(row.passed for row in group[1])),
+            (text("Largest error", share=1.4), lambda group: _largest_error(group[1])),
+            (text("Tolerance used", share=1.4), lambda group: _used(group[1])),
+            (centered("Result"), lambda group: judged(all(row.passed for row in group[1]))),
+        ),
+    )
+
+
+def _largest_error(rows: Sequence[CheckRow]) -> str:
+    return scientific(max(row.error for row in rows))
+
+
+def _used(rows: Sequence[CheckRow]) -> str:
+    shares = [row.error / row.tolerance for row in rows if row.tolerance > 0.0]
+    return f"{100.0 * max(shares):.2g} %" if shares else "—"

@@ -1,0 +1,150 @@
+"""The fragility of an array, and the probability that its clearance is exceeded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from report.document.sections import Section
+from report.document.tables import Column, Table, listed
+from report.entities.shown import text, words
+from report.study import figures
+from report.study.dispersion import (
+    MASS,
+    NAMES,
+    Dispersion,
+    dispersions,
+    exported,
+    is_exportable,
+    is_refused,
+)
+from report.study.exports import has_probabilities
+from report.study.page_parts import axis
+from report.study.plan import SLOPE
+from report.study.results import ArrayResult, LimitState, StudyResults
+from report.study.tables import length_unit
+from report.study.words import both, on_building
+from report.words.formats import slug
+from report.words.units import digits_down, digits_up, number, round_up
+from solver.studies.capacity import ACCURACY
+from solver.studies.fragility import CONFIDENCE, LEVEL, LILLIEFORS_REPEATS, REPEATS
+from solver.studies.uncertainty import HIGH, LOW
+
+
+def fragility(results: StudyResults, one: ArrayResult) -> Section:
+    """Return the section on an array: its fragilities, and the probabilities where asked for."""
+    name = f"{one.plan.array.id}{on_building(results, one.plan.building, ', building ')}"
+    known = [state for state in one.states if state.fragility.fitted.is_known]
+    return Section(
+        id=f"array-{slug(name)}",
+        title=f"Fragility of {name}",
+        template="study/array.html",
+        content={
+            "one": one,
+            "array": one.plan.array,
+            "counts": one.states[0].fragility,
+            "unknown": [state.name for state in one.states if state not in known],
+            "is_left_out": is_exportable(results) and not has_probabilities(one),
+            "axis": axis(results),
+            "states": _states(results, one),
+            "exported": _exported(results, one, known),
+            "no_center": math.isnan(one.center_m),
+            "ACCURACY": ACCURACY,
+            "CONFIDENCE": CONFIDENCE,
+            "HIGH": HIGH,
+            "LEVEL": LEVEL,
+            "LILLIEFORS_REPEATS": LILLIEFORS_REPEATS,
+            "LOW": LOW,
+            "MASS": MASS,
+            "REPEATS": REPEATS,
+        },
+        charts=dict(_charts(results, one)),
+    )
+
+
+def _charts(results: StudyResults, one: ArrayResult) -> Iterator[tuple[str, str]]:
+    yield "fragility", figures.fragilities(one.states, axis(results))
+    tested = [state for state in one.states if not math.isnan(state.fragility.p_value)]
+    if tested:
+        yield "goodness", figures.goodness(tested, axis(results))
+    if one.bars and not math.isnan(one.center_m):
+        yield "tornado", figures.tornado(one.bars, one.center_m, length_unit(results))
+
+
+def _states(results: StudyResults, one: ArrayResult) -> Table:
+    interval = f"{50 * (1 - CONFIDENCE):g} to {50 * (1 + CONFIDENCE):g} %"
+
+    def limit(state: LimitState) -> str:
+        return both(results, state.limit_m) if state.limit_m else "0"
+
+    columns = (
+        (words("State", 0.7), lambda state: state.name),
+        (words("Exceeded when", 2.4), lambda state: state.words),
+        (text("PRD above", share=1.7), limit),
+        (text("Median"), lambda state: _digits(state.fragility.fitted.theta, digits_down)),
+        (text(interval, share=1.5), lambda state: _outward(state.fragility.theta_range)),
+        (text("β"), lambda state: _digits(state.fragility.fitted.beta, digits_up)),
+        (text(f"{interval} of β", share=1.5), lambda state: _outward(state.fragility.beta_range)),
+        (text("p of fit"), lambda state: _p_value(state.fragility.p_value)),
+    )
+    return listed(one.states, columns)
+
+
+def _digits(value: float, show: Callable[[float, int], str]) -> str:
+    return "none" if math.isnan(value) else show(value, 3)
+
+
+def _outward(interval: tuple[float, float]) -> str:
+    low, high = interval
+    return "none" if math.isnan(low) else f"{digits_down(low, 3)} to {digits_up(high, 3)}"
+
+
+def _p_value(value: float) -> str:
+    return "—" if math.isnan(value) else digits_down(value, 2)
+
+
+def _exported(
+    results: StudyResults, one: ArrayResult, states: Sequence[LimitState]
+) -> Mapping[str, Any]:
+    """Return the dispersions of the exported fragilities by name; empty if there are none."""
+    by_state = {state.name: dispersions(results, one, state) for state in states}
+    if not by_state or not is_exportable(results):
+        return {}
+    by_name = list(zip(*by_state.values(), strict=True))
+    given = [k for k, parts in enumerate(by_name) if any(part.beta for part in parts)]
+    below = one.plan.shifts[SLOPE][0][1] if SLOPE in one.plan.shifts else math.nan
+    columns = (
+        (words("State", 0.7), lambda state: state.name),
+        *(_part(by_name[k], k, by_state) for k in given),
+        (text("β exported"), lambda state: _total(results, one, state)),
+    )
+    return {
+        "lacking": [
+            f"{name} ({parts[0].source})"
+            for k, (name, parts) in enumerate(zip(NAMES, by_name, strict=True))
+            if k not in given
+        ],
+        "first_order": [NAMES[k] for k in given if NAMES[k] in ("friction", "slope")],
+        "is_level_below": below == 0.0,
+        "table": listed(states, columns),
+    }
+
+
+def _part(
+    parts: Sequence[Dispersion], at: int, by_state: Mapping[str, Sequence[Dispersion]]
+) -> Column:
+    """Return the column of a dispersion: its name, and its source in the states that have it."""
+    source = next(part.source for part in parts if part.beta)
+    head = text(f"{NAMES[at].capitalize()}: {source}", share=1.7)
+    return head, lambda state: _beta(by_state[state.name][at])
+
+
+def _beta(part: Dispersion) -> str:
+    return number(round_up(part.beta, 3), 3) if part.beta else part.source
+
+
+def _total(results: StudyResults, one: ArrayResult, state: LimitState) -> str:
+    if is_refused(results):
+        return "not exported"
+    return number(round_up(exported(results, one, state).beta, 3), 3)

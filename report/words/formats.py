@@ -1,0 +1,73 @@
+"""Errors, shares and times of a verification for print; names for files.
+
+An em dash is NaN. Owns no sentence.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from report.words.letters import power_of_ten
+from report.words.units import number
+
+
+def scientific(value: float) -> str:
+    """Return `3.2 × 10⁻¹⁵`; plain 0."""
+    if value != value:
+        return "—"
+    if value == 0.0 or math.isinf(value):
+        return "0" if value == 0.0 else "∞"
+    digits, exponent = f"{value:.1e}".split("e")
+    return f"{digits} × {power_of_ten(int(exponent))}".replace("-", "−")
+
+
+def percent(value: float) -> str:
+    """Return a percentage with three digits, or as a power of ten if small."""
+    if value != value:
+        return "—"
+    if value == 0.0:
+        return "0 %"
+    if abs(value) < 1e-3:
+        return f"{scientific(value)} %"
+    decimals = max(0, 2 - math.floor(math.log10(abs(value))))
+    return f"{number(value, min(decimals, 4))} %"
+
+
+def seconds(value: float) -> str:
+    """Return a duration with a suitable unit."""
+    if value != value:
+        return "—"
+    for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
+        if value >= size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value / 1e-9:.3g} ns"
+
+
+def ten_digits(value: float) -> str:
+    """Return a value with ten digits; `none` for NaN."""
+    if value != value:
+        return "none"
+    if 0.0 < abs(value) < 1e-4:
+        return scientific(value)
+    return f"{value:.10g}".replace("-", "−")
+
+
+def two_digits(value: float) -> str:
+    """Return two digits of a number, by powers of ten where it is small."""
+    return f"{value:.2g}" if value >= 1e-3 else scientific(value)
+
+
+def general(value: float) -> str:
+    """Return a number with no more than six digits, as it would be typed."""
+    return f"{value:g}"
+
+
+def unbroken(text: str) -> str:
+    """Return a text with no line break inside `μ = 0.4` and `1 g`."""
+    return re.sub(r" (?=[=/])|(?<=[=/]) | (?=g\b)", "\u00a0", text)
+
+
+def slug(text: str) -> str:
+    """Return a text as part of a file name."""
+    return re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-")
