@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-import report.beside  # before any test loads openpyxl: the package decides what that reads with
+import report.workers  # before any test loads openpyxl: the package decides what that reads with
 from browsing import chromium
 from places import RECORDS, SAMPLES
 
@@ -38,7 +38,7 @@ def one_process():
     """
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report.beside, "SecondProcess", report.beside.SameProcess)
+        patch.setattr(report.workers, "WorkerProcess", report.workers.SameProcess)
         yield
 
 

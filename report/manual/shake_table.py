@@ -193,7 +193,7 @@ def _test_row(run: TableRun) -> TableRow:
             axes,
             f"{math.degrees(scene.slope_rad):.3g}",
             mu,
-            str(int(run.rung)),
+            str(int(run.model)),
             _mm(run.test.prd_m),
             run.status.value if math.isnan(run.prd_m) else _mm(run.prd_m),
             _ratio(run.ratio),

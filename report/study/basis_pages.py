@@ -26,13 +26,13 @@ def _how(results: StudyResults) -> tuple[str, ...]:
     manifest, model = results.manifest, results.manifest["model"]
     motions = results.plan.motions.motions[0]
     components = 1 + motions[0].has_transverse + motions[0].has_vertical
-    headings = len(motions[0].headings)
+    orientations = len(motions[0].orientations)
     without = results.curves.without_value
     return (
         f"Each of {len(motions)} motions with {components} component"
         f"{'s' if components > 1 else ''} is scaled to each "
-        f"{results.plan.input.study.intensity.letters} and run {headings} time"
-        f"{'s' if headings > 1 else ''}: "
+        f"{results.plan.input.study.intensity.letters} and run {orientations} time"
+        f"{'s' if orientations > 1 else ''}: "
         f"{'each horizontal component' if motions[0].has_transverse else 'the record'} along the "
         f"slope, {'as recorded and reversed' if len(motions[0].signs) > 1 else 'in one polarity'}. "
         "The largest PRD of these runs is the PRD of the motion.",
