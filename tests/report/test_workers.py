@@ -43,7 +43,7 @@ def test_an_exception_is_the_same_and_says_where_it_was_raised(worker):
     with pytest.raises(InputError) as caught:
         worker.submit(refuse, "Arrays!B7").result(timeout=60)
     assert caught.value.problems == ("Arrays!B7: not a number",)
-    assert "in the second process" in caught.value.__notes__[0]
+    assert "in the worker" in caught.value.__notes__[0]
     assert "refuse" in caught.value.__notes__[0]
 
 

@@ -51,7 +51,7 @@ def test_the_friction_demand_tells_slip_from_none(factor):
 
 
 @pytest.mark.parametrize(
-    ("run", "rung"), [(FLAT, Model.ONE_AXIS), (LIFTED, Model.ONE_AXIS_VERTICAL)], ids=["x", "xz"]
+    ("run", "model"), [(FLAT, Model.ONE_AXIS), (LIFTED, Model.ONE_AXIS_VERTICAL)], ids=["x", "xz"]
 )
 def test_in_one_axis_a_vertical_that_matters_is_modelled_and_the_rest_is_not_known(run, model):
     solution = solve(run)

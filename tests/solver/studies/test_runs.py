@@ -46,7 +46,7 @@ def assert_rows_agree(c):
 
 
 @pytest.mark.parametrize(
-    ("letters", "rungs"),
+    ("letters", "models"),
     [("x", {0, 1}), ("xz", {0, 1, 2}), ("xyz", {0, 1, 2, 3})],
 )
 def test_rows_are_solutions_to_the_bit(letters, models):
