@@ -1,6 +1,6 @@
 """From workbook to package: read, prepare, assess, support, fill, lay out, publish.
 
-Orders the steps; each is a function of a room below. A worker (`report.beside`) draws and writes
+Orders the steps; each is a function of a room below. A worker (`report.workers`) draws and writes
 what it can meanwhile. Read `make`.
 """
 

@@ -4,14 +4,21 @@ The public names are those of `solver.public`. All quantities are SI. Imports no
 pages or draws figures.
 """
 
+import warnings
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from solver.public import *  # noqa: F403
 
+FORMER = {"Rung": "Model"}
+"""Public names of 0.2, which this version still knows."""
+
 
 def __getattr__(name: str) -> Any:
     """Return a public name. All are loaded with the first: with the kernels that takes 0.4 s."""
+    if name in FORMER:
+        text = f"solver.{name} is solver.{FORMER[name]} now, and the next version has that alone"
+        warnings.warn(text, DeprecationWarning, stacklevel=2)
     # Not `from solver import public`, which would ask here whether there is such a name.
-    return getattr(import_module("solver.public"), name)
+    return getattr(import_module("solver.public"), FORMER.get(name, name))

@@ -272,8 +272,15 @@ class Scene:
         )
 
 
+class HorizontalComponent(StrEnum):
+    """A horizontal component of a motion."""
+
+    RECORD = "record"
+    TRANSVERSE = "transverse"
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Heading:
+class Orientation:
     """Which horizontal component of a motion is applied along the slope, and with which sign.
 
     The other component is applied cross-slope as recorded: reversing it mirrors the motion of the
@@ -281,24 +288,24 @@ class Heading:
 
     Attributes
     ----------
-    swapped : bool
-        Whether the transverse component is applied along the slope instead of the record.
-    sign : int
+    component : HorizontalComponent
+        The one along the slope.
+    polarity : int
         +1 as recorded, -1 reversed.
     """
 
-    swapped: bool
-    sign: int
+    component: HorizontalComponent
+    polarity: int
 
     @property
-    def component(self) -> str:
-        """Name of the component along the slope: record or transverse."""
-        return "transverse" if self.swapped else "record"
+    def is_transverse(self) -> bool:
+        """Whether the transverse component is along the slope."""
+        return self.component is HorizontalComponent.TRANSVERSE
 
     @property
     def name(self) -> str:
         """Name of the run, such as `record +` or `transverse −`."""
-        return f"{self.component} {'+' if self.sign > 0 else '−'}"
+        return f"{self.component} {'+' if self.polarity > 0 else '−'}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -339,17 +346,21 @@ class Motion:
         return len(self.ay_mps2) > 0
 
     @property
-    def headings(self) -> tuple[Heading, ...]:
+    def orientations(self) -> tuple[Orientation, ...]:
         """The runs: each horizontal component along the slope, in each of its polarities."""
-        components = (False, True) if self.has_transverse else (False,)
-        return tuple(Heading(swapped=s, sign=sign) for s in components for sign in self.signs)
+        components = tuple(HorizontalComponent)[: 1 + self.has_transverse]
+        return tuple(
+            Orientation(component=component, polarity=sign)
+            for component in components
+            for sign in self.signs
+        )
 
-    def scene(self, heading: Heading, *, slope_rad: float, friction: Friction) -> Scene:
-        """Return the scene of one run: this motion at a heading, on a slope with its friction."""
+    def scene(self, orientation: Orientation, *, slope_rad: float, friction: Friction) -> Scene:
+        """Return the scene of one run: this motion in an orientation, on a slope with friction."""
         along, across = self.ax_mps2, self.ay_mps2
-        if heading.swapped:
+        if orientation.is_transverse:
             along, across = across, along
-        along = along * heading.sign
+        along = along * orientation.polarity
         along.setflags(write=False)
         return Scene(
             ax_mps2=along,

@@ -16,7 +16,7 @@ from solver.model import (
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import history, scene, slide, slide_history, solve
-from solver.sliding.least_model import Rung, Settings, Solution
+from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.sweep import Sweep, sweep
 
 __all__ = [
@@ -25,9 +25,9 @@ __all__ = [
     "EventKind",
     "Friction",
     "InputError",
+    "Model",
     "Motion",
     "Record",
-    "Rung",
     "Scene",
     "Settings",
     "SlideHistory",

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-import report.beside  # before any test loads openpyxl: the package decides what that reads with
+import report.workers  # before any test loads openpyxl: the package decides what that reads with
 from browsing import chromium
 from places import RECORDS, SAMPLES
 
@@ -34,11 +34,11 @@ def pytest_collection_finish(session):
 def one_process():
     """Commands called in this process start none beside them: the other worker has that core.
 
-    `tests/report/test_beside.py` tests the second process, and scripts in other tests start it.
+    `tests/report/test_workers.py` tests the second process, and scripts in other tests start it.
     """
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report.beside, "SecondProcess", report.beside.SameProcess)
+        patch.setattr(report.workers, "WorkerProcess", report.workers.SameProcess)
         yield
 
 

@@ -94,11 +94,11 @@ def _script(top: Path, project: str) -> tuple[str, str]:
 _OTHER_VERSIONS = """
 import sys
 from importlib.metadata import Distribution
-import report.beside
+import report.workers
 others = dict(pair.split("=") for pair in sys.argv.pop().split())
 true = Distribution.version.fget
 Distribution.version = property(lambda one: others.get(one.name) or true(one))
-report.beside.SecondProcess = report.beside.SameProcess  # another process has the true versions
+report.workers.WorkerProcess = report.workers.SameProcess  # another process has the true versions
 from report.cli.main import main
 main()
 """

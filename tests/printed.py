@@ -16,18 +16,18 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import packages
-from report.assessment.certainty import certainty
 from report.assessment.cumulative import cumulative
 from report.assessment.evidence import plotted
 from report.assessment.highpass import beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.remedies import remedies
+from report.assessment.uncertainty import uncertainty
 from report.document.sections import Section
 from report.manual.machine import this_machine
 from report.manual.render import manual_html
 from report.package.html import part
 from report.pages.parts import PackageData
-from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
+from report.pages.pictures import draw_assessment, draw_plotted, draw_uncertainty
 from report.pages.registry import PAGES, package_data
 from report.study.files import study_html
 from report.study.results import StudyResults
@@ -128,7 +128,7 @@ class _Evidence:
 
     highpass = cached_property(lambda self: beyond_corners(self._assessment))
     remedies = cached_property(lambda self: remedies(self._assessment))
-    certainty = cached_property(lambda self: certainty(self._assessment))
+    uncertainty = cached_property(lambda self: uncertainty(self._assessment))
     cumulative = cached_property(lambda self: cumulative(self._assessment))
     plotted = cached_property(lambda self: plotted(self._assessment))
     spectra = cached_property(lambda self: self.plotted.spectra)
@@ -146,7 +146,7 @@ class _Pictures(dict):
     def _draw(package: PackageData, evidence: _Evidence) -> Iterator[Mapping]:
         yield draw_assessment(package)
         yield draw_plotted(package, evidence)
-        yield draw_certainty(package, evidence.certainty)
+        yield draw_uncertainty(package, evidence.uncertainty)
 
     def __missing__(self, id: str) -> object:
         with packages.undrawn():

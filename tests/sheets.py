@@ -21,7 +21,7 @@ import inputs
 from cells import address, addressed, cell
 from inputs import FT, INCH, clearance, motion, roof_object
 from places import DATA
-from report.assessment.foresight import findings
+from report.assessment.precheck import findings
 from report.motions.prepare import Shaking, prepare
 from report.sheet.findings import located
 from report.sheet.parts import changed

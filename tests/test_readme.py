@@ -20,12 +20,12 @@ import packages
 import report.typeset.pdf
 from cells import cell
 from places import ROOT
-from report.beside import SameProcess
 from report.cli import batch
 from report.cli.main import main
 from report.memoized import clear, new_generation
 from report.results.publish import STAMP
 from report.typeset.pdf import lay_out
+from report.workers import SameProcess
 from sheets import edit, make
 from solver.model import Friction
 from solver.sliding.checked import scene, slide

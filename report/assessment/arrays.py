@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
-from report.assessment.runs import RUNGS, HeadingRun, MotionRun, nan_is_worst
+from report.assessment.runs import RUNGS, MotionRun, OrientedRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, Basis, Check, Prescriptive, RuleSet
@@ -364,7 +364,7 @@ def assess_array(
     )
 
 
-def _nearest_to_tipping(array: Array, runs: Sequence[HeadingRun]) -> Tipping:
+def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
     """Return the check of the run that demands most friction: both of its ratios rise with it."""
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
     worst = max(runs, key=lambda run: run.solution.friction_demand)

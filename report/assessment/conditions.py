@@ -104,7 +104,7 @@ def motion_row(missed: AcceptanceRow, *, takes_analysis: bool) -> Row:
         title=missed.title,
         found=f"{missed.found:.4g}{unit}" + (f" ({missed.worst})" if missed.worst else ""),
         limit=f"{sign} {missed.limit:g}{unit}",
-        basis="limit of this program" if missed.is_ours else "motions for analysis",
+        basis="limit of this program" if missed.is_program_limit else "motions for analysis",
         is_satisfied=False,
         consequence=Consequence.NG if is_ng and takes_analysis else Consequence.CONDITION,
         remedy=_motion_remedy(is_ng, takes_analysis),

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.overrides import mark_of
 from report.assessment.project import Assessment
-from report.assessment.runs import HeadingRun
+from report.assessment.runs import OrientedRun
 from report.sheet.schema import Direction, Polygon, Shape
 from report.sheet.shapes import Point, merged, sides
 from solver.model import INCH_M
@@ -53,7 +53,7 @@ def runs_envelope(array: ArrayAssessment) -> Outline:
     return _swept(array.array.shape, hull(turned))
 
 
-def _region(run: HeadingRun) -> Outline:
+def _region(run: OrientedRun) -> Outline:
     """Return a region (downslope, cross-slope) that contains the path of a run.
 
     A circle about the PRD, cut at the largest excursions.

@@ -9,13 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.certainty import Certainty, certainty
 from report.assessment.cumulative import Cumulative, cumulative
 from report.assessment.highpass import Beyond, beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.remedies import Remedy, remedies
 from report.assessment.sensitivity import Accuracy, accuracy
 from report.assessment.spectra import Spectra, spectra
+from report.assessment.uncertainty import Uncertainty, uncertainty
 from solver.model import SlideHistory
 
 
@@ -47,7 +47,7 @@ class Evidence(Plotted):
         Effect of the high-pass of each motion on the slip of the governing array.
     remedies : tuple of Remedy
         What would satisfy each clearance and array marked NG.
-    certainty : Certainty
+    uncertainty : Uncertainty
         Effects of friction, slope and directions of shaking that are not run.
     cumulative : tuple of Cumulative
         For each array, if the workbook names smaller events.
@@ -55,7 +55,7 @@ class Evidence(Plotted):
 
     highpass: tuple[Beyond, ...]
     remedies: tuple[Remedy, ...]
-    certainty: Certainty
+    uncertainty: Uncertainty
     cumulative: tuple[Cumulative, ...]
 
 
@@ -90,6 +90,6 @@ def support(assessment: Assessment, shown: Plotted | None = None) -> Evidence:
         accuracy=shown.accuracy,
         highpass=beyond_corners(assessment),
         remedies=remedies(assessment),
-        certainty=certainty(assessment),
+        uncertainty=uncertainty(assessment),
         cumulative=cumulative(assessment),
     )

@@ -11,10 +11,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment, assess_array
-from report.assessment.begun import Begun
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import at_low_velocity, coefficient
 from report.assessment.friction_rows import tested
+from report.assessment.pending_runs import PendingRuns
 from report.assessment.verdict import NOT_GIVEN, Row, Verdict
 from report.sheet.friction_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
@@ -124,7 +124,7 @@ def low_velocity(
     data: ProjectInput,
     rules: RuleSet,
     arrays: Sequence[ArrayAssessment],
-    begun: Begun,
+    begun: PendingRuns,
     *,
     motions_qualify: bool,
 ) -> LowVelocity:

@@ -14,7 +14,7 @@ from functools import partial
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import nan_is_worst
 from report.sheet.schema import Array, Direction, Links
-from solver.model import Heading, Motion, SlideResult, Status
+from solver.model import Motion, Orientation, SlideResult, Status
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, RuleSet
 from solver.sliding import least_model, one_axis
@@ -33,7 +33,7 @@ class LinkedRun:
         The linked blocks, each with its own coefficient.
     """
 
-    heading: Heading
+    orientation: Orientation
     rigid: SlideResult
     row: RowResult
 
@@ -191,10 +191,10 @@ def assess_linked(
 
 
 def _run_motion(array: Array, row: BlockRow, motion: Motion) -> LinkedMotion:
-    runs = tuple(_run(array, row, motion, heading) for heading in motion.headings)
+    runs = tuple(_run(array, row, motion, orientation) for orientation in motion.orientations)
     return LinkedMotion(motion=motion, runs=runs)
 
 
-def _run(array: Array, row: BlockRow, motion: Motion, heading: Heading) -> LinkedRun:
-    scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
-    return LinkedRun(heading=heading, rigid=one_axis.run(scene), row=slide_row(scene, row))
+def _run(array: Array, row: BlockRow, motion: Motion, orientation: Orientation) -> LinkedRun:
+    scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
+    return LinkedRun(orientation=orientation, rigid=one_axis.run(scene), row=slide_row(scene, row))

@@ -16,7 +16,6 @@ from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
-from report.assessment.begun import Begun, RunMotion, begin_runs
 from report.assessment.clearances import ClearanceCheck, check_clearance, least_gap_m
 from report.assessment.conditions import (
     array_rows,
@@ -26,7 +25,6 @@ from report.assessment.conditions import (
     project_rows,
     route_row,
 )
-from report.assessment.foresight import ruled
 from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_velocity import (
@@ -38,6 +36,8 @@ from report.assessment.friction_velocity import (
 )
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
+from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
+from report.assessment.precheck import rule_set_of
 from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
@@ -230,20 +230,20 @@ def reassess(given: Assessment, project: ProjectInput) -> Assessment:
 def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
     """Assess another input in one axis, for provisional values (`runs.run_along`).
 
-    Each motion runs in the heading that governs in the given assessment, where it still has it.
+    Each motion runs in the orientation that governs in the given assessment, where it still has it.
     """
     governing = {
-        (array.id, run.motion.id): run.governing.heading
+        (array.id, run.motion.id): run.governing.orientation
         for array in given.arrays
         for run in array.motions
     }
 
     def along(array: Array, motion: Motion) -> MotionRun:
-        heading = governing.get((array.id, motion.id))
-        headings = [heading] if heading in motion.headings else motion.headings
-        return run_along(array, motion, headings)
+        orientation = governing.get((array.id, motion.id))
+        orientations = [orientation] if orientation in motion.orientations else motion.orientations
+        return run_along(array, motion, orientations)
 
-    # Arrays that are alike now may have had other headings that govern.
+    # Arrays that are alike now may have had other orientations that govern.
     return _again(given, project, along, lambda array: array.id)
 
 
@@ -267,8 +267,8 @@ def _assess(
     *,
     acceptance: Acceptance,
     pool: Executor,
-    begun: Begun,
-    slow: Begun = (),
+    begun: PendingRuns,
+    slow: PendingRuns = (),
     less: Callable[[], Assessment] | None = None,
 ) -> Assessment:
     """Assess an input from its runs.
@@ -282,7 +282,7 @@ def _assess(
         linked blocks, and the verdicts with those for less friction.
     """
     site = data.site
-    rules = ruled(data)
+    rules = rule_set_of(data)
     started = time.perf_counter()
     runs = [wait() for wait in begun]
     seconds = time.perf_counter() - started

@@ -20,13 +20,13 @@ from report.assessment.trials import (
     Runs,
     Trials,
     above,
-    alone,
     below,
     displaced,
     hundredths,
     involved,
     is_final,
-    reach,
+    search,
+    single_array_check,
 )
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Clearance
@@ -104,7 +104,7 @@ def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
         if gap.verdict is not Verdict.NG:
             continue
         here = [trials[array.id] for array in involved(given, gap.clearance)]
-        short = [one for one in here if not _holds(one.array, given, gap.clearance)]
+        short = [one for one in here if not _satisfies(one.array, given, gap.clearance)]
         yield from (_friction(one, number, gap.clearance) for one in short)
         yield _separation(given, number, gap)
         if short:
@@ -115,8 +115,8 @@ def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
             yield _s_ds([trials[array.id]], 0, None)
 
 
-def _holds(array: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
-    return is_final(array) and alone(given, given.project, array, row).ok
+def _satisfies(array: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
+    return is_final(array) and single_array_check(given, given.project, array, row).ok
 
 
 def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
@@ -126,7 +126,7 @@ def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
     reason = _in_vain(trials, row)
     held: tuple[int, ...] = ()
     if not reason and end <= start:
-        held = reach(lambda mu: trials.holds(row, mu=mu), start, end)
+        held = search(lambda mu: trials.satisfies(row, mu=mu), start, end)
     law = (
         "one coefficient at every velocity"
         if array.friction.is_constant
@@ -153,9 +153,12 @@ def _in_vain(trials: Trials, row: Clearance | None) -> str:
         return few
     is_prescriptive = array.route is Route.PRESCRIPTIVE
     least_m = array.prescriptive.value_m if is_prescriptive else array.floor_m
-    if row is None or alone(given, given.project, displaced(array, 0.0, least_m), row).ok:
+    if (
+        row is None
+        or single_array_check(given, given.project, displaced(array, 0.0, least_m), row).ok
+    ):
         return ""
-    if alone(given, given.project, displaced(array, 0.0, 0.0), row).ok:
+    if single_array_check(given, given.project, displaced(array, 0.0, 0.0), row).ok:
         least = "prescriptive displacement" if is_prescriptive else "floor"
         return f"the {least} alone requires more than is provided"
     return "the minimum separation of the rule set is more than is provided"
@@ -191,8 +194,11 @@ def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remed
     end = below(site.s_ds)
     held: tuple[int, ...] = ()
     if array.analysis.basis is not Basis.TOO_FEW and end >= start:
-        held = reach(
-            lambda s_ds: all(one.holds(row, s_ds=s_ds) for one in trials), start, end, S_DS_STRIDES
+        held = search(
+            lambda s_ds: all(one.satisfies(row, s_ds=s_ds) for one in trials),
+            start,
+            end,
+            S_DS_STRIDES,
         )
     most = held[-1] / 100 if held else math.nan
     takes_floor = any(one.route is Route.ANALYSIS and one.floor_m for one in given.arrays)

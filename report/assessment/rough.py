@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck, facing
-from report.assessment.runs import HeadingRun, MotionRun, run_motion, scene_key
+from report.assessment.runs import MotionRun, OrientedRun, run_motion, scene_key
 from report.sheet.schema import Array, Direction, ProjectInput
 from solver.model import Motion
 from solver.rules import provisions
@@ -67,7 +67,7 @@ def design_off_m(rules: RuleSet, item: ArrayAssessment, direction: Direction) ->
     return provisions.analysis_value(rules, offs, item.analysis.basis).value_m
 
 
-def _off_m(run: HeadingRun, direction: Direction) -> float:
+def _off_m(run: OrientedRun, direction: Direction) -> float:
     """Return a bound on the change of an excursion by an exact run [m]."""
     solution = run.solution
     exact_m = DEFAULT.tolerance * run.prd_m

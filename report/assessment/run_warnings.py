@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.runs import HeadingRun
+from report.assessment.runs import OrientedRun
 from report.words.units import Quantity, pair
 from solver.model import Status
 
@@ -17,7 +17,7 @@ _MOST_NAMED = 4  # motions in a sentence; more are counted, and the results have
 class _Troubled:
     array: str
     motion: str
-    run: HeadingRun
+    run: OrientedRun
 
 
 def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> tuple[str, ...]:
@@ -45,7 +45,7 @@ def _place(runs: Sequence[_Troubled]) -> str:
         return f"{of}, {len(runs)} runs of {len(motions)} motions"
     of += f", {'motion' if len(motions) == 1 else 'motions'} {', '.join(motions)}"
     if len(arrays) == len(motions) == 1:
-        return f"{of}, {', '.join(one.run.heading.name for one in runs)}"
+        return f"{of}, {', '.join(one.run.orientation.name for one in runs)}"
     return f"{of}, {len(runs)} runs"
 
 

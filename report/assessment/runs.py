@@ -11,25 +11,25 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from report.memoized import memoized
-from report.sheet.schema import Array, Direction, Model
-from solver.model import Heading, Motion, Scene, SlideHistory, SlideResult, Status
+from report.sheet.schema import Array, Direction, ModelChoice
+from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
-from solver.sliding.least_model import DEFAULT, Rung, Settings, Solution
+from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
 
-RUNGS: Mapping[Model, Rung] = {
-    Model.ONE_AXIS: Rung.ONE_AXIS,
-    Model.ONE_AXIS_VERTICAL: Rung.ONE_AXIS_VERTICAL,
-    Model.TWO_AXES: Rung.TWO_AXES,
+RUNGS: Mapping[ModelChoice, Model] = {
+    ModelChoice.ONE_AXIS: Model.ONE_AXIS,
+    ModelChoice.ONE_AXIS_VERTICAL: Model.ONE_AXIS_VERTICAL,
+    ModelChoice.TWO_AXES: Model.TWO_AXES,
 }
 """The models that a workbook can request."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HeadingRun:
+class OrientedRun:
     """One motion with one horizontal component along the slope, in one polarity."""
 
-    heading: Heading
+    orientation: Orientation
     scene: Scene
     solution: Solution
 
@@ -41,7 +41,7 @@ class HeadingRun:
     @property
     def model(self) -> str:
         """Name of the model used; without the vertical where the motion has none."""
-        title = self.solution.rung.title
+        title = self.solution.model.title
         return title if self.scene.az_mps2.size else title.removesuffix(" with vertical")
 
     @property
@@ -52,7 +52,7 @@ class HeadingRun:
     @property
     def has_across(self) -> bool:
         """Whether cross-slope motion was modeled, or shown to be zero."""
-        return self.solution.rung is Rung.NO_SLIP or self.solution.rung >= Rung.TWO_AXES
+        return self.solution.model is Model.NO_SLIP or self.solution.model >= Model.TWO_AXES
 
     def excursion_m(self, direction: Direction) -> float:
         """Return the largest excursion of the array in a direction [m].
@@ -77,13 +77,13 @@ class MotionRun:
 
     Attributes
     ----------
-    governing : HeadingRun
+    governing : OrientationRun
         The run with the largest PRD, or one without a displacement.
     """
 
     motion: Motion
-    runs: tuple[HeadingRun, ...]
-    governing: HeadingRun
+    runs: tuple[OrientedRun, ...]
+    governing: OrientedRun
 
     @property
     def seconds(self) -> float:
@@ -107,7 +107,7 @@ def scene_key(array: Array) -> Hashable:
 def run_motion(
     array: Array,
     motion: Motion,
-    model: Model | None = None,
+    model: ModelChoice | None = None,
     tolerance: float = DEFAULT.tolerance,
 ) -> MotionRun:
     """Run one array under one motion in all of its runs.
@@ -119,46 +119,48 @@ def run_motion(
     tolerance : float
         Of the solver, relative to the PRD.
     """
-    headings = motion.headings
-    return motion_run(motion, [run_heading(array, motion, h, model, tolerance) for h in headings])
+    orientations = motion.orientations
+    return motion_run(
+        motion, [run_oriented(array, motion, h, model, tolerance) for h in orientations]
+    )
 
 
-def run_along(array: Array, motion: Motion, headings: Sequence[Heading]) -> MotionRun:
+def run_along(array: Array, motion: Motion, orientations: Sequence[Orientation]) -> MotionRun:
     """Run one array under one motion in one axis, in some of its runs: quick, and not for design.
 
     A component acts along the slope together with the vertical one; what acts cross-slope is
     neglected, and no model is compared.
     """
-    return motion_run(motion, [_heading_along(array, motion, h) for h in headings])
+    return motion_run(motion, [_oriented_along(array, motion, h) for h in orientations])
 
 
-def _heading_along(array: Array, motion: Motion, heading: Heading) -> HeadingRun:
-    scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
+def _oriented_along(array: Array, motion: Motion, orientation: Orientation) -> OrientedRun:
+    scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
     scene = replace(scene, ay_mps2=NO_RECORD)
     # Nothing else models velocity-dependent friction than the choice of a model.
-    forced = Rung.ONE_AXIS_VERTICAL if scene.friction.is_constant else None
+    forced = Model.ONE_AXIS_VERTICAL if scene.friction.is_constant else None
     solution = least_model.solve(scene, Settings(forced=forced))
-    return HeadingRun(heading=heading, scene=scene, solution=solution)
+    return OrientedRun(orientation=orientation, scene=scene, solution=solution)
 
 
-def motion_run(motion: Motion, runs: Sequence[HeadingRun]) -> MotionRun:
+def motion_run(motion: Motion, runs: Sequence[OrientedRun]) -> MotionRun:
     """Return the runs of a motion with the governing one."""
     worst = max(runs, key=lambda run: nan_is_worst(run.prd_m))
     return MotionRun(motion=motion, runs=tuple(runs), governing=worst)
 
 
-def run_heading(
+def run_oriented(
     array: Array,
     motion: Motion,
-    heading: Heading,
-    model: Model | None = None,
+    orientation: Orientation,
+    model: ModelChoice | None = None,
     tolerance: float = DEFAULT.tolerance,
-) -> HeadingRun:
-    """Run one array under one motion at one heading; the rest as in `run_motion`."""
+) -> OrientedRun:
+    """Run one array under one motion at one orientation; the rest as in `run_motion`."""
     forced = RUNGS.get(array.model if model is None else model)
     settings = Settings(forced=forced, tolerance=tolerance)
-    scene = motion.scene(heading, slope_rad=array.slope_rad, friction=array.friction)
-    return HeadingRun(heading=heading, scene=scene, solution=_solved(scene, settings))
+    scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
+    return OrientedRun(orientation=orientation, scene=scene, solution=_solved(scene, settings))
 
 
 @memoized

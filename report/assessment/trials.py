@@ -1,6 +1,6 @@
 """One array rerun with other friction or with weaker motions, through the checks of a project.
 
-Runs nothing by itself: `report.assessment.remedies` and `report.assessment.certainty` search with
+Runs nothing by itself: `report.assessment.remedies` and `report.assessment.uncertainty` search with
 it. Read `Trials`, then `reach`.
 """
 
@@ -16,7 +16,7 @@ from report.assessment.arrays import ArrayAssessment, assess_array
 from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import array_with_friction, at_low_velocity
 from report.assessment.project import Assessment
-from report.assessment.runs import MotionRun, motion_run, run_heading, scene_key
+from report.assessment.runs import MotionRun, motion_run, run_oriented, scene_key
 from report.sheet.schema import Array, Clearance, ProjectInput
 from solver.model import Status
 
@@ -54,8 +54,8 @@ def with_mu(array: Array, mu: float) -> Array:
     return at_low_velocity(array).model_copy(update={"mu": mu})
 
 
-def reach(
-    holds: Callable[[int], bool], start: int, end: int, strides: Sequence[int] = STRIDES
+def search(
+    satisfies: Callable[[int], bool], start: int, end: int, strides: Sequence[int] = STRIDES
 ) -> tuple[int, ...]:
     """Walk from one value toward another, and return those before the first failure, in order.
 
@@ -67,12 +67,12 @@ def reach(
     holds : callable
         Whether a value satisfies; called once for each value tried.
     """
-    if not holds(start):
+    if not satisfies(start):
         return ()
     way = 1 if end >= start else -1
     held = [start]
     for step in strides:
-        while (following := held[-1] + way * step) * way <= end * way and holds(following):
+        while (following := held[-1] + way * step) * way <= end * way and satisfies(following):
             held.append(following)
     return tuple(held)
 
@@ -101,7 +101,7 @@ class Trials:
         self._governing: dict[tuple[int, int], ArrayAssessment] = {}
         self._all: dict[tuple[int, int], ArrayAssessment] = {}
 
-    def holds(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
+    def satisfies(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
         """Whether all runs have final values and satisfy a clearance, if any.
 
         Parameters
@@ -109,21 +109,23 @@ class Trials:
         mu, s_ds : int
             Friction coefficient and S_DS in hundredths; 0 for those given.
         """
-        # The governing headings alone refute a value at a quarter of the runs.
+        # The governing orientations alone refute a value at a quarter of the runs.
         return self._passes(self.governing(mu, s_ds), row, s_ds) and self._passes(
             self.complete(mu, s_ds), row, s_ds
         )
 
-    def may_hold(self, row: Clearance, *, mu: int) -> bool:
-        """Whether the governing heading of each motion alone satisfies a clearance."""
+    def may_satisfy(self, row: Clearance, *, mu: int) -> bool:
+        """Whether the governing orientation of each motion alone satisfies a clearance."""
         return self._passes(self.governing(mu, 0), row, 0)
 
     def required_m(self, row: Clearance, *, mu: int) -> float:
         """Return the separation that the array requires with all runs [m]."""
-        return alone(self.given, self.given.project, self.complete(mu, 0), row).required_m
+        return single_array_check(
+            self.given, self.given.project, self.complete(mu, 0), row
+        ).required_m
 
     def governing(self, mu: int, s_ds: int) -> ArrayAssessment:
-        """Return the array with the governing heading of each motion only."""
+        """Return the array with the governing orientation of each motion only."""
         if (mu, s_ds) not in self._governing:
             changed = self._changed(mu)
             first = partial(_first_run, changed, self._share(s_ds))
@@ -152,7 +154,7 @@ class Trials:
     def _passes(self, trial: ArrayAssessment, row: Clearance | None, s_ds: int) -> bool:
         if not is_final(trial) or (self._was_permitted and not _is_permitted(trial)):
             return False
-        return row is None or alone(self.given, self._data(s_ds), trial, row).ok
+        return row is None or single_array_check(self.given, self._data(s_ds), trial, row).ok
 
     def _changed(self, mu: int) -> Array:
         return with_mu(self.array.array, mu / 100) if mu else self.array.array
@@ -176,13 +178,13 @@ class Trials:
 
 def _first_run(array: Array, share: float, run: MotionRun) -> MotionRun:
     motion = replace(run.motion, scale=run.motion.scale * share)
-    return motion_run(motion, [run_heading(array, motion, run.governing.heading)])
+    return motion_run(motion, [run_oriented(array, motion, run.governing.orientation)])
 
 
 def _other_runs(array: Array, given: MotionRun, first: MotionRun) -> MotionRun:
-    done = first.governing.heading
-    others = (heading for heading in given.motion.headings if heading != done)
-    runs = (run_heading(array, first.motion, heading) for heading in others)
+    done = first.governing.orientation
+    others = (orientation for orientation in given.motion.orientations if orientation != done)
+    runs = (run_oriented(array, first.motion, orientation) for orientation in others)
     return motion_run(first.motion, [first.governing, *runs])
 
 
@@ -202,7 +204,7 @@ def is_final(array: ArrayAssessment) -> bool:
     return statuses == {Status.OK} and not math.isnan(array.design_m)
 
 
-def alone(
+def single_array_check(
     given: Assessment, data: ProjectInput, trial: ArrayAssessment, row: Clearance
 ) -> ClearanceCheck:
     """Return a clearance with one array as tried and all others at rest."""

@@ -185,11 +185,11 @@ def package(source: Path, make: Callable[[Path], Outcome] | None = None) -> Outc
 
 
 def _package(source: Path) -> Outcome:
-    from report.beside import SameProcess
     from report.making import make
+    from report.workers import SameProcess
 
-    with no_collections(), SameProcess() as second:
-        assessment, folder, _, _ = make(source, None, None, lambda _: None, second)
+    with no_collections(), SameProcess() as worker:
+        assessment, folder, _, _ = make(source, None, None, lambda _: None, worker)
     return Outcome(
         source=source,
         verdict=assessment.verdict.value,

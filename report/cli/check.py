@@ -1,6 +1,6 @@
 """The command `roofslip check`: everything that is known of a project before any run.
 
-Parses, calls, prints. Read `report.assessment.foresight`.
+Parses, calls, prints. Read `report.assessment.precheck`.
 """
 
 from __future__ import annotations
@@ -66,12 +66,12 @@ def checked(
     ------
     InputError
     """
-    from report.assessment.foresight import findings, foreseen
+    from report.assessment.precheck import findings, limits_before_runs
     from report.motions.prepare import prepare
     from report.sheet.findings import in_order
+    from report.sheet.legacy_notes import what_is_new
     from report.sheet.live import findings as formula_findings
     from report.sheet.live import overwritten
-    from report.sheet.older import what_is_new
     from report.sheet.read import read
     from report.typeset.letters import check_letters
 
@@ -89,7 +89,7 @@ def checked(
             [
                 *what_is_new(sheet.book),
                 *typed_over,
-                *foreseen(sheet, shaking),
+                *limits_before_runs(sheet, shaking),
                 *findings(sheet, shaking),
                 *_in_future(sheet, dt.date.today()),
             ]

@@ -109,16 +109,16 @@ def report(
     as_json: bool,
 ) -> None:
     """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary."""
-    from report.beside import beside
     from report.making import STEPS, make
+    from report.workers import started_worker
 
     with (
         input_errors(source, as_json=as_json),
         Progress(STEPS, quiet=quiet) as progress,
         no_collections(),
-        beside() as second,
+        started_worker() as worker,
     ):
-        made = make(source, out, since, progress, second)
+        made = make(source, out, since, progress, worker)
     if as_json:
         click.echo(_json(*made))
     elif not quiet:

@@ -148,14 +148,14 @@ def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: flo
 
 def _solved(scene: Scene, model: str | None) -> dict[str, Any]:
     """Return the results by name, with the model used."""
-    from solver.sliding.least_model import Rung, Settings, solve
+    from solver.sliding.least_model import Model, Settings, solve
 
-    solution = solve(scene, Settings(forced=None if model is None else Rung(MODELS.index(model))))
+    solution = solve(scene, Settings(forced=None if model is None else Model(MODELS.index(model))))
     return asdict(solution.result) | {
         "outcome": solution.result.status.sentence,
-        "model": f"{int(solution.rung)}, {solution.rung.title}",
+        "model": f"{int(solution.model)}, {solution.model.title}",
         "reason": solution.reason,
-        "next_model": f"{int(solution.next_rung)}, {solution.next_rung.title}",
+        "next_model": f"{int(solution.next_model)}, {solution.next_model.title}",
         "next_effect_m": solution.next_effect_m,
         "error_m": solution.result.error_m,
         "friction_demand": solution.friction_demand,

@@ -46,16 +46,16 @@ def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool)
     compared or a signature not be checked, and why; 2 it cannot be read. A signature that was put
     on after the package was written is no difference.
     """
-    from report.beside import beside
+    from report.workers import started_worker
 
     with (
         input_errors(file, as_json=as_json),
         Progress(STEPS + 1, quiet=quiet) as progress,
         no_collections(),
-        beside() as second,
+        started_worker() as worker,
         tempfile.TemporaryDirectory(prefix="roofslip-") as folder,
     ):
-        proof = _proof(file, records, Path(folder), progress, second)
+        proof = _proof(file, records, Path(folder), progress, worker)
     if as_json:
         from report.proof.verdict import as_json as written
 
@@ -69,7 +69,7 @@ def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool)
 
 
 def _proof(
-    file: Path, records: Path | None, folder: Path, progress: Progress, second: Executor
+    file: Path, records: Path | None, folder: Path, progress: Progress, worker: Executor
 ) -> Proof:
     from report.proof.package import open_package, take_out
     from report.proof.updates import appended
@@ -82,7 +82,7 @@ def _proof(
     workbook, former = take_out(package, folder / "input", records)
     try:
         assessment, _, files, _ = make(
-            workbook, folder / "out", former[0] if former else None, progress, second
+            workbook, folder / "out", former[0] if former else None, progress, worker
         )
     except InputError as error:
         return failed(error.problems, later)

@@ -55,16 +55,16 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
     Prints what changed since the round before. A workbook that is half saved, locked or gone for a
     moment is read again.
     """
-    from report.beside import beside
     from report.memoized import clear
+    from report.workers import started_worker
 
     with input_errors(source):
         if not source.is_dir():
             settle(source)
     workbook = source / "input.xlsx" if source.is_dir() else source
     folder = out or workbook.parent / "out"
-    with beside() as second:
-        round_ = Round(workbook, folder, second)
+    with started_worker() as worker:
+        round_ = Round(workbook, folder, worker)
         try:
             if once:
                 sys.exit(0 if round_.run() else INPUT_ERROR)
@@ -89,9 +89,9 @@ class Round:
     """
 
     def __init__(
-        self, workbook: Path, folder: Path, second: Executor, settle_s: float = SETTLE_S
+        self, workbook: Path, folder: Path, worker: Executor, settle_s: float = SETTLE_S
     ) -> None:
-        self._workbook, self._folder, self._second = workbook, folder, second
+        self._workbook, self._folder, self._worker = workbook, folder, worker
         self._settle_s = settle_s
         self._before: Compared | None = None
 
@@ -129,17 +129,17 @@ class Round:
 
         settle(self._workbook, self._settle_s)
         new_generation()
-        self._second.submit(new_generation)
+        self._worker.submit(new_generation)
         with no_collections():
             _, _, files, _ = make(
-                self._workbook, self._folder, None, lambda _: None, self._second, self._print
+                self._workbook, self._folder, None, lambda _: None, self._worker, self._print
             )
         return files
 
     def sweep(self) -> None:
         """Free what a round has left, while nothing waits for the next one."""
         with _interrupted_after():
-            self._second.submit(gc.collect)  # which may be this process
+            self._worker.submit(gc.collect)  # which may be this process
             gc.unfreeze()  # what `no_collections` has exempted
             gc.collect()
 

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import pass_context
 from markupsafe import Markup
 
-from report.assessment.foresight import limit_value
 from report.assessment.friction import mu_words
+from report.assessment.precheck import limit_value
 from report.document.tables import Table, stamp, table_of
 from report.entities.marks import dagger
 from report.typeset.equations import data_uri, symbol

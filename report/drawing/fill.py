@@ -13,9 +13,9 @@ from report.drawing.plan_read import Place, RoofPlan
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found, plain
 from report.sheet.fields import Entry, Section, entries
+from report.sheet.legacy_notes import MOVE
 from report.sheet.locate import find_cell, find_unit_cell, is_absent
 from report.sheet.locate_tables import MAX_ROWS, TableFound, find_table, table_area
-from report.sheet.older import MOVE
 from report.sheet.parts import Value
 from report.sheet.positions import FRESH, CellPosition, found_at, unit_size
 from report.sheet.schema import ROOF, SECTIONS, SIDES, Polygon, Rectangle

@@ -20,7 +20,7 @@ from report.entities.marks import Marked
 from report.entities.requirement import limit
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
 from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
-from report.sheet.schema import Direction, Model
+from report.sheet.schema import Direction, ModelChoice
 from report.words.units import Quantity, compared, number, ratio, rounded_apart
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
@@ -121,7 +121,7 @@ class ArrayResult(LowVelocityResult):
     slope_rad: Annotated[float, at("array.slope_rad")]
     friction: Annotated[Friction, at("array.friction")]
     friction_as_run: Annotated[str, Shown(head="μ")]
-    model_asked_for: Annotated[Model, at("array.model")]
+    model_asked_for: Annotated[ModelChoice, at("array.model")]
     model_is_enough: Annotated[bool, at("is_model_enough")]
     directions: Mapping[Direction, DirectionResult]
     peaks: tuple[PeakResult, ...]

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from report.assessment.certainty import Certainty
 from report.assessment.cumulative import Cumulative
 from report.assessment.neighbors import NearbyKind, PlanNeighbor
 from report.assessment.remedies import Remedy, RemedyKind
+from report.assessment.uncertainty import Uncertainty
 from report.entities.shown import Entity, Number, at
 from solver.model import Status
 
@@ -96,7 +96,7 @@ class AnglesResult(Entity):
     vertical_reversed_prd_m: Annotated[Number, at("reversed_m")]
 
 
-class CertaintyResult(Entity):
+class UncertaintyResult(Entity):
     """How sure the displacements are."""
 
     surface: SurfaceResult
@@ -113,10 +113,10 @@ class CumulativeResult(Entity):
     largest_m: Number
 
 
-def certainty_result(item: Certainty) -> CertaintyResult:
+def uncertainty_result(item: Uncertainty) -> UncertaintyResult:
     """Return the grid over friction and slope, the margins, and the directions not run."""
     surface = item.surface
-    return CertaintyResult(
+    return UncertaintyResult(
         surface=SurfaceResult.of(
             surface,
             mus=surface.mus.tolist(),

@@ -33,8 +33,8 @@ class LinkedRunResult(Entity):
     """A run as a row of blocks, and as one block."""
 
     motion: str
-    along: Annotated[str, at("heading.component")]
-    polarity: Annotated[int, at("heading.sign")]
+    along: Annotated[str, at("orientation.component")]
+    polarity: Annotated[int, at("orientation.polarity")]
     status: Annotated[Status, at("row.status")]
     rigid_status: Annotated[Status, at("rigid.status")]
     rigid_prd_m: Annotated[Number, at("rigid.prd_m")]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from report.assessment.foresight import findings
+from report.assessment.precheck import findings
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.entities.shown import Entity
@@ -72,7 +72,7 @@ def acceptance(row: AcceptanceRow) -> dict[str, Any]:
         f"limit{unit}": row.limit,
         "is_at_least": row.is_at_least,
         "worst": row.worst,
-        "is_in_no_code": row.is_ours,
+        "is_in_no_code": row.is_program_limit,
         "ok": row.satisfied,
         "consequence": row.consequence,
     }

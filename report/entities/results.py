@@ -15,13 +15,13 @@ from report.assessment.verdict import Verdict
 from report.entities.array import ArrayResult, LowVelocityResult, array_result
 from report.entities.clearance import ClearanceResult
 from report.entities.evidence import (
-    CertaintyResult,
     CumulativeResult,
     NeighborResult,
-    certainty_result,
+    UncertaintyResult,
     cumulative_result,
     neighbor_result,
     remedy,
+    uncertainty_result,
 )
 from report.entities.linked import LinkedResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, motion_result
@@ -87,7 +87,7 @@ class Results(Compared):
     acceptance: tuple[Mapping[str, Any], ...]
     neighbors: tuple[NeighborResult, ...]
     remedies: tuple[Mapping[str, Any], ...]
-    certainty: CertaintyResult
+    certainty: UncertaintyResult
     cumulative: tuple[CumulativeResult, ...]
 
 
@@ -134,6 +134,6 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         acceptance=tuple(map(acceptance, assessment.acceptance.rows)),
         neighbors=tuple(map(neighbor_result, assessment.neighbors)),
         remedies=tuple(map(remedy, evidence.remedies)),
-        certainty=certainty_result(evidence.certainty),
+        certainty=uncertainty_result(evidence.uncertainty),
         cumulative=tuple(map(cumulative_result, evidence.cumulative)),
     )

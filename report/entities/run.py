@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from report.assessment.runs import HeadingRun, MotionRun
+from report.assessment.runs import MotionRun, OrientedRun
 from report.entities.shown import Entity, Number, at
 from report.sheet.schema import Direction
 from solver.model import Status
@@ -27,8 +27,8 @@ class RunResult(Entity):
     """An array under a motion with one component along the slope, in one polarity."""
 
     motion: str
-    along: Annotated[str, at("heading.component")]
-    polarity: Annotated[int, at("heading.sign")]
+    along: Annotated[str, at("orientation.component")]
+    polarity: Annotated[int, at("orientation.polarity")]
     scale: float
     dt_s: float
     status: Annotated[Status, at("result.status")]
@@ -45,10 +45,10 @@ class RunResult(Entity):
     end_speed_mps: Annotated[Number, at("result.end_speed_mps")]
     peak_speed_mps: Annotated[Number, at("result.peak_speed_mps")]
     error_m: Annotated[Number, at("result.error_m")]
-    rung: Annotated[int, at("solution.rung")]
-    model: Annotated[str, at("solution.rung.title")]
+    rung: Annotated[int, at("solution.model")]
+    model: Annotated[str, at("solution.model.title")]
     reason: Annotated[str, at("solution.reason")]
-    next_rung: Annotated[int, at("solution.next_rung")]
+    next_rung: Annotated[int, at("solution.next_model")]
     next_effect_m: Annotated[Number, at("solution.next_effect_m")]
     friction_demand: Annotated[Number, at("solution.friction_demand")]
 
@@ -59,7 +59,7 @@ def peak_result(motion: MotionRun) -> PeakResult:
     return PeakResult.model_validate({"motion": motion.motion.id} | peaks)
 
 
-def run_result(motion: MotionRun, run: HeadingRun) -> RunResult:
+def run_result(motion: MotionRun, run: OrientedRun) -> RunResult:
     """Return a run of a motion."""
     about = motion.motion
     return RunResult.of(run, motion=about.id, scale=about.scale, dt_s=about.dt_s)

@@ -178,8 +178,8 @@ def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool)
 
 def _short(run: MotionRun) -> str:
     """Return the polarity of the governing run, with its component if there are two."""
-    heading = run.governing.heading
-    return heading.name if run.motion.has_transverse else heading.name[-1]
+    orientation = run.governing.orientation
+    return orientation.name if run.motion.has_transverse else orientation.name[-1]
 
 
 def _prd_text(run: MotionRun, us_first: bool) -> str:

@@ -29,7 +29,7 @@ _TEST = (
     (words("Axes", 0.7), lambda run: _axes(run)),
     (text("θ", "deg", 0.6), lambda run: f"{math.degrees(run.test.scene.slope_rad):.3g}"),
     (text("μ", share=0.9), lambda run: _mus(run)),
-    (text("Model", share=0.7), lambda run: int(run.rung)),
+    (text("Model", share=0.7), lambda run: int(run.model)),
     (text("PRD, stated", "mm"), lambda run: _mm(run.test.prd_m)),
     (text("PRD, computed", "mm", 1.1), lambda run: _prd(run)),
     (text("Ratio", share=0.7), lambda run: number(run.ratio, 3)),

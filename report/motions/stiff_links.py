@@ -16,7 +16,9 @@ from solver.sliding.row import MOST_STEPS, BlockRow, least_steps
 
 def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault]:
     """Yield the rows whose runs together need more than `MOST_STEPS` steps."""
-    seconds = sum(len(motion.headings) * motion.dt_s * len(motion.ax_mps2) for motion in motions)
+    seconds = sum(
+        len(motion.orientations) * motion.dt_s * len(motion.ax_mps2) for motion in motions
+    )
     weights = {array.id: array.weight_n for array in data.arrays}
     for index, links in enumerate(data.links):
         most = _stiffest(links, weights[links.array], seconds)

@@ -13,18 +13,18 @@ from typing import Any
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence, Plotted
 from report.assessment.project import Assessment
-from report.beside import SameProcess
 from report.document.blocks import Line
 from report.document.templates import rendered
 from report.pages import front, inputs, method
 from report.pages.cover import cover
 from report.pages.letter import letter
 from report.pages.parts import PackageData
-from report.pages.pictures import Pictures, draw_assessment, draw_certainty, draw_plotted
+from report.pages.pictures import Pictures, draw_assessment, draw_plotted, draw_uncertainty
 from report.pages.registry import Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
 from report.typeset.equations import Formula, formulas
 from report.typeset.pdf import TEMPLATES
+from report.workers import SameProcess
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +69,10 @@ def pages(
     """
     pending = pending or begin(assessment, changes, SameProcess()).plot(evidence)
     package = pending.package
-    drawn = (*pending.pictures, pending.worker.submit(draw_certainty, package, evidence.certainty))
+    drawn = (
+        *pending.pictures,
+        pending.worker.submit(draw_uncertainty, package, evidence.uncertainty),
+    )
     ids = (*_FRONT, *(page.id for page in pages_of(package)))
     content = _content(package, evidence, ids)
     ready = pending.equations.result()

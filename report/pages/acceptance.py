@@ -27,7 +27,7 @@ _PLACES = {"count": 0, "s": 1, "": 2}
 def acceptance_table(package: PackageData) -> Table:
     """Return every limit on the motions: found, limit, where, OK or what follows."""
     columns = (
-        (words("Limit", 4.75), lambda row: f"{row.title} *" if row.is_ours else row.title),
+        (words("Limit", 4.75), lambda row: f"{row.title} *" if row.is_program_limit else row.title),
         (text("Found", share=0.7), lambda row: _found(row) + _unit(row)),
         (text("Limit value", share=0.95), _limit),
         (words("Worst", 1.5), lambda row: row.worst or "—"),

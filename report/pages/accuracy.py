@@ -21,7 +21,7 @@ from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Status
 from solver.rules.provisions import Check
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
 
@@ -32,7 +32,7 @@ def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
     return {
         "found": accuracy,
         "percent": _PERCENT,
-        "two_axes": Rung.TWO_AXES,
+        "two_axes": Model.TWO_AXES,
         "most_ms": _decade_ms(rivals.seconds),
         "methods": _methods(package, rivals),
         "arrays": arrays,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from report.assessment.certainty import Certainty
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words, tested
 from report.assessment.remedies import Remedy
 from report.assessment.spectra import Spectra, departures
+from report.assessment.uncertainty import Uncertainty
 from report.document.templates import sentence
 from report.pages.limits import troubles
 from report.pages.parts import PackageData, shortened, statistic
@@ -67,7 +67,7 @@ def verdict_sentence(package: PackageData) -> str:
     return sentence(TEMPLATES, "verdict", package)
 
 
-def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
+def basis(package: PackageData, uncertainty: Uncertainty) -> Mapping[str, object]:
     """Return what the page on basis and limits needs beside the package."""
     return {
         "motions": [run.motion for run in package.governing.motions],
@@ -78,7 +78,7 @@ def basis(package: PackageData, certainty: Certainty) -> Mapping[str, object]:
             if not array.friction.is_constant
         ],
         "is_tested": bool(tested(package.data)),
-        "certainty": certainty,
+        "certainty": uncertainty,
         "failed": troubles(package),
         "validation": explained(SHIPPED),
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
-from report.assessment.foresight import findings
+from report.assessment.precheck import findings
 from report.document.tables import Table, listed, stamp
 from report.entities.array import array_results
 from report.entities.marks import dagger

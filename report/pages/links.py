@@ -44,7 +44,7 @@ def _unfinished(linked: LinkedArray) -> Iterator[str]:
     """Yield the outcomes of rows without a final displacement, each with its runs."""
     for status in Status:
         runs = [
-            f"{motion.motion.id} {run.heading.name}"
+            f"{motion.motion.id} {run.orientation.name}"
             for motion in linked.motions
             for run in motion.runs
             if run.row.status is status

@@ -14,7 +14,7 @@ from operator import itemgetter
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words
-from report.assessment.runs import RUNGS, HeadingRun
+from report.assessment.runs import RUNGS, OrientedRun
 from report.document.tables import Table, Wide, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import centered, length, plain, text, words
@@ -24,12 +24,12 @@ from report.sheet.schema import Array, Direction
 from report.words.letters import below_mm
 from report.words.units import number, ratio
 from solver.model import INCH_M
-from solver.sliding.least_model import DEFAULT, Rung, Solution
+from solver.sliding.least_model import DEFAULT, Model, Solution
 
 _NEGLECTED = {
-    Rung.ONE_AXIS_VERTICAL: "Vertical shaking",
-    Rung.TWO_AXES: "Cross-slope shaking",
-    Rung.SPEED_FRICTION: "Velocity-dependent friction",
+    Model.ONE_AXIS_VERTICAL: "Vertical shaking",
+    Model.TWO_AXES: "Cross-slope shaking",
+    Model.SPEED_FRICTION: "Velocity-dependent friction",
 }
 _NOT_KNOWN = Wide("not known", 4), ""
 
@@ -38,7 +38,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
     arrays = package.data.arrays
     return {
-        "rungs": [rung for rung in Rung if rung is not Rung.ROW],
+        "rungs": [rung for rung in Model if rung is not Model.ROW],
         "matters": DEFAULT,
         "matters_in": DEFAULT.matters_m / INCH_M,
         "friction": {array.id: friction(package, array) for array in arrays},
@@ -107,12 +107,12 @@ class _Group:
     """The runs of an array with one model."""
 
     array: ArrayAssessment
-    runs: Sequence[HeadingRun]
+    runs: Sequence[OrientedRun]
 
     @property
     def model(self) -> str:
         """The name of the model, and how many runs have no vertical component to model."""
-        rung, names = self.runs[0].solution.rung, {run.model for run in self.runs}
+        rung, names = self.runs[0].solution.model, {run.model for run in self.runs}
         lacking = sum(run.model != rung.title for run in self.runs)
         name = self.runs[0].model if len(names) == 1 else f"{rung.title} ({lacking} runs without)"
         return f"{int(rung)}, {name}"
@@ -138,13 +138,13 @@ class _Group:
         return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
 
 
-def _runs(array: ArrayAssessment) -> Sequence[HeadingRun]:
+def _runs(array: ArrayAssessment) -> Sequence[OrientedRun]:
     return [run for motion in array.motions for run in motion.runs]
 
 
 def _groups(array: ArrayAssessment) -> Iterator[_Group]:
-    ordered = sorted(_runs(array), key=lambda run: run.solution.rung)
-    for _, runs in groupby(ordered, key=lambda run: run.solution.rung):
+    ordered = sorted(_runs(array), key=lambda run: run.solution.model)
+    for _, runs in groupby(ordered, key=lambda run: run.solution.model):
         yield _Group(array, list(runs))
 
 
@@ -185,26 +185,30 @@ def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
         return
     solutions = [run.solution for run in _runs(array)]
     neglected = sorted(
-        {solution.next_rung for solution in solutions if solution.next_rung > solution.rung}
+        {solution.next_model for solution in solutions if solution.next_model > solution.model}
     )
     for rung in neglected:
         # A run that already has this model has nothing to tell of it.
-        without = [solution for solution in solutions if solution.next_rung is rung > solution.rung]
+        without = [
+            solution for solution in solutions if solution.next_model is rung > solution.model
+        ]
         yield _effect(array, rung, without)
     if neglected:
         return
-    if all(solution.rung is Rung.NO_SLIP for solution in solutions):
+    if all(solution.model is Model.NO_SLIP for solution in solutions):
         yield array.id, "None: no slip", "—", "—", "exact"
     elif array.array.friction.is_constant:
         basis = "the workbook gives one coefficient"
-        yield array.id, _NEGLECTED[Rung.SPEED_FRICTION], *_NOT_KNOWN, basis
+        yield array.id, _NEGLECTED[Model.SPEED_FRICTION], *_NOT_KNOWN, basis
     else:
         yield array.id, "None of the given inputs", "—", "—", "the most complete model is used"
 
 
-def _effect(array: ArrayAssessment, rung: Rung, group: Sequence[Solution]) -> _Neglected:
+def _effect(array: ArrayAssessment, rung: Model, group: Sequence[Solution]) -> _Neglected:
     effect = max((solution.next_effect_m for solution in group), key=nan_is_worst)
-    basis = "both models run; error included" if rung is Rung.TWO_AXES else "exact: both models run"
+    basis = (
+        "both models run; error included" if rung is Model.TWO_AXES else "exact: both models run"
+    )
     if not math.isfinite(effect):
         no_result = "no result with the more complete model"
         return array.id, _NEGLECTED[rung], *_NOT_KNOWN, no_result
@@ -215,7 +219,7 @@ def _effect(array: ArrayAssessment, rung: Rung, group: Sequence[Solution]) -> _N
 def _requested(array: ArrayAssessment) -> _Neglected:
     """Return the change that the adequate models make to the requested one."""
     other = array.chosen[Direction.ANY]
-    rung = max(run.solution.rung for motion in array.needed for run in motion.runs)
+    rung = max(run.solution.model for motion in array.needed for run in motion.runs)
     name = f"Effects of {rung.title}" if rung > RUNGS[array.array.model] else "None"
     if math.isnan(array.design_m) or math.isnan(other.value_m):
         return array.id, name, Wide(NO_VALUE, 4), "", "no value from analysis"

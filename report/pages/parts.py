@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.changes import NO_FORMER, Changes
-from report.assessment.foresight import limit_value
+from report.assessment.precheck import limit_value
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.columns import UnitFormat

@@ -10,13 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.certainty import Certainty
 from report.assessment.evidence import Plotted
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra, departures
+from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Row, Verdict
 from report.document.blocks import Picture
-from report.pages import accuracy, certainty, friction_tests, limits, section
+from report.pages import accuracy, friction_tests, limits, section, uncertainty
 from report.pages.parts import PackageData
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
@@ -167,10 +167,10 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Pictures:
     return pictures
 
 
-def draw_certainty(package: PackageData, found: Certainty) -> Pictures:
+def draw_uncertainty(package: PackageData, found: Uncertainty) -> Pictures:
     """Return the pictures of what is not known exactly, by the id of their part."""
     load_charts()
-    return {"how-sure": certainty.pictures(package, found.surface)}
+    return {"how-sure": uncertainty.pictures(package, found.surface)}
 
 
 def _by_place(spectra: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]]]:

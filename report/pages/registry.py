@@ -17,7 +17,6 @@ from report.document.blocks import Part
 from report.pages import (
     accuracy,
     appendix,
-    certainty,
     changes,
     clearances,
     cumulative,
@@ -30,6 +29,7 @@ from report.pages import (
     provisions,
     results,
     symbols,
+    uncertainty,
 )
 from report.pages.parts import PackageData
 
@@ -79,7 +79,7 @@ PAGES = (
     Page(
         id="basis",
         title="Basis and limits of the method",
-        fill=lambda package, evidence: front.basis(package, evidence.certainty),
+        fill=lambda package, evidence: front.basis(package, evidence.uncertainty),
     ),
     Page(
         id="inputs",
@@ -139,7 +139,7 @@ PAGES = (
         id="how-sure",
         title="How sure",
         fill=lambda package, evidence: (
-            certainty.page(package, evidence.certainty)
+            uncertainty.page(package, evidence.uncertainty)
             | cumulative.page(package, evidence.cumulative)
         ),
     ),

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.run_warnings import run_warnings
-from report.assessment.runs import HeadingRun, MotionRun
+from report.assessment.runs import MotionRun, OrientedRun
 from report.document.tables import Column, Table, TableRow, Wide, listed
 from report.entities.columns import UnitFormat
 from report.entities.shown import Shown, length, text, words
@@ -20,7 +20,7 @@ from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema import Direction
 from report.words.units import number
-from solver.model import Heading, Status
+from solver.model import Orientation, Status
 
 PEAK_ROWS = 16
 """The PRDs of usual suites stay on one page, with their mean and the design value."""
@@ -48,18 +48,20 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 def _results(package: PackageData, array: ArrayAssessment) -> Mapping[str, object]:
     runs = [run for motion in array.motions for run in motion.runs]
-    headings = _headings(runs)
+    orientations = _orientations(runs)
     return {
         "array": array,
         "slope_percent": 100.0 * math.tan(array.array.slope_rad),
-        "table": _peaks(package, array, headings),
-        "is_transverse_run": any(heading.swapped for heading in headings),
+        "table": _peaks(package, array, orientations),
+        "is_transverse_run": any(orientation.is_transverse for orientation in orientations),
         "is_prd_across": not all(run.has_across for run in runs),
         "troubles": run_warnings([array], package.fmt.us_first),
     }
 
 
-def _peaks(package: PackageData, array: ArrayAssessment, headings: Sequence[Heading]) -> Table:
+def _peaks(
+    package: PackageData, array: ArrayAssessment, orientations: Sequence[Orientation]
+) -> Table:
     """Return the runs of every motion, and below them the statistics and the design value."""
     fmt = package.fmt
     unit = fmt.units()[0].symbol
@@ -71,8 +73,11 @@ def _peaks(package: PackageData, array: ArrayAssessment, headings: Sequence[Head
     columns: list[Column] = [
         (words("Motion"), attrgetter("motion.id")),
         *(
-            (text(f"PRD of each run, {unit}", _short(heading), 0.95), partial(_peak, fmt, heading))
-            for heading in headings
+            (
+                text(f"PRD of each run, {unit}", _short(orientation), 0.95),
+                partial(_peak, fmt, orientation),
+            )
+            for orientation in orientations
         ),
         (length("Governing PRD", 1.08), attrgetter("governing.prd_m")),
         *((in_first("Largest of all runs", d.value), methodcaller("peak_m", d)) for d in _WAYS),
@@ -91,23 +96,23 @@ def _peaks(package: PackageData, array: ArrayAssessment, headings: Sequence[Head
         whole_rows=PEAK_ROWS,
         style=lambda run: package.bar((array.id, run.motion.id) in package.changes.values),
     )
-    return replace(table, rows=(*table.rows, *_statistics(package, array, len(headings))))
+    return replace(table, rows=(*table.rows, *_statistics(package, array, len(orientations))))
 
 
-def _headings(runs: Sequence[HeadingRun]) -> Sequence[Heading]:
+def _orientations(runs: Sequence[OrientedRun]) -> Sequence[Orientation]:
     """Return every orientation that any motion is run in, in order."""
-    seen = dict.fromkeys(run.heading for run in runs)
-    return sorted(seen, key=lambda heading: (heading.swapped, -heading.sign))
+    seen = dict.fromkeys(run.orientation for run in runs)
+    return sorted(seen, key=lambda orientation: (orientation.is_transverse, -orientation.polarity))
 
 
-def _short(heading: Heading) -> str:
-    return f"{'tr.' if heading.swapped else 'rec.'} {heading.name[-1]}"
+def _short(orientation: Orientation) -> str:
+    return f"{'tr.' if orientation.is_transverse else 'rec.'} {orientation.name[-1]}"
 
 
-def _peak(fmt: UnitFormat, heading: Heading, motion: MotionRun) -> str:
+def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
     for run in motion.runs:
-        if run.heading == heading:
+        if run.orientation == orientation:
             peak = fmt.cells(run.prd_m)[0]
             return Markup("<b>{}</b>").format(peak) if run is motion.governing else peak
     return ""

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING, Any
 
 from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.causes import causes
-from report.assessment.foresight import findings, limit_words
 from report.assessment.overrides import MEANING
+from report.assessment.precheck import findings, limit_words
 from report.assessment.verdict import Verdict
 from report.entities.array import ArrayResult, array_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
 from report.pages.registry import package_data
 from report.sheet.findings import Level, lines
-from report.sheet.older import what_is_new
-from report.sheet.schema import Model
+from report.sheet.legacy_notes import what_is_new
+from report.sheet.schema import ModelChoice
 from report.words.units import Quantity, compared, no_less, pair, ratio, rounding
 from solver.model import Status
 
@@ -35,8 +35,8 @@ _COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance"
 _WHAT_WOULD_DO = {
     Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
     Status.UPLIFT: "anchor the array, or replace the motion",
-    Status.DIVERGED: f"select the model '{Model.CHOOSE}' on the sheet Arrays",
-    Status.STEP_LIMIT: f"select the model '{Model.CHOOSE}' on the sheet Arrays",
+    Status.DIVERGED: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
+    Status.STEP_LIMIT: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
 }
 
 
@@ -142,7 +142,7 @@ def _models(assessment: Assessment) -> Iterator[Line]:
             yield Line("NG", f"{text} gravity or wider supports; {see}")
         if not item.is_model_enough:
             text = f"array {item.id}, requested model '{item.array.model}' is not adequate; select"
-            yield Line("NG", f"{text} '{Model.CHOOSE}' on the sheet Arrays; {see}")
+            yield Line("NG", f"{text} '{ModelChoice.CHOOSE}' on the sheet Arrays; {see}")
     for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
         text = f"one rigid block has not been shown to be adequate for array {name}"
         yield Line("NG", f"{text}; {see}")

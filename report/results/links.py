@@ -36,8 +36,8 @@ def link_runs_table(assessment: Assessment) -> pd.DataFrame:
         {
             "Array": linked_array.design.id,
             "Motion": motion.motion.id,
-            "Component along slope": run.heading.component,
-            "Polarity": "as recorded" if run.heading.sign > 0 else "reversed",
+            "Component along slope": run.orientation.component,
+            "Polarity": "as recorded" if run.orientation.polarity > 0 else "reversed",
             _RIGID: run.rigid.prd_m / INCH_M,
             _ROW: run.prd_m / INCH_M,
             "Block with largest PRD": "none" if math.isnan(run.prd_m) else str(run.block),

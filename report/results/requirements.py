@@ -69,7 +69,7 @@ def _on_motions(row: AcceptanceRow) -> tuple[str, ...]:
         row.title,
         f"{row.found:.6g}{unit}{worst}",
         f"{'≥' if row.is_at_least else '≤'} {row.limit:.6g}{unit}",
-        "limit of this program" if row.is_ours else "limit on motions for analysis",
+        "limit of this program" if row.is_program_limit else "limit on motions for analysis",
         (Verdict.OK if row.satisfied else BY_CONSEQUENCE[row.consequence]).word,
         "",
     )

@@ -17,7 +17,7 @@ from typing import Any
 from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
-from report.sheet import formerly
+from report.sheet import legacy_labels
 from report.sheet.fields import Entry, Frozen, YesNo, adapter
 from report.sheet.number_format import is_percentage, misleading
 from report.words.letters import UNPRINTABLE, trimmed
@@ -307,7 +307,7 @@ def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
     said = " ".join(str(plain(cell.value)).split()).casefold()
     if entry.kind is bool:
         said = {"true": "yes", "false": "no"}.get(said, said)
-    said = formerly.CHOICES.get(said, said)
+    said = legacy_labels.CHOICES.get(said, said)
     for choice in entry.choices:
         if choice.casefold() == said:
             return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)

@@ -19,7 +19,7 @@ from report.sheet.plan_checks import places_of, plan_faults, shapes_of, us_first
 from report.sheet.references import suggestion
 from report.sheet.schema import (
     PROVISION_KEYS,
-    Model,
+    ModelChoice,
     Rectangle,
     Shape,
     SlopeUnit,
@@ -126,9 +126,9 @@ def _friction(index: int, row: DraftRow) -> Iterator[Fault]:
     if static is not None and static < mu:
         text = f"static friction is {static:g}; give the friction coefficient, {mu:g}, or more"
         yield Fault(Place("arrays", index, "mu_static"), text)
-    if _by_speed(row) and model is not Model.CHOOSE:
+    if _by_speed(row) and model is not ModelChoice.CHOOSE:
         text = f"model is '{model}', which neglects velocity-dependent and static friction; select"
-        more = f"{text} '{Model.CHOOSE}', or leave high-velocity and static friction blank"
+        more = f"{text} '{ModelChoice.CHOOSE}', or leave high-velocity and static friction blank"
         yield Fault(Place("arrays", index, "model"), more)
 
 

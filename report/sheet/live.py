@@ -19,6 +19,7 @@ from report.sheet.cells import Found, cut, plain
 from report.sheet.counts import START, write_counts
 from report.sheet.fields import Place, Section
 from report.sheet.findings import Finding, unanswered
+from report.sheet.formula_text import canonical, moved
 from report.sheet.grids import Column, columns_of, table_formulas
 from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.locate_tables import TableArea, table_area
@@ -34,7 +35,6 @@ from report.sheet.positions import (
 from report.sheet.results_panel import write_panel
 from report.sheet.rules import write_rules
 from report.sheet.schema import SECTIONS, UnitsFirst
-from report.sheet.spelling import canonical, moved
 
 _PANEL = "live_prescriptive_in"
 _BROKEN = "#REF!"

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from report.sheet import formerly
+from report.sheet import legacy_labels
 from report.sheet.archive import OpenBook
 from report.sheet.fields import Entry, Section, entries
 from report.sheet.locate_tables import table_area
@@ -56,7 +56,7 @@ def added_later(book: OpenBook, section: Section) -> tuple[Entry, ...]:
     """
     groups = (
         [entry for entry in entries(section.model) if (section.key, entry.name) in added]
-        for added in formerly.ADDED
+        for added in legacy_labels.ADDED
     )
     return tuple(entry for group in groups if not _has_any(book, section, group) for entry in group)
 
@@ -77,7 +77,7 @@ def is_absent(book: OpenBook, section: Section) -> bool:
 
 def _fields(section: Section, entry: Entry) -> tuple[str, ...]:
     """Return the name of a field and its earlier names."""
-    return entry.name, *formerly.FIELDS.get((section.key, entry.name), ())
+    return entry.name, *legacy_labels.FIELDS.get((section.key, entry.name), ())
 
 
 def _field_named(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:

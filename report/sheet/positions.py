@@ -14,7 +14,7 @@ from openpyxl.cell.cell import MergedCell
 from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet import formerly
+from report.sheet import legacy_labels
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found
 from report.sheet.fields import Entry, Section
@@ -153,7 +153,7 @@ def heading_parts(text: object) -> tuple[str, str]:
 
 def labels_of(section: Section, entry: Entry) -> set[str]:
     """Return the label of a field and its earlier labels, in the form that is compared."""
-    earlier = formerly.LABELS.get((section.key, entry.name), ())
+    earlier = legacy_labels.LABELS.get((section.key, entry.name), ())
     return {label_key(label) for label in (entry.cell.label, *earlier)}
 
 

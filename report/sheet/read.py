@@ -24,7 +24,7 @@ from report.sheet.cells import (
     wish_for_missing,
 )
 from report.sheet.checks import faults
-from report.sheet.copies import copies
+from report.sheet.duplicate_sheets import copies
 from report.sheet.fields import Entry, Fault, Place, Section, entries
 from report.sheet.findings import Finding
 from report.sheet.locate import (

@@ -63,8 +63,8 @@ def array_capacities(plan: StudyPlan, array: ArrayPlan, runner: Runner) -> Array
             around = [_medians(one) for one in beside]
         for effect, median, low, high in zip(effects, medians, *around, strict=True):
             effect[name] = first_order_beta(median, (low, high))
-    headings = [len(motion.headings) for motion in runner.campaign.motions[0]]
-    runs = sum(int(one[0].searched @ headings) for one in searches)
+    orientations = [len(motion.orientations) for motion in runner.campaign.motions[0]]
+    runs = sum(int(one[0].searched @ orientations) for one in searches)
     return ArrayCapacities(found=found, effects=tuple(effects), runs=runs)
 
 

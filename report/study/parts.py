@@ -23,7 +23,7 @@ from report.study.extra import arrow
 from report.study.manifest import NAME, machine
 from solver.files import write_whole
 from solver.model import Floats, InputError
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 from solver.studies.campaign import Campaign
 from solver.studies.runs import LENGTHS, STATUSES, Rows, Runner, run_part
 
@@ -74,11 +74,11 @@ def made_part(
     part = runner.campaign.parts[number]
     rows = run_part(runner, part)
     content = parquet(runner.campaign, part, rows, identity, names)
-    counts = np.bincount(rows.rung.ravel(), minlength=len(Rung))
+    counts = np.bincount(rows.model.ravel(), minlength=len(Model))
     done = Done(
         number=number,
         sha256=hashlib.sha256(content).hexdigest(),
-        models={rung.title: int(counts[rung]) for rung in Rung if counts[rung]},
+        models={rung.title: int(counts[rung]) for rung in Model if counts[rung]},
         seconds=time.thread_time() - started,
         machine=machine(),
     )
@@ -107,8 +107,8 @@ def parquet(
         return pa.array(np.repeat(values, each))
 
     motions = [motion.id for motion in campaign.motions[0]]
-    swapped = [heading.swapped for _, heading in columns]
-    signs = np.array([heading.sign for _, heading in columns], dtype=np.int8)
+    swapped = [orientation.is_transverse for _, orientation in columns]
+    signs = np.array([orientation.polarity for _, orientation in columns], dtype=np.int8)
     table = {
         "building": keys(names, np.repeat(cases.building, each)),
         "slope_deg": by_case(np.asarray(np.degrees(cases.slope_rad), dtype=float).round(12)),
@@ -123,7 +123,7 @@ def parquet(
             for name, values in zip(LENGTHS, rows.lengths, strict=True)
         },
         "status": keys([status.value for status in STATUSES], rows.status.ravel()),
-        "model": keys([rung.title for rung in Rung], rows.rung.ravel()),
+        "model": keys([rung.title for rung in Model], rows.model.ravel()),
     }
     schema_of = pa.table(table).replace_schema_metadata({_IDENTITY: identity.encode()})
     sink = pa.BufferOutputStream()
@@ -144,9 +144,9 @@ class Peaks:
     Attributes
     ----------
     prd_m : array, shape (cases, motions)
-        Largest PRD of the headings [m]; NaN if one of them has no final value.
+        Largest PRD of the orientations [m]; NaN if one of them has no final value.
     slips : array of bool, shape (cases, motions)
-        Whether the friction demand exceeds the coefficient at any heading.
+        Whether the friction demand exceeds the coefficient at any orientation.
     """
 
     prd_m: Floats
@@ -159,7 +159,7 @@ def peaks(content: bytes, campaign: Campaign) -> Peaks:
     columns = ["prd_m", "status", "model"]
     table = pa.parquet.read_table(pa.BufferReader(content), columns=columns, use_threads=False)
     shape = (-1, len(campaign.columns))
-    ok, still = STATUSES[0].value, Rung.NO_SLIP.title
+    ok, still = STATUSES[0].value, Model.NO_SLIP.title
     final = _equals(table["status"], ok).reshape(shape)
     prd = np.where(final, table["prd_m"].to_numpy().reshape(shape), np.nan)
     slips = ~_equals(table["model"], still).reshape(shape)
@@ -315,7 +315,7 @@ def run_missing(
 def finished(folder: Path, manifest: Mapping[str, Any], done: Sequence[Done]) -> dict[str, Any]:
     """Return the manifest of a study that is done, and remove parts of other studies."""
     done = sorted(done, key=lambda part: part.number)
-    counts = {rung.title: sum(part.models.get(rung.title, 0) for part in done) for rung in Rung}
+    counts = {rung.title: sum(part.models.get(rung.title, 0) for part in done) for rung in Model}
     models = {title: count for title, count in counts.items() if count}
     ours = {part_name(part.number) for part in done}
     for path in folder.glob("part-?????.parquet"):

@@ -45,7 +45,7 @@ def acceptance_lines(rows: Sequence[AcceptanceRow]) -> list[str]:
         f"{'OK' if row.satisfied else row.consequence.value}: {row.title}: "
         f"{row.found:.4g}{_unit(row)}, {'at least' if row.is_at_least else 'at most'} "
         f"{row.limit:.4g}{_unit(row)}{f' ({row.worst})' if row.worst else ''}"
-        f"{'; limit of this program, in no code' if row.is_ours else ''}"
+        f"{'; limit of this program, in no code' if row.is_program_limit else ''}"
         for row in rows
     ]
 
@@ -65,7 +65,7 @@ def acceptance_facts(rows: Sequence[AcceptanceRow]) -> list[dict[str, Any]]:
             "is_at_least": row.is_at_least,
             "satisfied": row.satisfied,
             "worst": row.worst,
-            "is_ours": row.is_ours,
+            "is_ours": row.is_program_limit,
             "consequence": row.consequence.value,
         }
         for row in rows

@@ -14,8 +14,8 @@ from report.assessment.friction import mu_words
 from report.sheet.cells import cut
 from report.sheet.fields import Place
 from report.sheet.read import Sheet
-from report.sheet.retyped import retyped
 from report.sheet.schema import SIDES, Array, Polarity, ProjectInput, RuleSetName
+from report.sheet.what_if import retyped
 from report.web.opened import Opened
 from report.web.values import (
     MUS,

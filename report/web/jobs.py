@@ -14,7 +14,7 @@ from typing import Any
 
 from report.assessment.project import Assessment, anticipate, assess
 from report.sheet.parts import changed
-from report.sheet.retyped import cells
+from report.sheet.what_if import cells
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import check, controls, shown
@@ -189,4 +189,4 @@ def _wider(values: Values) -> str:
 
 
 def _motion(motion: Motion) -> Json:
-    return {"id": motion.id, "runs": [heading.name for heading in motion.headings]}
+    return {"id": motion.id, "runs": [orientation.name for orientation in motion.orientations]}

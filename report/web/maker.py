@@ -26,14 +26,14 @@ def main() -> None:
     limit_files(FILE_BYTES)
     limit_processor(PROCESSOR_S)
     give_way(NICE)
-    from report.beside import beside
     from report.making import make
+    from report.workers import started_worker
 
     workbook, out = (Path(each) for each in sys.argv[1:])
 
     def made() -> None:
-        with beside() as second:
-            make(workbook, out, None, lambda stage: _say(stage=in_words(stage)), second)
+        with started_worker() as worker:
+            make(workbook, out, None, lambda stage: _say(stage=in_words(stage)), worker)
 
     _say(**outcome(made))
 

@@ -13,7 +13,7 @@ from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking
 from report.motions.stiff_links import stiff_links
 from report.sheet.read import Sheet, read
-from report.sheet.retyped import retyped
+from report.sheet.what_if import retyped
 from report.typeset.letters import check_letters
 from report.web.values import Values, typed
 

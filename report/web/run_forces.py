@@ -12,19 +12,19 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from report.assessment.runs import HeadingRun
+from report.assessment.runs import OrientedRun
 from solver.forces import Forces, forces
 from solver.model import Event, EventKind, Floats, Scene, SlideHistory
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 
 Slip = tuple[Event, Event]
 """Begin and end of a slip."""
 
 
 def run_forces(
-    run: HeadingRun, history: SlideHistory, slips: Sequence[Slip]
+    run: OrientedRun, history: SlideHistory, slips: Sequence[Slip]
 ) -> tuple[Floats, Floats, Floats]:
     """Return N / W, friction demand |G| / N and friction used F / N at the samples, as modeled.
 
@@ -45,7 +45,7 @@ def run_forces(
     return of.normal_mps2 / scene.g_mps2, demand, used
 
 
-def with_jumps(run: HeadingRun, used: Floats, events: Sequence[Event]) -> tuple[Floats, Floats]:
+def with_jumps(run: OrientedRun, used: Floats, events: Sequence[Event]) -> tuple[Floats, Floats]:
     """Return the friction used with its jumps where a slip begins and ends, between samples.
 
     Returns
@@ -77,11 +77,11 @@ def _demand_at(of: Forces, at: Floats) -> Floats:
     return demand
 
 
-def _modeled(run: HeadingRun) -> Scene:
+def _modeled(run: OrientedRun) -> Scene:
     """Return the scene of a run without the components that its model neglects."""
-    rung = run.solution.rung
+    rung = run.solution.model
     scene = least_model.as_run(run.scene, rung)
-    if rung in (Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL):
+    if rung in (Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL):
         return replace(scene, ay_mps2=NO_RECORD)
     return scene
 

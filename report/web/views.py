@@ -13,9 +13,9 @@ from typing import TypeVar
 
 import numpy as np
 
-from report.assessment.certainty import Surface, surface
 from report.assessment.project import THREADS, Assessment
-from report.assessment.runs import HeadingRun, MotionRun
+from report.assessment.runs import MotionRun, OrientedRun
+from report.assessment.uncertainty import Surface, surface
 from report.figures.levels import LEAST_M, is_decade, levels
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
@@ -48,7 +48,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
     Parameters
     ----------
     run : str, optional
-        Name of the heading; the governing one if not given.
+        Name of the orientation; the governing one if not given.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
     motion = _named("motion", item.motions, motion_id, lambda one: one.motion.id)
     chosen = motion.governing
     if run is not None:
-        chosen = _named("run", motion.runs, run, lambda one: one.heading.name)
+        chosen = _named("run", motion.runs, run, lambda one: one.orientation.name)
     us_first = _us_first(assessment)
     history = least_model.history(chosen.scene, chosen.solution)
     slips = slips_of(history)
@@ -67,7 +67,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
     return {
         "array": array_id,
         "motion": motion_id,
-        "run": chosen.heading.name,
+        "run": chosen.orientation.name,
         "runs": [_run_choice(motion, one, us_first) for one in motion.runs],
         "dt_s": chosen.scene.dt_s,
         "seconds": motion.seconds,
@@ -83,7 +83,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         "t_prd_s": finite(history.result.t_prd_s),
         "units": _units(us_first),
         "texts": {
-            "title": f"Array {array_id}, motion {motion_id}, run {chosen.heading.name}",
+            "title": f"Array {array_id}, motion {motion_id}, run {chosen.orientation.name}",
             **_slide_texts(chosen, history, roof, us_first),
         },
     }
@@ -163,19 +163,19 @@ def _us_first(assessment: Assessment) -> bool:
     return assessment.project.project.units_first == "US"
 
 
-def _run_choice(motion: MotionRun, run: HeadingRun, us_first: bool) -> Json:
+def _run_choice(motion: MotionRun, run: OrientedRun, us_first: bool) -> Json:
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
-    label, prd_m = f"{_heading(motion, run)}, no PRD", run.result.prd_m
+    label, prd_m = f"{_orientation(motion, run)}, no PRD", run.result.prd_m
     if not math.isnan(prd_m):
         governs = ", governing" if run is motion.governing else ""
         prd = f"PRD {measured(prd_m, unit)} {unit.symbol}"
-        label = f"{_heading(motion, run)}, {prd}{governs}"
-    return {"name": run.heading.name, "label": label}
+        label = f"{_orientation(motion, run)}, {prd}{governs}"
+    return {"name": run.orientation.name, "label": label}
 
 
-def _heading(motion: MotionRun, run: HeadingRun) -> str:
+def _orientation(motion: MotionRun, run: OrientedRun) -> str:
     """Return the component and polarity of a run, the polarity alone where there is one."""
-    return run.heading.name if motion.motion.has_transverse else run.heading.name[-1]
+    return run.orientation.name if motion.motion.has_transverse else run.orientation.name[-1]
 
 
 def _prd(prd_m: float, us_first: bool) -> str:
@@ -208,7 +208,7 @@ def _track(history: SlideHistory, roof: Sequence[Record], dt_s: float) -> Json:
 
 
 def _series(
-    run: HeadingRun,
+    run: OrientedRun,
     history: SlideHistory,
     roof: Sequence[Record],
     slips: Sequence[Slip],
@@ -251,7 +251,7 @@ def _peak(history: SlideHistory) -> Json | None:
 
 
 def _slide_texts(
-    run: HeadingRun, history: SlideHistory, roof: Sequence[Record], us_first: bool
+    run: OrientedRun, history: SlideHistory, roof: Sequence[Record], us_first: bool
 ) -> Json:
     result = history.result
     travel = max(float(np.abs(velocity_displacement(record)[1]).max()) for record in roof)
@@ -327,7 +327,7 @@ def _path(motion: MotionRun, us_first: bool) -> Json:
     run, history = motion.governing, motion.history()
     path: Json = {
         "motion": motion.motion.id,
-        "run": _heading(motion, run),
+        "run": _orientation(motion, run),
         "prd": _prd(history.result.prd_m, us_first),
         "dt_s": run.scene.dt_s,
         "i": [],

@@ -32,7 +32,7 @@ class AcceptanceRow:
         Motion, component and frequency of the value found; empty if it is that of all.
     unit : str
         ``s``, ``count``, or empty for a ratio.
-    is_ours : bool
+    is_program_limit : bool
         Whether the limit is that of this program: it stands in no code.
     consequence : Consequence
         If the row is not satisfied.
@@ -44,7 +44,7 @@ class AcceptanceRow:
     is_at_least: bool
     worst: str
     unit: str = ""
-    is_ours: bool = False
+    is_program_limit: bool = False
     consequence: Consequence = Consequence.NG
 
     @property

@@ -154,9 +154,9 @@ def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[AcceptanceRow]:
     if found := _compared(ratios, _IS_SLIDING):
         band = f"0.1 to 1.3 Hz{_extent(found, _IS_SLIDING)}"
         title = f"Spectrum / target at {N_SLIDING} points, {band}, each component"
-        yield _least(title, found, _IS_SLIDING, is_ours=True)
+        yield _least(title, found, _IS_SLIDING, is_program_limit=True)
         title = f"Spectrum / target at {N_SLIDING} points, {band}, mean of the motions"
-        yield _least(title, _means(found), _IS_SLIDING, FULL_RATIO, is_ours=True)
+        yield _least(title, _means(found), _IS_SLIDING, FULL_RATIO, is_program_limit=True)
 
 
 def _sets(points: NDArray[np.bool_]) -> Sequence[NDArray[np.bool_]]:
@@ -183,11 +183,16 @@ def _least(
     points: NDArray[np.bool_],
     limit: float = LEAST_RATIO,
     *,
-    is_ours: bool = False,
+    is_program_limit: bool = False,
 ) -> AcceptanceRow:
     found, worst = min(each.least(points) for each in ratios)
     return AcceptanceRow(
-        title=title, found=found, limit=limit, is_at_least=True, worst=worst, is_ours=is_ours
+        title=title,
+        found=found,
+        limit=limit,
+        is_at_least=True,
+        worst=worst,
+        is_program_limit=is_program_limit,
     )
 
 

@@ -1,15 +1,17 @@
 """Selects the simplest adequate model of a scene: one array under one motion.
 
 Integrates nothing itself (`solver.sliding.one_axis` and `solver.sliding.two_axes` do) and knows no
-code rules. Read `Rung`, then `solve`.
+code rules. Read `Model`, then `solve`.
 """
 
 from __future__ import annotations
 
 import math
 import time
+import warnings
 from dataclasses import dataclass, replace
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +22,7 @@ from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, slide_row
 
 
-class Rung(IntEnum):
+class Model(IntEnum):
     """The models of a scene, from the simplest to the most complete."""
 
     NO_SLIP = 0
@@ -37,12 +39,12 @@ class Rung(IntEnum):
 
 
 _TITLES = {
-    Rung.NO_SLIP: "no slip",
-    Rung.ONE_AXIS: "one axis",
-    Rung.ONE_AXIS_VERTICAL: "one axis with vertical",
-    Rung.TWO_AXES: "two axes with vertical",
-    Rung.SPEED_FRICTION: "two axes, velocity-dependent friction",
-    Rung.ROW: "a row of linked blocks, one axis",
+    Model.NO_SLIP: "no slip",
+    Model.ONE_AXIS: "one axis",
+    Model.ONE_AXIS_VERTICAL: "one axis with vertical",
+    Model.TWO_AXES: "two axes with vertical",
+    Model.SPEED_FRICTION: "two axes, velocity-dependent friction",
+    Model.ROW: "a row of linked blocks, one axis",
 }
 
 
@@ -58,16 +60,16 @@ class Settings:
     tolerance : float
         Tolerance in two axes and with velocity-dependent friction, relative to the PRD
         (`two_axes.TOLERANCES`).
-    forced : Rung or None
+    forced : Model or None
         Use this rung only. A row is never selected; it runs only if requested.
     row : BlockRow or None
-        The blocks and links of `Rung.ROW`.
+        The blocks and links of `Model.ROW`.
     """
 
     matters_m: float = 1e-3
     matters_share: float = 0.005
     tolerance: float = two_axes.DEFAULT_TOLERANCE
-    forced: Rung | None = None
+    forced: Model | None = None
     row: BlockRow | None = None
 
     def bound_m(self, prd_m: float) -> float:
@@ -84,11 +86,11 @@ class Solution:
 
     Attributes
     ----------
-    rung : Rung
+    model : Model
     reason : str
         Why this rung was used, as a clause.
     result : SlideResult
-    next_rung : Rung
+    next_model : Model
         The first more complete model that was not used; the rung itself if there is none.
     next_effect_m : float
         Largest change of the PRD or of any excursion by the more complete models [m], from runs of
@@ -105,14 +107,22 @@ class Solution:
         Computing time for selection and runs [s].
     """
 
-    rung: Rung
+    model: Model
     reason: str
     result: SlideResult
-    next_rung: Rung
+    next_model: Model
     next_effect_m: float
     friction_demand: float
     margin_m: float = math.inf
     seconds: float = math.nan
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a value by its name of 0.2, which this version still knows."""
+        if name not in ("rung", "next_rung"):
+            raise AttributeError(name)
+        now = name.replace("rung", "model")
+        warnings.warn(f"Solution.{name} is Solution.{now} now", DeprecationWarning, stacklevel=2)
+        return getattr(self, now)
 
 
 def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
@@ -150,10 +160,10 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     InputError
         For a row: `solver.sliding.row.row_history` gives the motion of each of its blocks.
     """
-    if solution.rung is Rung.ROW:
+    if solution.model is Model.ROW:
         raise InputError("a row has a history for each block; call solver.sliding.row.row_history")
-    run = as_run(scene, solution.rung)
-    if solution.rung >= Rung.TWO_AXES:
+    run = as_run(scene, solution.model)
+    if solution.model >= Model.TWO_AXES:
         return two_axes.run_history(run, settings.tolerance)
     return one_axis.run_history(run)
 
@@ -163,7 +173,7 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
         return _still(scene, demand)
     if not scene.friction.is_constant:
         why = "the friction coefficient depends on velocity"
-        return _in_plane(scene, settings, Rung.SPEED_FRICTION, why, demand)
+        return _in_plane(scene, settings, Model.SPEED_FRICTION, why, demand)
     vertical = one_axis.run(scene)
     bound = settings.bound_m(vertical.prd_m)
     level = one_axis.run(_level(scene)) if scene.az_mps2.size else vertical
@@ -173,19 +183,19 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
         why = "the motion has no other component"
         if scene.az_mps2.size or scene.ay_mps2.size:
             why = f"no other component changes a displacement by more than {_mm(bound)}"
-        solution = _along(scene, Rung.ONE_AXIS, level, lesser, why, demand)
+        solution = _along(scene, Model.ONE_AXIS, level, lesser, why, demand)
     elif less <= bound:
         why = (
             f"neglecting the vertical component changes a displacement by {_mm(lesser)}, more than "
             f"{_mm(bound)}"
         )
-        solution = _along(scene, Rung.ONE_AXIS_VERTICAL, vertical, less, why, demand)
+        solution = _along(scene, Model.ONE_AXIS_VERTICAL, vertical, less, why, demand)
     else:
         why = (
             f"neglecting the second horizontal component changes a displacement by {_mm(less)}, "
             f"more than {_mm(bound)}"
         )
-        solution = _followed(scene, Rung.TWO_AXES, both, why, demand)
+        solution = _followed(scene, Model.TWO_AXES, both, why, demand)
     decisive = (lesser,) if lesser <= bound else (lesser, less)
     # An effect is a difference from a run, with the error of that run: both change with it.
     margin = min(abs(effect - bound) for effect in decisive) - 2.0 * both.error_m
@@ -206,34 +216,34 @@ def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
     return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
 
 
-def _forced(scene: Scene, settings: Settings, rung: Rung, demand: float) -> Solution:
+def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> Solution:
     hold, why = scene.friction.mu_static, "requested"
-    if rung is Rung.NO_SLIP and demand > hold:
+    if model is Model.NO_SLIP and demand > hold:
         raise InputError(
             f"the model 'no slip' is requested, but the friction demand, {demand:.3g}, exceeds the "
             f"friction coefficient, {hold:.3g}; request a more complete model"
         )
-    if rung is Rung.NO_SLIP:
+    if model is Model.NO_SLIP:
         return _still(scene, demand)
-    if rung is Rung.ROW:
+    if model is Model.ROW:
         return _linked(scene, settings.row, demand)
-    if rung >= Rung.TWO_AXES:
-        return _in_plane(scene, settings, rung, why, demand)
-    result, fuller = one_axis.run(as_run(scene, rung)), []
+    if model >= Model.TWO_AXES:
+        return _in_plane(scene, settings, model, why, demand)
+    result, fuller = one_axis.run(as_run(scene, model)), []
     if scene.ay_mps2.any():
-        fuller.append(two_axes.run(as_run(scene, Rung.TWO_AXES), settings.tolerance))
-    if rung is Rung.ONE_AXIS and scene.az_mps2.size:
+        fuller.append(two_axes.run(as_run(scene, Model.TWO_AXES), settings.tolerance))
+    if model is Model.ONE_AXIS and scene.az_mps2.size:
         fuller.append(one_axis.run(scene))
-    return _along(scene, rung, result, _left_out(result, *fuller), why, demand)
+    return _along(scene, model, result, _left_out(result, *fuller), why, demand)
 
 
 def _lifted(scene: Scene) -> Solution:
-    rung = Rung.ONE_AXIS_VERTICAL if scene.az_mps2.size else Rung.ONE_AXIS
+    model = Model.ONE_AXIS_VERTICAL if scene.az_mps2.size else Model.ONE_AXIS
     return Solution(
-        rung=rung,
+        model=model,
         reason="the normal force falls below zero, which no model covers",
         result=one_axis.run(scene),
-        next_rung=rung,
+        next_model=model,
         next_effect_m=math.nan,
         friction_demand=math.inf,
     )
@@ -242,51 +252,51 @@ def _lifted(scene: Scene) -> Solution:
 def _still(scene: Scene, demand: float) -> Solution:
     hold = scene.friction.mu_static
     return Solution(
-        rung=Rung.NO_SLIP,
+        model=Model.NO_SLIP,
         reason=f"the friction demand, {demand:.2f}, is below the friction coefficient, {hold:.2f}",
-        result=one_axis.run(as_run(scene, Rung.NO_SLIP)),
-        next_rung=Rung.NO_SLIP,
+        result=one_axis.run(as_run(scene, Model.NO_SLIP)),
+        next_model=Model.NO_SLIP,
         next_effect_m=0.0,
         friction_demand=demand,
     )
 
 
 def _along(
-    scene: Scene, rung: Rung, result: SlideResult, effect: float, why: str, demand: float
+    scene: Scene, model: Model, result: SlideResult, effect: float, why: str, demand: float
 ) -> Solution:
     """Return a solution in one axis, with the effect of the components neglected."""
-    following = rung
-    if rung is Rung.ONE_AXIS and scene.az_mps2.size:
-        following = Rung.ONE_AXIS_VERTICAL
+    following = model
+    if model is Model.ONE_AXIS and scene.az_mps2.size:
+        following = Model.ONE_AXIS_VERTICAL
     elif scene.ay_mps2.size:
-        following = Rung.TWO_AXES
+        following = Model.TWO_AXES
     return Solution(
-        rung=rung,
+        model=model,
         reason=why,
         result=result,
-        next_rung=following,
-        next_effect_m=math.nan if following is rung else effect,
+        next_model=following,
+        next_effect_m=math.nan if following is model else effect,
         friction_demand=demand,
     )
 
 
-def _in_plane(scene: Scene, settings: Settings, rung: Rung, why: str, demand: float) -> Solution:
-    result = two_axes.run(as_run(scene, rung), settings.tolerance)
-    if scene.friction.is_constant or rung is Rung.SPEED_FRICTION:
-        return _followed(scene, rung, result, why, demand)
+def _in_plane(scene: Scene, settings: Settings, model: Model, why: str, demand: float) -> Solution:
+    result = two_axes.run(as_run(scene, model), settings.tolerance)
+    if scene.friction.is_constant or model is Model.SPEED_FRICTION:
+        return _followed(scene, model, result, why, demand)
     fuller = two_axes.run(scene, settings.tolerance)
-    by_speed = _followed(scene, rung, result, why, demand)
+    by_speed = _followed(scene, model, result, why, demand)
     effect = _left_out(result, fuller)
-    return replace(by_speed, next_rung=Rung.SPEED_FRICTION, next_effect_m=effect)
+    return replace(by_speed, next_model=Model.SPEED_FRICTION, next_effect_m=effect)
 
 
-def _followed(scene: Scene, rung: Rung, result: SlideResult, why: str, demand: float) -> Solution:
+def _followed(scene: Scene, model: Model, result: SlideResult, why: str, demand: float) -> Solution:
     """Return a solution in two axes that neglects no component of the scene."""
     return Solution(
-        rung=rung,
+        model=model,
         reason=why,
         result=result,
-        next_rung=rung,
+        next_model=model,
         next_effect_m=math.nan,
         friction_demand=demand,
     )
@@ -312,25 +322,25 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
         error_m=linked.error_m,
     )
     return Solution(
-        rung=Rung.ROW,
+        model=Model.ROW,
         reason=f"requested; the links change the PRD by {_mm(linked.flexibility_m)}",
         result=result,
-        next_rung=Rung.ROW,
+        next_model=Model.ROW,
         next_effect_m=math.nan,
         friction_demand=demand,
     )
 
 
-def as_run(scene: Scene, rung: Rung) -> Scene:
+def as_run(scene: Scene, model: Model) -> Scene:
     """Return the scene as a rung runs it, without the vertical or the friction law it neglects.
 
     The cross-slope component is still there where a run in one axis ignores it.
     """
-    if rung is Rung.NO_SLIP:
+    if model is Model.NO_SLIP:
         return replace(scene, friction=coulomb(scene.friction.mu_static))
-    if rung is Rung.ONE_AXIS:
+    if model is Model.ONE_AXIS:
         return _level(scene)
-    if rung is Rung.TWO_AXES:
+    if model is Model.TWO_AXES:
         return replace(scene, friction=coulomb(scene.friction.mu_slow))
     return scene
 

@@ -1,4 +1,4 @@
-"""Rung 5: blocks in a row along the slope, linked by springs and dashpots, each with its friction.
+"""Model 5: blocks in a row along the slope, linked by springs and dashpots, each with its friction.
 
 Shows whether one rigid block is adequate for an array; not used by default. Integrates nothing
 itself (see `solver.kernels.row`). Read `BlockRow`, then `slide_row`.

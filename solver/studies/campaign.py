@@ -14,7 +14,7 @@ from itertools import pairwise, product
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Heading, Motion
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation
 
 MOST_ROWS = 500_000
 """Rows of a part, so that the parts in memory stay small."""
@@ -101,12 +101,12 @@ class Campaign:
     cases: Cases
 
     @cached_property
-    def columns(self) -> tuple[tuple[int, Heading], ...]:
-        """Motion and heading of the rows of a case."""
+    def columns(self) -> tuple[tuple[int, Orientation], ...]:
+        """Motion and orientation of the rows of a case."""
         return tuple(
-            (number, heading)
+            (number, orientation)
             for number, motion in enumerate(self.motions[0])
-            for heading in motion.headings
+            for orientation in motion.orientations
         )
 
     @property
@@ -160,7 +160,7 @@ PERSISTENCE = 3.0
 
 
 def _seconds(motion: Motion, cases: Cases, chosen: NDArray[np.intp]) -> Floats:
-    """Return the estimated time of cases under one motion at all its headings [s]."""
+    """Return the estimated time of cases under one motion at all its orientations [s]."""
     slope, mu, intensity = cases.slope_rad[chosen], cases.mu[chosen], cases.intensity[chosen]
     peaks = np.sort(np.abs(motion.ax_mps2[::_SAMPLED_STEP]))
     yields = STANDARD_GRAVITY_MPS2 * np.tan(np.arctan(mu) - np.abs(slope))
@@ -170,4 +170,4 @@ def _seconds(motion: Motion, cases: Cases, chosen: NDArray[np.intp]) -> Floats:
     run, rest, slide = RUN_S, REST_S, SLIDE_S
     if motion.has_transverse:
         run, rest, slide = PLANE_RUN_S, PLANE_REST_S, PLANE_SLIDE_S
-    return np.asarray(len(motion.headings) * (run + samples * (rest + slide * slides)))
+    return np.asarray(len(motion.orientations) * (run + samples * (rest + slide * slides)))

@@ -55,7 +55,7 @@ class Capacities:
     falls : array of bool, shape (motions,)
         Whether the PRD is at or below the limit again at a greater intensity that was run.
     searched : array of int, shape (motions,)
-        Intensities run for the capacities of all limits together, each once by heading.
+        Intensities run for the capacities of all limits together, each once by orientation.
     """
 
     intensity: Floats
@@ -67,12 +67,12 @@ class Capacities:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Curve:
-    """The PRD of one motion, the largest of its headings, over intensity.
+    """The PRD of one motion, the largest of its orientations, over intensity.
 
     Attributes
     ----------
     tracks : sequence of Track
-        One for each heading.
+        One for each orientation.
     slope_rad, mu : float
     """
 

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from solver.forces import forces
 from solver.kernels import one_axis as kernel
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Heading, Motion, Scene, Status, coulomb
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation, Scene, Status, coulomb
 from solver.sliding import least_model
-from solver.sliding.least_model import DEFAULT, Rung
+from solver.sliding.least_model import DEFAULT, Model
 from solver.sliding.sweep import order_alike
 from solver.studies.campaign import Campaign, Cases
 
@@ -36,13 +36,13 @@ class Rows:
     ----------
     lengths : array, shape (5, cases, columns)
         `LENGTHS`, as in `SlideResult` [m]; NaN for none.
-    status, rung : array of uint8
-        Index into `STATUSES`; `Rung`.
+    status, model : array of uint8
+        Index into `STATUSES`; `Model`.
     """
 
     lengths: Floats
     status: NDArray[np.uint8]
-    rung: NDArray[np.uint8]
+    model: NDArray[np.uint8]
 
 
 def empty_rows(shape: tuple[int, int]) -> Rows:
@@ -50,7 +50,7 @@ def empty_rows(shape: tuple[int, int]) -> Rows:
     return Rows(
         lengths=np.empty((len(LENGTHS), *shape)),
         status=np.empty(shape, dtype=np.uint8),
-        rung=np.empty(shape, dtype=np.uint8),
+        model=np.empty(shape, dtype=np.uint8),
     )
 
 
@@ -75,13 +75,16 @@ class Runner:
     def tracks(self) -> tuple[tuple[Track, ...], ...]:
         """Prepared records, by building and column."""
         return tuple(
-            tuple(_track(motions[number], heading) for number, heading in self.campaign.columns)
+            tuple(
+                _track(motions[number], orientation)
+                for number, orientation in self.campaign.columns
+            )
             for motions in self.campaign.motions
         )
 
 
-def _track(motion: Motion, heading: Heading) -> Track:
-    scene = motion.scene(heading, slope_rad=0.0, friction=coulomb(0.0))
+def _track(motion: Motion, orientation: Orientation) -> Track:
+    scene = motion.scene(orientation, slope_rad=0.0, friction=coulomb(0.0))
     return Track(
         scene=scene,
         x=kernel.bounds(scene.ax_mps2),
@@ -91,7 +94,7 @@ def _track(motion: Motion, heading: Heading) -> Track:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Track:
-    """A motion at one heading, prepared.
+    """A motion at one orientation, prepared.
 
     Attributes
     ----------
@@ -114,7 +117,7 @@ class Track:
             found, odd = _solve_along(self, scenes)
             for length, values in zip(rows.lengths, found.lengths, strict=True):
                 length[chosen, column] = values
-            rows.status[chosen, column], rows.rung[chosen, column] = found.status, found.rung
+            rows.status[chosen, column], rows.model[chosen, column] = found.status, found.model
         for at in odd:
             _solve_one(self.scene, scenes[at], rows, (int(chosen[at]), column))
 
@@ -129,7 +132,7 @@ def _solve_one(scene: Scene, slope_mu_scale: Floats, rows: Rows, at: tuple[int, 
     solution = least_model.solve(scene_of(scene, slope_mu_scale))
     rows.lengths[:, *at] = [getattr(solution.result, name) for name in LENGTHS]
     rows.status[at] = STATUSES.index(solution.result.status)
-    rows.rung[at] = solution.rung
+    rows.model[at] = solution.model
 
 
 def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
@@ -148,12 +151,12 @@ def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
     status = np.where(
         s_end == 0.0, STATUSES.index(Status.OK), STATUSES.index(Status.SLIDING_AT_END)
     )
-    top = Rung.ONE_AXIS if track.z is None else Rung.ONE_AXIS_VERTICAL
-    rung = np.where(still, Rung.NO_SLIP, np.where(uses_level, Rung.ONE_AXIS, top))
+    top = Model.ONE_AXIS if track.z is None else Model.ONE_AXIS_VERTICAL
+    model = np.where(still, Model.NO_SLIP, np.where(uses_level, Model.ONE_AXIS, top))
     rows = Rows(
         lengths=lengths[: len(LENGTHS)],
         status=np.where(lifted, STATUSES.index(Status.UPLIFT), status).astype(np.uint8),
-        rung=np.where(lifted, top, rung).astype(np.uint8),
+        model=np.where(lifted, top, model).astype(np.uint8),
     )
     return rows, np.flatnonzero(lifted != np.isinf(demand))
 

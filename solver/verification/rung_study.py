@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from solver.model import Floats, Friction, Heading, Scene, coulomb
+from solver.model import Floats, Friction, HorizontalComponent, Orientation, Scene, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, RowResult, slide_row
@@ -63,8 +63,10 @@ STRETCHES_M = {STIFF: 1e-3, SOFT: 1e-2}
 ROW_DAMPING = 0.05
 """Damping ratio of one block on its link."""
 
-HEADINGS = tuple(
-    Heading(swapped=swapped, sign=sign) for swapped in (False, True) for sign in (1, -1)
+ORIENTATIONS = tuple(
+    Orientation(component=component, polarity=polarity)
+    for component in HorizontalComponent
+    for polarity in (1, -1)
 )
 """Each horizontal component along the slope, in each sign."""
 
@@ -87,10 +89,10 @@ def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
 
 
 def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
-    """Run every scene of every motion with every heading by every model."""
+    """Run every scene of every motion with every orientation by every model."""
     slopes, mus, ppas = _axes(quick)
     row_ppa_g = ppas[len(ppas) // 2]
-    turned = [triple.turned(heading) for triple in triples for heading in HEADINGS]
+    turned = [triple.turned(orientation) for triple in triples for orientation in ORIENTATIONS]
     scenes = scenes_of(turned, grid(slopes, mus, ppas))
     results = [two_axes.run(scene) for scene in scenes]
     answered = [result for result in results if not math.isnan(result.prd_m)]
@@ -120,7 +122,7 @@ def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
 
 
 def static(triples: Sequence[Triple], *, quick: bool) -> StaticEvidence:
-    """Run every scene of every motion with the first heading and static friction above kinetic."""
+    """Run every scene of every motion in its first orientation, static friction above kinetic."""
     return static_evidence(scenes_of(triples, grid(*_axes(quick))), 1.0 / SLOW_SHARE)
 
 
@@ -150,8 +152,8 @@ def _axis_prds(scenes: Sequence[Scene]) -> Floats:
 
 
 def _worst_heading(prd_m: Floats, n_triples: int) -> Floats:
-    """Return the largest PRD of the headings of each motion and case that give one."""
-    by_heading = prd_m.reshape(n_triples, len(HEADINGS), -1)
+    """Return the largest PRD of the orientations of each motion and case that give one."""
+    by_heading = prd_m.reshape(n_triples, len(ORIENTATIONS), -1)
     return np.asarray(np.fmax.reduce(by_heading, axis=1).ravel())
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from solver.forces import forces
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
 from solver.sliding import least_model, one_axis, two_axes
-from solver.sliding.least_model import Rung, Settings
+from solver.sliding.least_model import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification import plane_scipy
 from solver.verification.bound_study import bound_ratios
@@ -271,7 +271,7 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
             scene = faded(full, share)
             choice = least_model.solve(scene)
             change = abs(two_axes.run(scene, TIGHT).prd_m - choice.result.prd_m)
-            said = 0.0 if choice.rung is Rung.TWO_AXES else choice.next_effect_m
+            said = 0.0 if choice.model is Model.TWO_AXES else choice.next_effect_m
             over += not change <= said + choice.result.error_m
             count += 1
     return check(
@@ -310,11 +310,11 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
     faint = faded(full, 1e-4)
     level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
     for what, scene, rung in (
-        ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Rung.NO_SLIP),
-        ("Second and vertical components negligible", level, Rung.ONE_AXIS),
-        ("Second component negligible", faint, Rung.ONE_AXIS_VERTICAL),
-        ("Three components", full, Rung.TWO_AXES),
-        ("Velocity-dependent friction", replace(full, friction=law), Rung.SPEED_FRICTION),
+        ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Model.NO_SLIP),
+        ("Second and vertical components negligible", level, Model.ONE_AXIS),
+        ("Second component negligible", faint, Model.ONE_AXIS_VERTICAL),
+        ("Three components", full, Model.TWO_AXES),
+        ("Velocity-dependent friction", replace(full, friction=law), Model.SPEED_FRICTION),
     ):
         yield check(
             "TA-12",
@@ -323,7 +323,7 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
             "Model chosen",
             "1",
             float(rung),
-            float(least_model.solve(scene, Settings()).rung),
+            float(least_model.solve(scene, Settings()).model),
             0.0,
         )
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from solver.model import Floats, Status
 from solver.sliding.checked import solve
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 from solver.verification.table_tests import Data, TableTest
 
 MEDIAN = (0.9, 1.1)
@@ -36,7 +36,7 @@ class TableRun:
     Attributes
     ----------
     test : TableTest
-    rung : Rung
+    model : Model
         The model that was used.
     status : Status
     prd_m, residual_m : float
@@ -44,7 +44,7 @@ class TableRun:
     """
 
     test: TableTest
-    rung: Rung
+    model: Model
     status: Status
     prd_m: float
     residual_m: float
@@ -120,7 +120,7 @@ def _run(test: TableTest) -> TableRun:
     result = solution.result
     return TableRun(
         test=test,
-        rung=solution.rung,
+        model=solution.model,
         status=result.status,
         prd_m=result.prd_m,
         residual_m=math.hypot(result.residual_m, result.residual_across_m),

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from solver.formats import read_motion_file
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Heading, InputError, Scene
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, InputError, Orientation, Scene
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
 from solver.verification.scenes import Case, own_suite
@@ -41,10 +41,12 @@ class Triple:
     y_mps2: Floats
     z_mps2: Floats
 
-    def turned(self, heading: Heading) -> Triple:
-        """Return the motion at a heading: components along and across the slope."""
-        x, y = (self.y_mps2, self.x_mps2) if heading.swapped else (self.x_mps2, self.y_mps2)
-        return replace(self, x_mps2=readonly(heading.sign * x), y_mps2=y)
+    def turned(self, orientation: Orientation) -> Triple:
+        """Return the motion at an orientation: components along and across the slope."""
+        x, y = (
+            (self.y_mps2, self.x_mps2) if orientation.is_transverse else (self.x_mps2, self.y_mps2)
+        )
+        return replace(self, x_mps2=readonly(orientation.polarity * x), y_mps2=y)
 
     def scale_to(self, ppa_g: float) -> float:
         """Return the factor that scales the larger horizontal peak to `ppa_g` [g]."""

@@ -116,7 +116,7 @@ def choose() -> None:
         started = time.process_time()
         solution = least_model.solve(scene)
         chose_s = time.process_time() - started
-        if solution.rung is least_model.Rung.NO_SLIP or solution.result.status is Status.UPLIFT:
+        if solution.model is least_model.Model.NO_SLIP or solution.result.status is Status.UPLIFT:
             continue
         started = time.process_time()
         two_axes.run(scene)
@@ -129,7 +129,7 @@ def choose() -> None:
         count["slide"] += 1
         count["wrong"] += off > bound + true.error_m + solution.result.error_m
         count["need"] += difference(lesser, true) > bound
-        count["get"] += solution.rung is least_model.Rung.TWO_AXES
+        count["get"] += solution.model is least_model.Model.TWO_AXES
     figure("random scenes that slide", count["slide"])
     figure("scenes in which the selected model neglects too much", count["wrong"])
     figure("largest neglected part, relative to what may be neglected", largest)

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import solver
@@ -28,3 +29,11 @@ def test_kernels_are_loaded_with_the_first_name_and_scipy_is_not():
         "assert 'scipy.integrate' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+
+
+def test_names_of_the_former_version_are_known_with_a_warning():
+    with pytest.warns(DeprecationWarning, match="solver.Model"):
+        assert solver.Rung is solver.Model
+    solution = solver.solve(solver.scene(np.zeros(3), 0.01, slope_rad=0.0, mu=0.4))
+    with pytest.warns(DeprecationWarning, match="Solution.model"):
+        assert solution.rung is solution.model

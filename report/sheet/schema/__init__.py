@@ -13,7 +13,7 @@ from typing import Annotated
 from pydantic import AfterValidator, model_validator
 
 from report.sheet.fields import Cell, Frozen, Section, YesNo
-from report.sheet.formerly import PROVISIONS
+from report.sheet.legacy_labels import PROVISIONS
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
     MAX_TEXT,
@@ -21,7 +21,7 @@ from report.sheet.schema.choices import (
     Baseline,
     Direction,
     LayerKind,
-    Model,
+    ModelChoice,
     ObjectKind,
     Polarity,
     RecordedAt,
@@ -80,7 +80,7 @@ __all__ = [
     "FrictionTests",
     "LayerKind",
     "Links",
-    "Model",
+    "ModelChoice",
     "MotionInput",
     "ObjectKind",
     "Options",

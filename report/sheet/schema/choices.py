@@ -125,7 +125,7 @@ class ObjectKind(StrEnum):
     EDGE_WITHOUT_PARAPET = "edge without parapet"
 
 
-class Model(StrEnum):
+class ModelChoice(StrEnum):
     """Model of an array's motion: the simplest adequate one, or one that is requested."""
 
     CHOOSE = "choose"

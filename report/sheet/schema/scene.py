@@ -15,7 +15,7 @@ from report.sheet.schema.choices import (
     Direction,
     Id,
     LayerKind,
-    Model,
+    ModelChoice,
     NotNegative,
     ObjectKind,
     Positive,
@@ -207,7 +207,7 @@ class Array(Placed):
         ),
     ] = None
     model: Annotated[
-        Model,
+        ModelChoice,
         Cell(
             "Model",
             "Choose: the simplest adequate model for each motion. Any other model is run as "
@@ -215,7 +215,7 @@ class Array(Placed):
             "choose",
             is_rare=True,
         ),
-    ] = Model.CHOOSE
+    ] = ModelChoice.CHOOSE
 
     i_p: Annotated[
         ImportanceCell,

@@ -7,8 +7,8 @@ import pytest
 
 from places import ROOT
 from report.assessment.cost import LONG_S, cost, expected_s
-from report.beside import SameProcess
 from report.making import make
+from report.workers import SameProcess
 from sheets import make as make_book
 from sheets import project, read_workbook
 from solver.model import InputError

@@ -4,8 +4,8 @@ import pytest
 
 import scenes
 import stand_in
-from report.assessment.foresight import foreseen
 from report.assessment.overrides import OVERRIDDEN, override_rows
+from report.assessment.precheck import limits_before_runs
 from report.assessment.verdict import Verdict
 from report.sheet.fields import Place
 from solver.records.acceptance_row import Consequence
@@ -93,7 +93,11 @@ def test_check_names_an_override_at_its_cell():
         overrides=overrides(max_stories=8.0, separation_fixed=1.5, low_profile_in=40.0)
     )
     made = stand_in.book(data, scenes.motions(7))
-    places = [f.place for f in foreseen(made.sheet, made.shaking) if f.text.startswith("override")]
+    places = [
+        f.place
+        for f in limits_before_runs(made.sheet, made.shaking)
+        if f.text.startswith("override")
+    ]
     assert places == [Place("overrides", 0, "value"), Place("overrides", 2, "value")]
 
 

@@ -21,7 +21,7 @@ from report.sheet.schema import Direction
 from solver.model import Status
 from solver.rules.provisions import Basis
 from solver.sliding import least_model
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 
 PEER = {"peer_reviewed": True}
 STEEP = [stand_in.array("A1", 4.0)]
@@ -91,7 +91,9 @@ def test_a_requested_model_is_run_and_compared_with_the_adequate_one():
     for reviewed in (False, True):
         done = alone(arrays=arrays, options={"peer_reviewed": reviewed})
         asked, free = done.arrays
-        assert {r.solution.rung for m in asked.motions for r in m.runs} == {Rung.ONE_AXIS_VERTICAL}
+        assert {r.solution.model for m in asked.motions for r in m.runs} == {
+            Model.ONE_AXIS_VERTICAL
+        }
         assert asked.chosen == free.directions
         assert asked.analysis.value_m < free.analysis.value_m
         assert free.is_model_enough
@@ -106,8 +108,8 @@ def test_friction_by_speed_reaches_the_solver():
         alone(SHORT, arrays=[stand_in.array("A1", 2.0, mu=0.4, **given)]).arrays[0]
         for given in (law, {})
     )
-    rungs = {run.solution.rung for motion in by_speed.motions for run in motion.runs}
-    assert rungs == {Rung.SPEED_FRICTION}
+    rungs = {run.solution.model for motion in by_speed.motions for run in motion.runs}
+    assert rungs == {Model.SPEED_FRICTION}
     assert by_speed.analysis.mean_m < constant.analysis.mean_m
 
 
@@ -121,7 +123,7 @@ def test_friction_by_speed_reaches_the_solver():
 )
 def test_only_the_headings_that_a_motion_has_are_run(changes, names):
     done = alone((replace(SHORT[0], **changes),) * 3)
-    assert [run.heading.name for run in done.arrays[0].motions[0].runs] == names
+    assert [run.orientation.name for run in done.arrays[0].motions[0].runs] == names
 
 
 def test_swapping_the_horizontal_components_changes_names_alone():
@@ -129,7 +131,7 @@ def test_swapping_the_horizontal_components_changes_names_alone():
     first, other = assessed(SHORT), assessed(swapped)
     for a, b in zip(first.arrays[1].motions, other.arrays[1].motions, strict=True):
         assert a.governing.result == b.governing.result
-        assert a.governing.heading.swapped is not b.governing.heading.swapped
+        assert a.governing.orientation.is_transverse is not b.governing.orientation.is_transverse
         assert np.array_equal(a.history().u_m, b.history().u_m)
         assert a.history().result == a.governing.result
 

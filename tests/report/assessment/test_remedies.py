@@ -7,7 +7,7 @@ import scenes
 import stand_in
 from one_by_one import prd_m, slid
 from report.assessment.remedies import MOST_MU, RemedyKind, remedies
-from report.assessment.trials import above, below, reach
+from report.assessment.trials import above, below, search
 from solver.model import Friction, Status
 
 PEER = {"peer_reviewed": True}
@@ -49,21 +49,21 @@ def test_nothing_is_tried_for_a_clearance_without_a_permitted_route():
 
 
 def test_a_walk_returns_every_value_before_the_first_failure():
-    assert reach(lambda k: k >= 23, 150, 11)[-1] == 23
-    assert reach(lambda k: k <= 44, 5, 99)[-1] == 44
-    assert reach(lambda k: k >= 0, 20, 7)[-1] == 7
-    assert reach(lambda k: k < 0, 20, 7) == ()
-    assert reach(lambda k: True, 20, 20) == (20,)
+    assert search(lambda k: k >= 23, 150, 11)[-1] == 23
+    assert search(lambda k: k <= 44, 5, 99)[-1] == 44
+    assert search(lambda k: k >= 0, 20, 7)[-1] == 7
+    assert search(lambda k: k < 0, 20, 7) == ()
+    assert search(lambda k: True, 20, 20) == (20,)
 
 
 def test_a_walk_stops_at_an_isolated_failure_and_tries_no_value_twice():
     tried = []
 
-    def holds(k):
+    def satisfies(k):
         tried.append(k)
         return k != 50 and k >= 30
 
-    held = reach(holds, 150, 11)
+    held = search(satisfies, 150, 11)
     assert held[-1] == 51
     assert all(k > 50 for k in held)
     assert len(tried) == len(set(tried)) + 1  # the failure of the first pass is met again

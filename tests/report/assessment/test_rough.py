@@ -15,7 +15,7 @@ from report.assessment.clearances import facing
 from report.assessment.friction import SHIFT, with_friction
 from report.assessment.project import reassess
 from report.assessment.rough import ROUGH, design_off_m
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 
 SHORT = scenes.motions()
 BY_DIRECTION = scenes.REVIEW | scenes.DEPARTURE
@@ -61,8 +61,8 @@ def test_where_one_axis_is_exact_its_prd_stands_across_for_rough_runs_as_well():
     make = partial(assess_with, motions, arrays=arrays, options=BY_DIRECTION)
     wide = make(clearances=[stand_in.clearance("A1", "RTU-1", 30.0, "across")])
     exact = exactly(wide)
-    rungs = {run.solution.rung for motion in exact.arrays[0].motions for run in motion.runs}
-    assert {Rung.ONE_AXIS_VERTICAL, Rung.TWO_AXES} <= rungs
+    rungs = {run.solution.model for motion in exact.arrays[0].motions for run in motion.runs}
+    assert {Model.ONE_AXIS_VERTICAL, Model.TWO_AXES} <= rungs
     between = (gaps(wide)[0] + gaps(exact)[0]) / 2.0
     done = make(clearances=[stand_in.clearance("A1", "RTU-1", between, "across")])
     assert done.clearances[0].ok
@@ -124,8 +124,8 @@ def test_what_a_model_may_neglect_in_each_of_seven_motions_does_not_add_up_past_
         options=scenes.REVIEW,
     )
     less, exact = given.less, exactly(given)
-    neglecting = [run.governing.solution.rung for run in exact.arrays[0].motions]
-    assert set(neglecting) == {Rung.ONE_AXIS}
+    neglecting = [run.governing.solution.model for run in exact.arrays[0].motions]
+    assert set(neglecting) == {Model.ONE_AXIS}
     (side,) = facing(less.project, less.arrays, less.clearances[0].clearance)
     off_m = design_off_m(less.rules, *side)
     rough_m, exact_m = (done.arrays[0].design_m for done in (less, exact))  # the factor is 1.0

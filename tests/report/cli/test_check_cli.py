@@ -8,7 +8,7 @@ import pytest
 import packages
 from commands import as_json, printed, refused, run
 from inputs import LB
-from report.assessment.foresight import findings
+from report.assessment.precheck import findings
 from report.motions.prepare import prepare
 from sheets import arrays, at, make, project, read_workbook
 

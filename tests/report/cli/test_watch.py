@@ -23,11 +23,11 @@ from cells import address
 from commands import hearing, printed, run
 from packages import unlaid
 from places import ROOT, TESTS
-from report.beside import SameProcess, beside
 from report.cli.terminal import INTERRUPTED
 from report.cli.watch import Round, is_input, saves, settle
 from report.making import OUTPUTS
 from report.memoized import clear
+from report.workers import SameProcess, started_worker
 from sheets import make, type_into
 from solver.model import InputError
 from solver.sliding import least_model
@@ -191,11 +191,11 @@ def test_once_ends_after_one_round(tmp_path):
 
 
 UNLAID = """
-import report.beside
+import report.workers
 from packages import unlaid
 from report.cli.main import main
 
-report.beside.SecondProcess = report.beside.SameProcess
+report.workers.WorkerProcess = report.workers.SameProcess
 with unlaid(): main()
 """
 
@@ -247,12 +247,12 @@ class Idle:
 
 @pytest.mark.parametrize("second", [Idle, SameProcess], ids=lambda kind: kind.__name__)
 @pytest.mark.nightly("report/cli/watch.py")
-def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, second):
+def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, worker):
     gc.disable()
     try:
         Interrupting()
         with pytest.raises(KeyboardInterrupt):
-            Round(tmp_path, tmp_path, second()).sweep()
+            Round(tmp_path, tmp_path, worker()).sweep()
     finally:
         gc.enable()
 
@@ -280,11 +280,11 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
 REPORTS = """
 import sys
 from contextlib import nullcontext
-import report.beside
+import report.workers
 from packages import unlaid
 from report.cli.main import main
 
-report.beside.SecondProcess = report.beside.SameProcess
+report.workers.WorkerProcess = report.workers.SameProcess
 for folder in sys.argv[1:]:
     with nullcontext() if folder == sys.argv[-1] else unlaid():
         main(["report", folder, "--quiet"], standalone_mode=False)
@@ -322,8 +322,8 @@ def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
         return len(runs)
 
     try:
-        with beside() as second:
-            round_ = Round(path, folder / "out", second)
+        with started_worker() as worker:
+            round_ = Round(path, folder / "out", worker)
             with monkeypatch.context() as patch:
                 patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
                 assert round_.run()

@@ -13,7 +13,7 @@ import scenes
 import stand_in
 from report.assessment.evidence import support
 from report.figures import maps, records
-from report.pages.pictures import draw_assessment, draw_certainty, draw_plotted
+from report.pages.pictures import draw_assessment, draw_plotted, draw_uncertainty
 from report.sheet.schema import UnitsFirst
 from report.study import figures as study
 from report.study.results import LimitState
@@ -102,7 +102,7 @@ def test_in_a_package(drawn, units):
     draw_assessment(package)
     evidence = support(package.assessment)
     draw_plotted(package, evidence)
-    draw_certainty(package, evidence.certainty)
+    draw_uncertainty(package, evidence.uncertainty)
     assert len(drawn.figures) >= 12
     assert not list(faults(drawn))
 

@@ -6,8 +6,8 @@ import packages
 import scenes
 from report.assessment.changes import NO_FORMER
 from report.assessment.evidence import support
-from report.beside import SameProcess
 from report.package.html import begin, pages
+from report.workers import SameProcess
 
 
 def test_every_equation_of_a_package_is_typeset_before_its_evidence_is_there():

@@ -9,7 +9,7 @@ import scenes
 import stand_in
 from printed import printed
 from report.sheet.schema import Direction
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 from solver.sliding.tipping import Supports, tipping
 from solver.sliding.uplift import uplift
 
@@ -47,7 +47,7 @@ def test_a_neglected_vertical_component_has_its_exact_effect():
     package = scene(gentle, arrays=[stand_in.array("A1", 1.0, mu=0.5)])
     item = package.assessment.arrays[0]
     solutions = [run.solution for m in item.motions for run in m.runs]
-    assert {solution.rung for solution in solutions} == {Rung.ONE_AXIS}
+    assert {solution.model for solution in solutions} == {Model.ONE_AXIS}
     (row,) = table(package, NEGLECTED).cells
     effect = max(solution.next_effect_m for solution in solutions)
     assert 0.0 < effect < 2e-3
@@ -60,8 +60,8 @@ def test_a_run_that_has_the_model_says_nothing_of_neglecting_it():
     gentle, full = alone(scenes.motions(2, 8.0))
     gentle = replace(gentle, az_mps2=gentle.az_mps2 * 1e-3)
     package = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
-    rungs = {run.solution.rung for m in package.assessment.arrays[0].motions for run in m.runs}
-    assert rungs == {Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL}
+    rungs = {run.solution.model for m in package.assessment.arrays[0].motions for run in m.runs}
+    assert rungs == {Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL}
     assert float(table(package, NEGLECTED).cells[0][2]) < 0.1
 
 

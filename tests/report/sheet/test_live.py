@@ -9,9 +9,9 @@ from cells import cell
 from places import DATA
 from report.cli.main import main
 from report.sheet.archive import open_book
+from report.sheet.formula_text import canonical, moved
 from report.sheet.live import findings, live_formulas, overwritten
 from report.sheet.schema import UnitsFirst
-from report.sheet.spelling import canonical, moved
 from sheets import at, blank, edit, formula_cells, make, pack, parts, put, retitle, said, type_into
 
 

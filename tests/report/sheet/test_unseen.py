@@ -13,7 +13,7 @@ from openpyxl.worksheet.filters import AutoFilter, FilterColumn, Filters
 import scenes
 from cells import cell as named
 from printed import printed
-from report.assessment.foresight import findings
+from report.assessment.precheck import findings
 from report.sheet.fields import Place
 from report.sheet.read import read
 from report.sheet.unseen import Kind, Unseen, warnings

@@ -96,7 +96,7 @@ def peak(plan, motion, building, slope_deg, mu, intensity):
     one = dataclasses.replace(one, scale=one.scale * intensity)
     found = [
         solve(one.scene(h, slope_rad=math.radians(slope_deg), friction=coulomb(mu))).result
-        for h in one.headings
+        for h in one.orientations
     ]
     return max(r.prd_m for r in found) if all(r.status == "ok" for r in found) else math.nan
 

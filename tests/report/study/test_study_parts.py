@@ -25,7 +25,7 @@ from report.study.parts import (
     run_missing,
 )
 from solver.model import InputError
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 from studied import campaign
 
@@ -81,7 +81,7 @@ def test_rows_hold_the_bits_of_the_runs(studied):
     for name, values in zip(LENGTHS, whole.lengths, strict=True):
         assert np.array_equal(rows[name].to_numpy(), values.ravel(), equal_nan=True)
     assert rows["status"].tolist() == [STATUSES[s].value for s in whole.status.ravel()]
-    assert rows["model"].tolist() == [Rung(r).title for r in whole.rung.ravel()]
+    assert rows["model"].tolist() == [Model(r).title for r in whole.model.ravel()]
     assert (np.radians(rows["slope_deg"]) == rows["slope_rad"]).all()
 
 

@@ -11,8 +11,8 @@ import stand_in
 from places import ROOT
 from report.assessment.project import anticipate, assess
 from report.sheet.parts import changed
-from report.sheet.retyped import cells, retyped
 from report.sheet.schema import Scaling
+from report.sheet.what_if import cells, retyped
 from report.web import jobs
 from report.web.answers import answer
 from report.web.controls import controls, shown
@@ -20,7 +20,7 @@ from report.web.opened import opened, with_values
 from report.web.values import typed
 from sheets import make
 from solver.sliding import least_model
-from solver.sliding.least_model import Rung, Settings, solve
+from solver.sliding.least_model import Model, Settings, solve
 
 PROJECTS = ROOT / "projects"
 
@@ -182,18 +182,18 @@ def test_values_as_typed_change_no_cell():
 def test_provisional_values_are_of_the_heading_that_governs_in_one_axis():
     for run, motion in anticipated("school"):
         (along,) = motion.runs
-        assert along.heading == run.governing.heading
+        assert along.orientation == run.governing.orientation
         assert not along.scene.ay_mps2.any()
-        alone = solve(along.scene, Settings(forced=Rung.ONE_AXIS_VERTICAL))
+        alone = solve(along.scene, Settings(forced=Model.ONE_AXIS_VERTICAL))
         assert along.prd_m == alone.result.prd_m
 
 
 def test_a_polarity_without_the_governing_heading_runs_all_that_it_has():
     for run, along in anticipated("school", polarity="reversed"):
-        headings = [one.heading for one in along.runs]
-        governs, known = run.governing.heading, along.motion.headings
-        assert headings == ([governs] if governs in known else list(known))
-        assert {heading.sign for heading in headings} == {-1}
+        orientations = [one.orientation for one in along.runs]
+        governs, known = run.governing.orientation, along.motion.orientations
+        assert orientations == ([governs] if governs in known else list(known))
+        assert {orientation.polarity for orientation in orientations} == {-1}
 
 
 @pytest.mark.parametrize("shortages", [1, 2])

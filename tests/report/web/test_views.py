@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import stand_in
-from report.assessment.certainty import certainty
 from report.assessment.runs import RUNGS
+from report.assessment.uncertainty import uncertainty
 from report.web import views
 from report.web.run_forces import during, run_forces, slips_of
 from solver.model import InputError
@@ -50,8 +50,8 @@ def solved(assessment, array, motion, run):
     """The history of a run, solved again from the input alone."""
     item = named(assessment, array).array
     moved = next(one for one in assessment.shaking.motions if one.id == motion)
-    heading = next(one for one in moved.headings if one.name == run)
-    scene = moved.scene(heading, slope_rad=item.slope_rad, friction=item.friction)
+    orientation = next(one for one in moved.orientations if one.name == run)
+    scene = moved.scene(orientation, slope_rad=item.slope_rad, friction=item.friction)
     solution = least_model.solve(scene, Settings(forced=RUNGS.get(item.model)))
     return scene, least_model.history(scene, solution)
 
@@ -210,7 +210,7 @@ def test_a_slip_that_the_record_cuts_off_ends_with_it():
 
 
 def test_the_contour_of_the_governing_array_is_that_of_the_package(usual):
-    surface = certainty(usual).surface
+    surface = uncertainty(usual).surface
     answer = views.contour(usual, usual.governing.array.id)
     assert answer["mus"] == surface.mus.tolist()
     assert answer["prd_m"] == surface.mean_m.tolist()
@@ -239,7 +239,7 @@ def test_paths_are_those_of_the_governing_runs_and_keep_their_peaks(usual):
     answer = views.paths(usual, "A2")
     assert [path["motion"] for path in answer["paths"]] == ["M1", "M2"]
     for path, motion in zip(answer["paths"], named(usual, "A2").motions, strict=True):
-        _, history = solved(usual, "A2", path["motion"], motion.governing.heading.name)
+        _, history = solved(usual, "A2", path["motion"], motion.governing.orientation.name)
         assert path["x_m"] == history.across_m[path["i"]].tolist()
         assert path["y_m"] == (-history.u_m[path["i"]]).tolist()
         assert len(path["i"]) <= 402

@@ -83,7 +83,7 @@ class TestSpectrum:
         # others 156, 160, 176 and 200 are of the set of 92, 1/6 octave or a multiple of it apart.
         ratios = {2: 0.93, 100: 0.95, 156: 0.97, 160: 0.91, 176: 0.99, 200: 0.98}
         found = accepted(alone, target=below(spectrum_g, ratios))
-        for words, value, worst_at, satisfied, is_ours in (
+        for words, value, worst_at, satisfied, is_program_limit in (
             ("0.1 to 1.3 Hz, each component", 0.93, 2, True, True),
             ("0.1 to 1.3 Hz, mean of the motions", 0.93, None, False, True),
             ("1.3 to 33.3 Hz, each component", 0.91, 160, True, False),
@@ -93,7 +93,7 @@ class TestSpectrum:
         ):
             row = only(found, words)
             assert row.found == pytest.approx(value, rel=1e-4)
-            assert (row.satisfied, row.is_ours) == (satisfied, is_ours)
+            assert (row.satisfied, row.is_program_limit) == (satisfied, is_program_limit)
             assert worst_at is None or row.worst == f"M1 x, {POINTS_HZ[worst_at]:.3g} Hz"
         assert only(found, "Neighboring").limit == 1.0
         spectral = [row for row in found.rows if "target" in row.title]

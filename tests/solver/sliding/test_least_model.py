@@ -10,7 +10,7 @@ from blocks import block, shaking
 from solver.forces import forces
 from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes
-from solver.sliding.least_model import Rung, Settings, history, solve
+from solver.sliding.least_model import Model, Settings, history, solve
 from solver.sliding.row import BlockRow, slide_row
 
 G = 9.80665
@@ -35,7 +35,7 @@ def test_a_block_that_friction_holds_is_not_run():
     held = scene(AX, AY, AZ, mu=1.5, slope_deg=0.0)
     solution = solve(held)
     demand = np.max(np.hypot(AX, AY) / (G + AZ))
-    assert solution.rung is Rung.NO_SLIP
+    assert solution.model is Model.NO_SLIP
     assert solution.friction_demand == pytest.approx(demand, rel=1e-14)
     assert demand < 1.5
     assert (solution.result.prd_m, solution.next_effect_m) == (0.0, 0.0)
@@ -46,16 +46,16 @@ def test_a_block_that_friction_holds_is_not_run():
 def test_the_friction_demand_tells_slip_from_none(factor):
     near = replace(FULL, friction=coulomb(forces(FULL).friction_demand * factor))
     moved = two_axes.run(near).prd_m
-    assert (solve(near).rung is Rung.NO_SLIP) == (moved == 0.0)
+    assert (solve(near).model is Model.NO_SLIP) == (moved == 0.0)
     assert (moved > 0.0) == (factor < 1.0)
 
 
 @pytest.mark.parametrize(
-    ("run", "rung"), [(FLAT, Rung.ONE_AXIS), (LIFTED, Rung.ONE_AXIS_VERTICAL)], ids=["x", "xz"]
+    ("run", "model"), [(FLAT, Model.ONE_AXIS), (LIFTED, Model.ONE_AXIS_VERTICAL)], ids=["x", "xz"]
 )
-def test_in_one_axis_a_vertical_that_matters_is_modelled_and_the_rest_is_not_known(run, rung):
+def test_in_one_axis_a_vertical_that_matters_is_modelled_and_the_rest_is_not_known(run, model):
     solution = solve(run)
-    assert solution.rung is rung
+    assert solution.model is model
     assert solution.result == one_axis.run(run)
     assert math.isnan(solution.next_effect_m)
 
@@ -63,15 +63,15 @@ def test_in_one_axis_a_vertical_that_matters_is_modelled_and_the_rest_is_not_kno
 def test_a_vertical_that_does_not_matter_is_left_out_and_its_effect_is_exact():
     faint = scene(AX, az=1e-4 * AZ)
     solution, with_it, without = solve(faint), one_axis.run(faint), one_axis.run(FLAT)
-    assert solution.rung is Rung.ONE_AXIS
+    assert solution.model is Model.ONE_AXIS
     assert solution.result == without
-    assert solution.next_rung is Rung.ONE_AXIS_VERTICAL
+    assert solution.next_model is Model.ONE_AXIS_VERTICAL
     assert solution.next_effect_m == off(with_it, without) + with_it.error_m > with_it.error_m
 
 
 def test_a_second_component_that_matters_is_modelled():
     solution = solve(FULL)
-    assert solution.rung is Rung.TWO_AXES
+    assert solution.model is Model.TWO_AXES
     assert solution.result.across_m > 0.01
     assert solution.result.error_m <= 1e-6 * solution.result.prd_m
     assert solution.result.prd_m > 1.1 * one_axis.run(LIFTED).prd_m
@@ -80,8 +80,8 @@ def test_a_second_component_that_matters_is_modelled():
 def test_a_faint_second_component_is_left_out_and_its_effect_is_known():
     faint = scene(AX, 0.001 * AY, AZ)
     solution, fuller = solve(faint), two_axes.run(faint)
-    assert solution.rung is Rung.ONE_AXIS_VERTICAL
-    assert solution.next_rung is Rung.TWO_AXES
+    assert solution.model is Model.ONE_AXIS_VERTICAL
+    assert solution.next_model is Model.TWO_AXES
     change = off(fuller, solution.result)
     assert 0.0 < change <= solution.next_effect_m <= change + 1.01 * fuller.error_m
     assert solution.next_effect_m <= Settings().bound_m(solution.result.prd_m)
@@ -96,7 +96,7 @@ def test_what_is_left_out_changes_less_than_is_said_and_than_may_be(share, mu, s
     run = scene(*records, slope_deg=slope_deg, mu=mu)
     solution, true, along = solve(run), two_axes.run(run, 1e-9), one_axis.run(run)
     allowed = Settings().bound_m(along.prd_m)
-    if solution.rung is Rung.TWO_AXES:
+    if solution.model is Model.TWO_AXES:
         assert off(true, along) > allowed - solution.result.error_m
     else:
         assert off(true, solution.result) <= solution.next_effect_m <= allowed
@@ -110,15 +110,15 @@ def test_where_the_margin_is_positive_a_finer_tolerance_chooses_the_same_model(s
     low, high = 0.0, 1.0
     for _ in range(30):
         middle = (low + high) / 2.0
-        chosen = solve(scene(ax, middle * ay), fine).rung
-        low, high = (low, middle) if chosen is Rung.TWO_AXES else (middle, high)
+        chosen = solve(scene(ax, middle * ay), fine).model
+        low, high = (low, middle) if chosen is Model.TWO_AXES else (middle, high)
     told = []
     for share in (low, low * (1.0 - 1e-5), low * (1.0 - 1e-2), low * 0.5, low * 2.0, 1.0):
         case = scene(ax, share * ay)
         rough = solve(case, coarse)
         told.append(rough.margin_m > 0.0)
         if told[-1]:
-            assert rough.rung is solve(case, fine).rung
+            assert rough.model is solve(case, fine).model
     assert not told[0]
     assert told[-1]
 
@@ -130,43 +130,43 @@ def test_a_faint_push_that_stays_is_carried_along_the_path_and_is_not_left_out()
     pushed = scene(ax, 0.02 * G * np.minimum(t, 1.0), slope_deg=0.0)
     solution = solve(pushed)
     assert one_axis.run(pushed).prd_m == pytest.approx(0.0139, abs=1e-4)
-    assert solution.rung is Rung.TWO_AXES
+    assert solution.model is Model.TWO_AXES
     assert solution.result.prd_m == pytest.approx(0.1108, abs=1e-4)
 
 
 def test_friction_by_speed_is_modelled_where_it_is_given():
     law = Friction(mu_slow=0.3, mu_fast=0.5, rate_s_per_m=20.0, mu_static=0.3)
     solution = solve(scene(AX, AY, AZ, mu=law))
-    assert solution.rung is Rung.SPEED_FRICTION
+    assert solution.model is Model.SPEED_FRICTION
     assert solution.result.prd_m < solve(scene(AX, AY, AZ, mu=0.3)).result.prd_m
 
 
 def test_a_forced_rung_is_run_and_tells_what_the_next_would_change():
-    rungs = Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL, Rung.TWO_AXES
-    solution, lifted, two = (solve(FULL, Settings(forced=rung)) for rung in rungs)
+    models = Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL, Model.TWO_AXES
+    solution, lifted, two = (solve(FULL, Settings(forced=model)) for model in models)
     assert solution.result == one_axis.run(FLAT)
     # What the next one and all fuller ones would change.
     both = off(two.result, solution.result), off(lifted.result, solution.result)
-    assert solution.next_rung is Rung.ONE_AXIS_VERTICAL
+    assert solution.next_model is Model.ONE_AXIS_VERTICAL
     assert solution.next_effect_m == pytest.approx(max(both), abs=2.0 * two.result.error_m)
-    assert lifted.next_rung is Rung.TWO_AXES
+    assert lifted.next_model is Model.TWO_AXES
     assert lifted.next_effect_m >= abs(two.result.prd_m - lifted.result.prd_m)
     assert {solution.reason, lifted.reason, two.reason} == {"requested"}
 
 
 def test_two_axes_forced_with_one_component_give_one_axis():
-    solution = solve(LIFTED, Settings(forced=Rung.TWO_AXES, tolerance=1e-10))
+    solution = solve(LIFTED, Settings(forced=Model.TWO_AXES, tolerance=1e-10))
     assert solution.result.prd_m == pytest.approx(one_axis.run(LIFTED).prd_m, rel=1e-9)
     assert solution.result.across_m == 0.0
 
 
 def test_no_slip_forced_on_a_block_that_slips_is_refused():
     with pytest.raises(InputError, match="friction demand"):
-        solve(FLAT, Settings(forced=Rung.NO_SLIP))
+        solve(FLAT, Settings(forced=Model.NO_SLIP))
 
 
 @pytest.mark.parametrize("ay", [(), AY], ids=["alone", "both"])
-@pytest.mark.parametrize("forced", [None, *list(Rung)[:-1]])
+@pytest.mark.parametrize("forced", [None, *list(Model)[:-1]])
 def test_where_the_normal_force_vanishes_no_rung_gives_a_number(ay, forced):
     solution = solve(scene(AX, ay, 4.0 * AZ), Settings(forced=forced))
     assert solution.result.status is Status.UPLIFT
@@ -176,20 +176,20 @@ def test_where_the_normal_force_vanishes_no_rung_gives_a_number(ay, forced):
 
 def test_a_row_is_run_where_it_is_asked_for():
     row = BlockRow(mus=(0.3, 0.4, 0.5), stiffness_per_s2=1e3)
-    solution, direct = solve(LIFTED, Settings(forced=Rung.ROW, row=row)), slide_row(LIFTED, row)
+    solution, direct = solve(LIFTED, Settings(forced=Model.ROW, row=row)), slide_row(LIFTED, row)
     assert solution.result.prd_m == max(direct.prd_m) > direct.rigid.prd_m
     assert solution.result.error_m == direct.error_m
     with pytest.raises(InputError, match="row_history"):
         history(LIFTED, solution)
     with pytest.raises(InputError, match="not given"):
-        solve(FLAT, Settings(forced=Rung.ROW))
+        solve(FLAT, Settings(forced=Model.ROW))
 
 
 @pytest.mark.parametrize(
     ("run", "forced"),
     [
-        (scene(AX, az=AZ, mu=2.0), Rung.NO_SLIP),
-        *((LIFTED, forced) for forced in (None, Rung.ONE_AXIS, Rung.ONE_AXIS_VERTICAL)),
+        (scene(AX, az=AZ, mu=2.0), Model.NO_SLIP),
+        *((LIFTED, forced) for forced in (None, Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL)),
         (FULL, None),
     ],
 )
@@ -202,7 +202,7 @@ def test_the_history_is_of_the_rung_that_was_chosen(run, forced):
 
 
 def test_every_rung_has_a_name():
-    assert len({rung.title for rung in Rung}) == len(Rung)
+    assert len({model.title for model in Model}) == len(Model)
 
 
 def test_choosing_is_timed():

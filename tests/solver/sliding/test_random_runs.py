@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from solver import Rung, Settings, scene, slide, solve
+from solver import Model, Settings, scene, slide, solve
 
 RUNS = range(60)
 G = 9.80665
@@ -53,9 +53,9 @@ def test_samples_put_between_samples_change_nothing(vertical):
 
 @pytest.mark.parametrize("vertical", [False, True])
 def test_the_solver_in_two_axes_finds_the_motion_in_one(vertical):
-    forced = Settings(forced=Rung.TWO_AXES)
+    forced = Settings(forced=Model.TWO_AXES)
     for seed in RUNS:
         given = run(seed, vertical=vertical)
         plane = solve(scene(**given, ay_mps2=np.zeros(len(given["ax_mps2"]))), forced)
-        assert plane.rung == Rung.TWO_AXES
+        assert plane.model == Model.TWO_AXES
         assert far(plane.result.prd_m, slide(**given).prd_m) < 1e-10, seed

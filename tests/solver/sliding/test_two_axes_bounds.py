@@ -15,7 +15,7 @@ from places import DATA
 from solver.model import Friction, Scene, Status, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import checked, least_model, two_axes
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 from solver.sliding.two_axes import follow
 from solver.verification.random_pairs import finer, pair, rounding
 from solver.verification.triples import readonly
@@ -151,7 +151,7 @@ def test_the_second_axis_of_scenes_that_lost_it_is_modelled():
     for number in every("second_axis_left_out"):
         solution = least_model.solve(scene("second_axis_left_out", number))
         expected = SCENES["second_axis_left_out"][number]["prd_two_axes_m"]
-        assert solution.rung is Rung.TWO_AXES
+        assert solution.model is Model.TWO_AXES
         assert solution.result.prd_m == pytest.approx(expected, rel=1e-4)
 
 

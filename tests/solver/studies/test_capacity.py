@@ -27,11 +27,11 @@ def curve_of(one, slope_deg, mu):
 
 def scenes(one, slope_deg, mu):
     place = {"slope_rad": math.radians(slope_deg), "friction": coulomb(mu)}
-    return [one.scene(heading, **place) for heading in one.headings]
+    return [one.scene(orientation, **place) for orientation in one.orientations]
 
 
 def single(one, slope_deg, mu, x):
-    """PRD of single runs, the largest of the headings; NaN for none."""
+    """PRD of single runs, the largest of the orientations; NaN for none."""
     scaled = dataclasses.replace(one, scale=one.scale * x)
     found = [solve(scene).result for scene in scenes(scaled, slope_deg, mu)]
     return max(r.prd_m for r in found) if all(r.status == "ok" for r in found) else math.nan
@@ -120,7 +120,7 @@ def test_slip_begins_where_the_forces_at_a_sample_reach_the_cone(letters, slope,
     for scene in scenes(one, slope, mu):
         ax, zero = scene.ax_mps2, np.zeros_like(scene.ax_mps2)
         ay, az = (a if a.size else zero for a in (scene.ay_mps2, scene.az_mps2))
-        # Shear t0 + x t1 and normal force n0 + x n1 per mass; both headings have both signs.
+        # Shear t0 + x t1 and normal force n0 + x n1 per mass; both orientations have both signs.
         t0, n0 = G * sn, G * cs
         for sign in (1.0, -1.0):
             t1, n1 = az * sn - sign * ax * cs, az * cs + sign * ax * sn

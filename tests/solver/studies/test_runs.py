@@ -8,7 +8,7 @@ import pytest
 
 from solver import solve
 from solver.model import Status, coulomb
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 from solver.sliding.sweep import sweep
 from solver.studies.campaign import Campaign, cases_of, grid
 from solver.studies.curves import least_friction
@@ -41,17 +41,17 @@ def assert_rows_agree(c):
                 wanted = [getattr(one.result, name) for name in LENGTHS]
                 np.testing.assert_array_equal(rows.lengths[:, row, column], wanted)
                 assert STATUSES[rows.status[row, column]] is one.result.status
-                assert rows.rung[row, column] == one.rung
+                assert rows.model[row, column] == one.model
         yield rows
 
 
 @pytest.mark.parametrize(
-    ("letters", "rungs"),
+    ("letters", "models"),
     [("x", {0, 1}), ("xz", {0, 1, 2}), ("xyz", {0, 1, 2, 3})],
 )
-def test_rows_are_solutions_to_the_bit(letters, rungs):
+def test_rows_are_solutions_to_the_bit(letters, models):
     parts = list(assert_rows_agree(campaign(letters, 1, buildings=2, mus=(0.0, 0.3, 0.7))))
-    assert {int(r) for rows in parts for r in np.unique(rows.rung)} == rungs
+    assert {int(r) for rows in parts for r in np.unique(rows.model)} == models
     found = {STATUSES[s] for rows in parts for s in np.unique(rows.status)}
     assert found >= {Status.OK, Status.SLIDING_AT_END, Status.UPLIFT}
 
@@ -106,4 +106,4 @@ def test_curves_are_those_of_the_paper_procedure():
 def test_no_slip_has_no_displacement():
     c = campaign("xz", 1)
     rows = run_all(c)
-    assert (rows.lengths[:, rows.rung == Rung.NO_SLIP] == 0.0).all()
+    assert (rows.lengths[:, rows.model == Model.NO_SLIP] == 0.0).all()

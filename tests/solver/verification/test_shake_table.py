@@ -10,7 +10,7 @@ import pytest
 
 import tables
 from solver.model import InputError
-from solver.sliding.least_model import Rung
+from solver.sliding.least_model import Model
 from solver.verification.checks import G, trapezoid
 from solver.verification.shake_table import compare
 from solver.verification.table_tests import MOST_TESTS, Data, table_tests
@@ -44,7 +44,7 @@ def test_ratios_are_those_with_which_the_tests_were_made(tmp_path):
     assert table.median == pytest.approx(1.025, rel=1e-9)
     assert table.share_within == pytest.approx(5.0 / 6.0)
     assert (table.is_accepted, table.is_measured, table.validates) == (True, False, False)
-    assert {run.rung for run in table.runs} == {Rung.ONE_AXIS}
+    assert {run.model for run in table.runs} == {Model.ONE_AXIS}
 
 
 @pytest.mark.parametrize(
@@ -107,7 +107,7 @@ def test_three_axes_channels_static_friction_and_units_are_read(tmp_path):
     np.testing.assert_allclose(test.scene.ay_mps2, 0.3 * a)
     np.testing.assert_allclose(test.scene.az_mps2, 0.1 * a)
     (run,) = compare([test]).runs
-    assert run.rung is Rung.SPEED_FRICTION
+    assert run.model is Model.SPEED_FRICTION
     assert run.prd_m > 0.0
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blocks import readonly
-from solver.model import Heading, coulomb
+from solver.model import HorizontalComponent, Orientation, coulomb
 from solver.sliding import one_axis
 from solver.sliding.checked import slide
 from solver.verification import study
@@ -24,7 +24,7 @@ def test_a_grid_has_every_combination_once_the_ppa_fastest():
 
 
 def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case():
-    turned = MADE.turned(Heading(swapped=True, sign=-1))
+    turned = MADE.turned(Orientation(component=HorizontalComponent.TRANSVERSE, polarity=-1))
     scenes = study.scenes_of([MADE, turned], study.MODEL_CASES)
     assert [scene.friction.mu_slow for scene in scenes] == [0.3, 0.4, 0.5] * 2
     assert scenes[0].ax_mps2.tolist() == X.tolist()

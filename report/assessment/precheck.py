@@ -1,7 +1,7 @@
 """What is known of a project before any run: limits, requirements, warnings on the input.
 
 Runs nothing. `report.assessment.project` decides the verdict after the runs. Read `findings` and
-`foreseen`.
+`limits_before_runs`.
 """
 
 from __future__ import annotations
@@ -73,15 +73,15 @@ def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     )
 
 
-def foreseen(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
+def limits_before_runs(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     """Return the limits and requirements that no run is needed for, each at its cell.
 
     What depends on a displacement, such as a clearance, is not among them.
     """
-    return tuple(_foreseen(sheet.project, shaking))
+    return tuple(_limits_before_runs(sheet.project, shaking))
 
 
-def ruled(data: ProjectInput) -> RuleSet:
+def rule_set_of(data: ProjectInput) -> RuleSet:
     """Return the rule set of a project with its overrides.
 
     Raises
@@ -116,8 +116,8 @@ def limit_words(check: Check, us_first: bool) -> str:
     return f"{title}: {value}; {wanted} ({check.provision.clause})"
 
 
-def _foreseen(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
-    rules, us_first = ruled(data), data.project.units_first == "US"
+def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
+    rules, us_first = rule_set_of(data), data.project.units_first == "US"
     for check in provisions.building_checks(
         rules,
         risk_category=list(type(data.site.risk_category)).index(data.site.risk_category) + 1,

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.certainty import Surface
+from report.assessment.uncertainty import Surface
 from report.figures.base import GRAY, INK, bare, framed, style, svg_text, tick_text
 from report.figures.levels import LEAST_M, is_decade, levels
 from report.memoized import memoized

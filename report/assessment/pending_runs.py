@@ -11,7 +11,7 @@ from functools import partial
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import MotionRun, run_motion, scene_key
-from report.sheet.schema import Array, Model, ProjectInput
+from report.sheet.schema import Array, ModelChoice, ProjectInput
 from solver.model import Motion
 
 RunMotion = Callable[[Array, Motion], MotionRun]
@@ -19,7 +19,7 @@ RunMotion = Callable[[Array, Motion], MotionRun]
 Runs = tuple[tuple[MotionRun, ...], tuple[MotionRun, ...]]
 """Runs of an array, and those with the adequate models; one object twice if they are the same."""
 
-Begun = Sequence[Callable[[], Runs]]
+PendingRuns = Sequence[Callable[[], Runs]]
 """Wait for the runs of each array."""
 
 
@@ -32,7 +32,7 @@ def begin_runs(
     check_models: bool,
     key: Callable[[Array], Hashable] = scene_key,
     former: Sequence[ArrayAssessment] = (),
-) -> Begun:
+) -> PendingRuns:
     """Begin the runs of an input.
 
     Parameters
@@ -51,9 +51,9 @@ def begin_runs(
             return lambda: runs_of
         # Runs in two axes and of rows release the GIL: two proceed in parallel.
         runs = [pool.submit(run, array, motion) for motion in motions]
-        if array.model is Model.CHOOSE or not check_models:
+        if array.model is ModelChoice.CHOOSE or not check_models:
             return partial(_done, runs, runs)
-        chosen = partial(run_motion, array, model=Model.CHOOSE)
+        chosen = partial(run_motion, array, model=ModelChoice.CHOOSE)
         return partial(_done, runs, [pool.submit(chosen, motion) for motion in motions])
 
     by_key = {key(array): array for array in data.arrays}

@@ -5,7 +5,7 @@ import pytest
 import scenes
 import stand_in
 from report.assessment.arrays import Route
-from report.assessment.foresight import foreseen
+from report.assessment.precheck import limits_before_runs
 from report.sheet.fields import Place
 from report.sheet.findings import Level
 
@@ -44,7 +44,7 @@ def test_check_and_report_name_the_same_limits_and_requirements(case):
     limits = [check for check in checks if not check.ok]
     rows = [row for row in assessment.conditions if row.id not in NEED_RUNS]
     slack = [a for a in assessment.arrays if a.array.slack_m is None]
-    listed = foreseen(book.sheet, book.shaking)
+    listed = limits_before_runs(book.sheet, book.shaking)
     found = [f for f in listed if f.level is Level.WARNING]
     assert len(found) == len(limits) + len(rows) + len(slack)
     words = [finding.text for finding in found]
@@ -56,7 +56,7 @@ def test_check_and_report_name_the_same_limits_and_requirements(case):
 
 def findings(*given):
     book = stand_in.book(*given)
-    return foreseen(book.sheet, book.shaking)
+    return limits_before_runs(book.sheet, book.shaking)
 
 
 def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledged():

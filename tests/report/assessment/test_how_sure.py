@@ -6,7 +6,7 @@ import pytest
 import scenes
 import stand_in
 from one_by_one import prd_m, slid
-from report.assessment.certainty import certainty
+from report.assessment.uncertainty import uncertainty
 from solver.model import Friction
 
 PEER = {"peer_reviewed": True}
@@ -20,17 +20,19 @@ def made(found=SHORT, **changes):
 @pytest.fixture(scope="module")
 def usual():
     assessment = made()
-    return assessment, certainty(assessment)
+    return assessment, uncertainty(assessment)
 
 
 def mean_m(governing, **changes):
-    """The mean PRD of an array over its motions, each in its governing heading, by the solver."""
+    """The mean PRD of an array over its motions, each in its governing orientation, solved."""
     peaks = []
     for run in governing.motions:
-        motion, heading = run.motion, run.governing.heading
+        motion, orientation = run.motion, run.governing.orientation
         pair = (motion.ax_mps2, motion.ay_mps2)
-        along, across = pair[::-1] if heading.swapped else pair
-        peaks.append(slid(motion, heading.sign * along, across, governing.array, **changes).prd_m)
+        along, across = pair[::-1] if orientation.is_transverse else pair
+        peaks.append(
+            slid(motion, orientation.polarity * along, across, governing.array, **changes).prd_m
+        )
     return sum(peaks) / len(peaks)
 
 
@@ -65,7 +67,7 @@ def test_the_grid_agrees_with_runs_one_by_one_and_with_the_package(usual):
 def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not():
     (roomy,) = made(clearances=[stand_in.clearance("A2", "A3", 9.0)]).clearances
     close = stand_in.clearance("A2", "A3", 1.3 * roomy.required_m)
-    searched = [one for one in certainty(made(clearances=[close])).margins if not one.is_beyond]
+    searched = [one for one in uncertainty(made(clearances=[close])).margins if not one.is_beyond]
     assert searched
     for margin in searched:
         array, gap, mu = margin.array.array, margin.gap, margin.least_mu
@@ -78,7 +80,7 @@ def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not():
 
 def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_none():
     gaps = [stand_in.clearance("A2", "A3", 0.05), stand_in.clearance("A1", "RTU-1", 9.0)]
-    found = certainty(made(clearances=gaps))
+    found = uncertainty(made(clearances=gaps))
     listed = [(one.number, one.array.id) for one in found.margins]
     assert listed == [(1, "A2"), (1, "A3"), (2, "A1")]
     assert math.isnan(found.margins[0].least_mu)
@@ -110,14 +112,14 @@ def test_the_reversed_vertical_is_run_in_every_heading(usual):
 
 
 def test_one_component_has_no_angles_and_no_vertical_to_reverse():
-    found = certainty(made(scenes.along(SHORT)))
+    found = uncertainty(made(scenes.along(SHORT)))
     assert found.turned == ()
     assert math.isnan(found.reversed_m)
     assert (found.surface.mean_m > 0).all()
 
 
 def test_a_clearance_without_a_permitted_route_has_no_margin():
-    first, second, across, own = certainty(stand_in.unpermitted()).margins
+    first, second, across, own = uncertainty(stand_in.unpermitted()).margins
     for margin in (first, second, across):  # the second and third are of one clearance
         assert math.isnan(margin.least_mu)
     assert own.array.id == "A2"
@@ -125,7 +127,7 @@ def test_a_clearance_without_a_permitted_route_has_no_margin():
 
 
 def test_without_clearances_there_are_no_margins():
-    assert certainty(made(clearances=[])).margins == ()
+    assert uncertainty(made(clearances=[])).margins == ()
 
 
 def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named():
@@ -136,7 +138,7 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
         stand_in.array("A3", 3.0, mu=0.3, mu_fast=0.36, **law),
     ]
     assessment = made(arrays=arrays, clearances=[])
-    found = certainty(assessment).surface
+    found = uncertainty(assessment).surface
     assert assessment.governing.id == "A3"
     assert found.others == ("A1",)
     mu = float(found.mus[-1])
@@ -146,6 +148,6 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
 
 
 def test_a_block_that_lifts_off_leaves_holes_and_no_margin():
-    found = certainty(made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))))
+    found = uncertainty(made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))))
     assert np.isnan(found.surface.mean_m).all()
     assert all(math.isnan(margin.least_mu) for margin in found.margins)

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from report.assessment.certainty import TOLERANCE, Certainty, Margin, Surface
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
+from report.assessment.uncertainty import TOLERANCE, Margin, Surface, Uncertainty
 from report.document.blocks import Picture
 from report.document.tables import Column, Table, listed
 from report.entities.shown import length, text, words
@@ -19,20 +19,20 @@ from report.words.units import number
 from solver.rules.provisions import Neighbor
 
 
-def page(package: PackageData, certainty: Certainty) -> dict[str, object]:
+def page(package: PackageData, uncertainty: Uncertainty) -> dict[str, object]:
     """Return what the page needs beside its chart."""
     return {
-        "found": certainty,
-        "surface": _at_governing(certainty.surface),
-        "margin": _smallest(certainty.margins),
-        "margins": _margin_table(package, certainty.margins),
-        "turned": _turned_table(package, certainty) if certainty.turned else None,
+        "found": uncertainty,
+        "surface": _at_governing(uncertainty.surface),
+        "margin": _smallest(uncertainty.margins),
+        "margins": _margin_table(package, uncertainty.margins),
+        "turned": _turned_table(package, uncertainty) if uncertainty.turned else None,
     }
 
 
 def pictures(package: PackageData, surface: Surface) -> Sequence[Picture]:
     """Return the contours; none where nothing slides on the whole grid."""
-    from report.figures.certainty import contours
+    from report.figures.uncertainty import contours
 
     if not (surface.mean_m > 0.0).any():
         return ()
@@ -142,17 +142,17 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
     return listed(margins, columns, caption, package.fmt, kind="compact")
 
 
-def _turned_table(package: PackageData, certainty: Certainty) -> Table:
+def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
     """Return the PRD at other angles, a column for each."""
-    fmt, used = package.fmt, certainty.used_m
+    fmt, used = package.fmt, uncertainty.used_m
     names = (*(f"PRD [{unit.symbol}]" for unit in fmt.units()), "PRD / used")
     columns: list[Column] = [(words("Angle", 1.7), names.__getitem__)]
-    for run in certainty.turned:
+    for run in uncertainty.turned:
         share = number(run.result.prd_m / used, 2) if used > 0.0 else "—"
         cells = (*fmt.cells(run.result.prd_m), share)
         columns.append((text(f"{number(run.angle_deg, 1)}°"), cells.__getitem__))
     caption = (
-        f"Array {package.governing.id} under motion {certainty.motion.motion.id}, its horizontal "
+        f"Array {package.governing.id} under motion {uncertainty.motion.motion.id}, its horizontal "
         "pair turned counterclockwise; at 0° the record acts downslope"
     )
     return listed(range(len(names)), columns, caption, fmt, kind="compact")

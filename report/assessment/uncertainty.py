@@ -1,7 +1,7 @@
 """How sure the design values are: friction, slope, and directions of shaking that are not run.
 
-Runs the solver and collects numbers; `report.pages.certainty` prints them and
-`report.figures.certainty` plots them. Read `certainty`.
+Runs the solver and collects numbers; `report.pages.uncertainty` prints them and
+`report.figures.uncertainty` plots them. Read `certainty`.
 """
 
 from __future__ import annotations
@@ -17,20 +17,28 @@ import numpy as np
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import THREADS, Assessment
-from report.assessment.runs import MotionRun, nan_is_worst, run_heading, run_motion
+from report.assessment.runs import MotionRun, nan_is_worst, run_motion, run_oriented
 from report.assessment.trials import (
     Runs,
     Trials,
-    alone,
     below,
     involved,
     is_final,
-    reach,
+    search,
+    single_array_check,
     with_mu,
 )
 from report.memoized import memoized
 from report.sheet.schema import Array
-from solver.model import Floats, Heading, Motion, Scene, SlideResult, Status
+from solver.model import (
+    Floats,
+    HorizontalComponent,
+    Motion,
+    Orientation,
+    Scene,
+    SlideResult,
+    Status,
+)
 from solver.sliding import one_axis, two_axes
 
 N_MUS, N_SLOPES = 8, 6
@@ -48,12 +56,12 @@ ANGLES_DEG = tuple(k * 22.5 for k in range(16) if k % 4)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Surface:
-    """Mean PRD of the motions over friction and slope, each in its governing heading.
+    """Mean PRD of the motions over friction and slope, each in its governing orientation.
 
     Attributes
     ----------
     array : ArrayAssessment
-        The array whose headings are run, its friction law scaled as a whole.
+        The array whose orientations are run, its friction law scaled as a whole.
     mus : array, shape (q,)
         Low-velocity friction coefficients, that of the array among them.
     slopes_rad : array, shape (p,)
@@ -105,7 +113,7 @@ class Margin:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Turned:
+class RotatedRun:
     """The governing motion with its horizontal pair turned in plan, from the record's own axes."""
 
     angle_deg: float
@@ -113,7 +121,7 @@ class Turned:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Certainty:
+class Uncertainty:
     """How sure the design values are.
 
     Attributes
@@ -123,8 +131,8 @@ class Certainty:
     turned : tuple of Turned
         Empty for a motion with one horizontal component.
     reversed_m : float
-        Largest PRD with the vertical component reversed, over the headings of the package [m]; NaN
-        without a vertical component or without a displacement.
+        Largest PRD with the vertical component reversed, over the orientations of the package [m];
+        NaN without a vertical component or without a displacement.
     margins : tuple of Margin
         For each clearance, one for each array that it involves.
     """
@@ -132,7 +140,7 @@ class Certainty:
     surface: Surface
     margins: tuple[Margin, ...]
     motion: MotionRun
-    turned: tuple[Turned, ...]
+    turned: tuple[RotatedRun, ...]
     reversed_m: float
 
     @property
@@ -141,17 +149,17 @@ class Certainty:
         return self.motion.governing.result.prd_m
 
     @property
-    def worst(self) -> Turned:
+    def worst(self) -> RotatedRun:
         """The turned run with the largest PRD; there must be one."""
         return max(self.turned, key=lambda run: nan_is_worst(run.result.prd_m))
 
 
-def certainty(given: Assessment) -> Certainty:
+def uncertainty(given: Assessment) -> Uncertainty:
     """Return how the governing array and every clearance react to what is not known exactly."""
     governing = given.governing
     motion = governing.worst
     with ThreadPoolExecutor(THREADS) as pool:
-        return Certainty(
+        return Uncertainty(
             surface=surface(given, given.governing, pool),
             margins=tuple(_margins(given, pool)),
             motion=motion,
@@ -235,20 +243,20 @@ def _margins(given: Assessment, pool: Executor) -> Iterator[Margin]:
 
 
 def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
-    """Walk down in the governing headings; accept the first value that all runs confirm."""
+    """Walk down in the governing orientations; accept the first value that all runs confirm."""
     row, array = gap.clearance, trials.array
-    as_given = alone(trials.given, trials.given.project, array, row)
+    as_given = single_array_check(trials.given, trials.given.project, array, row)
     least, required, mu = math.nan, math.nan, array.array.mu
     lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
     if as_given.ok and is_final(array):
         least, required = mu, as_given.required_m
         start = below(mu)
         held = (
-            reach(lambda k: trials.may_hold(row, mu=k), start, lowest)
+            search(lambda k: trials.may_satisfy(row, mu=k), start, lowest)
             if start >= lowest > 0
             else ()
         )
-        confirmed = next((k for k in reversed(held) if trials.holds(row, mu=k)), 0)
+        confirmed = next((k for k in reversed(held) if trials.satisfies(row, mu=k)), 0)
         if confirmed:
             least, required = confirmed / 100, trials.required_m(row, mu=confirmed)
     return Margin(
@@ -265,15 +273,17 @@ def _angles(motion: Motion) -> tuple[float, ...]:
     return ANGLES_DEG if motion.has_transverse else ()
 
 
-def _turned(array: ArrayAssessment, angle_deg: float) -> Turned:
+def _turned(array: ArrayAssessment, angle_deg: float) -> RotatedRun:
     motion, angle = array.worst.motion, math.radians(angle_deg)
     cs, sn = math.cos(angle), math.sin(angle)
     along = cs * motion.ax_mps2 - sn * motion.ay_mps2
     across = sn * motion.ax_mps2 + cs * motion.ay_mps2
     across.setflags(write=False)
     turned = replace(motion, ax_mps2=along, ay_mps2=across)
-    run = run_heading(array.array, turned, Heading(swapped=False, sign=1))
-    return Turned(angle_deg=angle_deg, result=run.result)
+    run = run_oriented(
+        array.array, turned, Orientation(component=HorizontalComponent.RECORD, polarity=1)
+    )
+    return RotatedRun(angle_deg=angle_deg, result=run.result)
 
 
 def _reversed_m(array: ArrayAssessment) -> float:

@@ -6,18 +6,18 @@ from dataclasses import replace
 import scenes
 import stand_in
 from printed import printed
-from report.assessment.certainty import certainty
+from report.assessment.uncertainty import uncertainty
 from report.figures.base import load_fonts
-from report.figures.certainty import contours
 from report.figures.levels import MOST_LEVELS, levels
+from report.figures.uncertainty import contours
 from report.typeset.pdf import TEMPLATES
 
 
 def made(found=None, **changes):
     """A package, what it has of certainty, and the page."""
     package = scenes.package(found, **{"options": {"peer_reviewed": True}} | changes)
-    done = certainty(package.assessment)
-    return package, done, printed(package, "how-sure", certainty=done)
+    done = uncertainty(package.assessment)
+    return package, done, printed(package, "how-sure", uncertainty=done)
 
 
 def test_the_smallest_margin_is_said():

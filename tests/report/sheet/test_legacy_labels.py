@@ -8,10 +8,10 @@ from click.testing import CliRunner
 from cells import cell
 from places import DATA, ROOT
 from report.cli.main import main
-from report.sheet import formerly
+from report.sheet import legacy_labels
 from report.sheet.archive import open_book
 from report.sheet.fields import entries
-from report.sheet.older import what_is_new
+from report.sheet.legacy_notes import what_is_new
 from report.sheet.read import read
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput
 from sheets import edit, make, project, same, type_into
@@ -43,9 +43,9 @@ def present():
 def earlier_labels(book):
     """Replace each renamed label and heading by its oldest name, and remove all defined names."""
     oldest = {
-        (section.sheet, entry.cell.label): formerly.LABELS[section.key, entry.name][0]
+        (section.sheet, entry.cell.label): legacy_labels.LABELS[section.key, entry.name][0]
         for section, entry in present()
-        if (section.key, entry.name) in formerly.LABELS
+        if (section.key, entry.name) in legacy_labels.LABELS
     }
     book.defined_names.clear()
     changed = set()
@@ -94,7 +94,7 @@ def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
 
 
 def test_an_earlier_choice_is_read_as_the_present_one(tmp_path, monkeypatch):
-    monkeypatch.setitem(formerly.CHOICES, "old name", "fixed object")
+    monkeypatch.setitem(legacy_labels.CHOICES, "old name", "fixed object")
 
     path = type_into(make(tmp_path), {"Objects/RTU-1/Kind": "Old name"})
     assert read(path).project.objects[0].kind == "fixed object"
@@ -102,9 +102,9 @@ def test_an_earlier_choice_is_read_as_the_present_one(tmp_path, monkeypatch):
 
 def test_every_earlier_name_belongs_to_a_present_one():
     known = {(section.key, entry.name) for section, entry in present()}
-    assert formerly.LABELS.keys() | formerly.FIELDS.keys() <= known
+    assert legacy_labels.LABELS.keys() | legacy_labels.FIELDS.keys() <= known
     labels = {(section.key, other.cell.label): other.name for section, other in present()}
-    for (section, field), earlier in formerly.LABELS.items():
+    for (section, field), earlier in legacy_labels.LABELS.items():
         for label in earlier:
             assert labels.get((section, label), field) == field
-    assert set(formerly.PROVISIONS.values()) <= PROVISION_KEYS.keys()
+    assert set(legacy_labels.PROVISIONS.values()) <= PROVISION_KEYS.keys()

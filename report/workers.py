@@ -1,7 +1,7 @@
-"""A second process that works beside the command, on the core that it leaves idle.
+"""A worker: a second process beside the command, on the core that it leaves idle.
 
 Knows nothing of packages: it runs functions, one after the other, and returns their results. It
-ends with the block that started it, whatever happens in either process. Read `beside`.
+ends with the block that started it, whatever happens in either process. Read `started_worker`.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ _R = TypeVar("_R")
 
 
 @contextmanager
-def beside() -> Iterator[Executor]:
-    """Yield a second process, or this one where the system does not let another start."""
+def started_worker() -> Iterator[Executor]:
+    """Yield a worker, or this one where the system does not let another start."""
     try:
-        second: Executor = SecondProcess()
+        worker: Executor = WorkerProcess()
     except OSError:
-        second = SameProcess()
-    with second:
-        yield second
+        worker = SameProcess()
+    with worker:
+        yield worker
 
 
 class SameProcess(Executor):
@@ -44,7 +44,7 @@ class SameProcess(Executor):
         return done
 
 
-class SecondProcess(Executor):
+class WorkerProcess(Executor):
     """Runs functions in a process of its own, in order.
 
     Functions are named by their module; arguments, results and exceptions are pickled. Arguments
@@ -118,5 +118,5 @@ def _result(pipe: Connection) -> tuple[bool, Any]:
     except EOFError:
         raise
     except Exception as error:
-        error.add_note(f"in the second process:\n{traceback.format_exc()}")
+        error.add_note(f"in the worker:\n{traceback.format_exc()}")
         return True, error

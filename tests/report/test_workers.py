@@ -13,9 +13,9 @@ from pkgutil import iter_modules
 import pytest
 
 import report.assessment
-import report.beside
+import report.workers
 from places import ROOT
-from report.beside import SameProcess, SecondProcess, beside
+from report.workers import SameProcess, WorkerProcess, started_worker
 from solver.model import DefectError, InputError
 
 
@@ -28,41 +28,41 @@ def unpicklable():
 
 
 @pytest.fixture
-def second():
-    with SecondProcess() as process:
+def worker():
+    with WorkerProcess() as process:
         yield process
 
 
-def test_results_come_back_in_order_from_another_process(second):
-    asked = [second.submit(divmod, 7, 2), second.submit(os.getpid)]
+def test_results_come_back_in_order_from_another_process(worker):
+    asked = [worker.submit(divmod, 7, 2), worker.submit(os.getpid)]
     assert asked[0].result(timeout=60) == (3, 1)
     assert asked[1].result(timeout=60) != os.getpid()
 
 
-def test_an_exception_is_the_same_and_says_where_it_was_raised(second):
+def test_an_exception_is_the_same_and_says_where_it_was_raised(worker):
     with pytest.raises(InputError) as caught:
-        second.submit(refuse, "Arrays!B7").result(timeout=60)
+        worker.submit(refuse, "Arrays!B7").result(timeout=60)
     assert caught.value.problems == ("Arrays!B7: not a number",)
-    assert "in the second process" in caught.value.__notes__[0]
+    assert "in the worker" in caught.value.__notes__[0]
     assert "refuse" in caught.value.__notes__[0]
 
 
-def test_it_works_on_after_an_exception(second):
+def test_it_works_on_after_an_exception(worker):
     with pytest.raises(ZeroDivisionError):
-        second.submit(truediv, 1, 0).result(timeout=60)
-    assert second.submit(truediv, 1, 2).result(timeout=60) == 0.5
+        worker.submit(truediv, 1, 0).result(timeout=60)
+    assert worker.submit(truediv, 1, 2).result(timeout=60) == 0.5
 
 
 @pytest.mark.parametrize("last_act", [(os._exit, 3), (unpicklable,)])
-def test_a_process_that_ends_too_soon_is_an_internal_error_and_no_endless_wait(second, last_act):
-    asked = [second.submit(*last_act), second.submit(os.getpid)]
+def test_a_process_that_ends_too_soon_is_an_internal_error_and_no_endless_wait(worker, last_act):
+    asked = [worker.submit(*last_act), worker.submit(os.getpid)]
     for result in asked:
         with pytest.raises(DefectError, match="ended"):
             result.result(timeout=60)
 
 
 def fail_while_it_works(asked):
-    with SecondProcess() as process:
+    with WorkerProcess() as process:
         asked += [process.submit(time.sleep, 300), process.submit(os.getpid)]
         refuse("Site!B5")
 
@@ -78,9 +78,9 @@ def test_an_error_in_the_command_ends_it_in_the_middle_of_a_function():
 
 def test_it_ends_when_the_command_is_killed():
     code = (
-        "import os; from report.beside import SecondProcess\n"
+        "import os; from report.workers import WorkerProcess\n"
         "if __name__ == '__main__':\n"
-        "    print(SecondProcess().submit(os.getpid).result(), flush=True)\n"
+        "    print(WorkerProcess().submit(os.getpid).result(), flush=True)\n"
         "    os.kill(os.getpid(), 9)"
     )
     done = subprocess.run(
@@ -100,8 +100,8 @@ def test_without_a_second_process_the_same_functions_run_in_this_one(monkeypatch
     def refused():
         raise OSError("no more processes")
 
-    monkeypatch.setattr(report.beside, "SecondProcess", refused)
-    with beside() as here:
+    monkeypatch.setattr(report.workers, "WorkerProcess", refused)
+    with started_worker() as here:
         assert isinstance(here, SameProcess)
         assert here.submit(os.getpid).result() == os.getpid()
         with pytest.raises(InputError):
@@ -115,7 +115,7 @@ def left_file():
 
 
 def test_what_it_leaves_in_its_temporary_folder_goes_with_it():
-    with SecondProcess() as process:
+    with WorkerProcess() as process:
         name = process.submit(left_file).result()
         assert os.path.exists(name)
     assert not os.path.exists(os.path.dirname(name))
