@@ -132,7 +132,7 @@ def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted
         assert line.startswith(at(f"<{name}>: link stiffness is {stiffness}"))
         type_into(path, {name: float(line.split("give ")[1].split(" lb/in")[0])})
     book = read_workbook(path)
-    seconds = sum(len(m.headings) * m.dt_s * len(m.ax_mps2) for m in book.motions)
+    seconds = sum(len(m.orientations) * m.dt_s * len(m.ax_mps2) for m in book.motions)
     for row in book.input.links:
         steps = least_steps(row.row(42000 * LB), seconds)
         assert 0.9 * MOST_STEPS < steps <= MOST_STEPS

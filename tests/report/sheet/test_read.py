@@ -315,7 +315,7 @@ def test_motions_are_scaled_and_signed_as_requested(shaken):
 def test_a_transverse_record_is_run_beside_the_horizontal_one_and_all_are_read_only(shaken):
     m1, m2, _ = shaken.motions
     assert np.allclose(m1.ay_mps2, 0.980665)
-    names = [[heading.name for heading in motion.headings] for motion in (m1, m2)]
+    names = [[one.name for one in motion.orientations] for motion in (m1, m2)]
     assert names == [["record +", "record −", "transverse +", "transverse −"], ["record −"]]
     for motion in shaken.motions:
         for a in (motion.ax_mps2, motion.ay_mps2, motion.az_mps2):
