@@ -6,6 +6,7 @@
 import json
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -104,6 +105,73 @@ def test_the_largest_distance_is_found_where_its_rate_crosses_zero_twice_in_a_st
     assert (outcome.left_m, outcome.down_m) == (0.0, 0.0)
 
 
+FREE = {
+    "the distance has a maximum, its rate at first rises little": (
+        0.5545,
+        [-0.00759, 0.00191, -0.0015, -0.00767, 0.0191],
+        [0.0117, -0.00204, -0.000623, 0.000376, -0.0539],
+    ),
+    "the rate of the distance falls by its second term": (
+        0.4588,
+        [-3.417, 5.007, -4.023, 6.32, -3.526, -2.734, 0.1835, -5.266],
+        [-0.2343, -0.7905, -0.1354, -0.3975, 0.4754, -0.1812, -0.257, -0.1961],
+    ),
+    "a slow motion that turns": (
+        1.2362,
+        [0.018994, 0.081238, 0.064984, -0.3573],
+        [0.082963, 0.1195, -0.17508, 0.064742],
+    ),
+    "the speed rises and falls twice": (
+        0.0143,
+        [-6.89, 6.89, 6.89, 13.8],
+        [-6.89, -6.89, -13.8, 13.8],
+    ),
+    "it turns back and on again just before the end": (
+        1.0,
+        [-3.93118, 1.977, -0.023],
+        [0.0, 0.0, 0.0],
+    ),
+    "far away, round and at first back, then on again": (
+        0.05,
+        [-7.6121, -11.8902, -6.8894, -1.8885, 3.1124, 8.1132, 13.1141, 0.228, -0.252],
+        [0.2363, 0.3269, 0.1082, -0.1104, -0.329, -0.5476, -0.7662, 0.0, 0.0],
+    ),
+    "there and back on one line": (0.5, [2.0, -1.0, -3.0, -1.0], [1.0, -0.5, -1.5, -0.5]),
+}
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_without_friction_it_moves_along_cubics(name):
+    dt, ax, ay = FREE[name]
+    outcome = follow(frictionless(ax, ay, dt), 1e-10)
+    t, x, y, w = extremes_of_cubics(ax, ay, dt)
+    far = np.hypot(x, y)
+    assert outcome.prd_m == pytest.approx(far.max(), rel=1e-12)
+    assert outcome.t_prd_s == pytest.approx(t[far.argmax()], abs=1e-7)
+    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
+    assert sides == pytest.approx((x.max(), -x.min(), y.max(), -y.min()), abs=1e-12 * far.max())
+    assert outcome.peak_mps == pytest.approx(w.max(), rel=1e-12)
+    assert outcome.n_stops == 0
+
+
+def extremes_of_cubics(ax, ay, dt):
+    """Return time, place and speed at the samples and where a place or speed may be extreme."""
+    seen, places_now, rates_now = [], np.zeros(2), np.zeros(2)
+    for i in range(len(ax) - 1):
+        v = [
+            np.polynomial.Polynomial((rate, -a[i], -0.5 * (a[i + 1] - a[i]) / dt))
+            for rate, a in zip(rates_now, (ax, ay), strict=True)
+        ]
+        u = [each.integ(k=[place]) for each, place in zip(v, places_now, strict=True)]
+        rises = v[0], v[1], u[0] * v[0] + u[1] * v[1], v[0] * v[0].deriv() + v[1] * v[1].deriv()
+        roots = np.concatenate([each.roots() for each in rises])
+        inside = roots.real[(abs(roots.imag) < 1e-9) & (roots.real > 0.0) & (roots.real < dt)]
+        for t in (0.0, *inside, dt):
+            seen.append((i * dt + t, u[0](t), u[1](t), math.hypot(v[0](t), v[1](t))))
+        places_now, rates_now = (np.array([each(dt) for each in pair]) for pair in (u, v))
+    return np.array(seen).T
+
+
 def frictionless(ax, ay, dt):
     return Scene(
         ax_mps2=readonly(ax),
@@ -131,6 +199,35 @@ def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
         assert outcome.n_stops == 0
         assert outcome.error_m <= tolerance * outcome.prd_m
         assert np.abs(places(outcome) - places(free)).max() < 1e-8 * free.prd_m
+
+
+def test_a_block_that_creeps_on_where_the_run_stops_stays_within_the_bound():
+    # It is braked to 1 um/s, then by 1e-7 m/s2: a rough run takes that speed for a stop.
+    dt, mu, speed, brake = 0.1, 0.3, 1e-6, 1e-7
+    shove, falls = 4.0, 1.5 * 4.0 - speed / dt - 0.5 * brake
+    ax = -(mu * G + np.array([shove, shove, -falls] + [-brake] * 150))
+    block = replace(frictionless(ax, 0.0 * ax, dt), friction=coulomb(mu))
+    exact, outcome = checked.slide(ax, dt, slope_rad=0.0, mu=mu), follow(block, 1e-2)
+    missed = exact.prd_m - outcome.prd_m
+    assert exact.status is Status.OK
+    assert missed == pytest.approx(speed**2 / (2.0 * brake), rel=1e-6)
+    assert missed <= outcome.error_m
+
+
+def test_the_rounding_of_a_weight_that_presses_hard_is_within_the_bound():
+    # The push is 1 m/s2 of 3e8: in exact numbers, half of it by the time squared.
+    mu, up, push = Fraction(0.3), Fraction(1e9 / 3.0), 1
+    along = float(-mu * (Fraction(G) + up) - push)
+    block = replace(
+        frictionless([along, along], [0.0, 0.0], 1.0),
+        az_mps2=readonly([float(up)] * 2),
+        friction=coulomb(float(mu)),
+    )
+    exact = (abs(Fraction(along)) - mu * (Fraction(G) + up)) / 2
+    outcome = follow(block, 1e-10)
+    off = abs(Fraction(outcome.prd_m) - exact)
+    assert 0 < off <= Fraction(outcome.error_m)
+    assert outcome.error_m < 1e-5 * outcome.prd_m
 
 
 @pytest.mark.parametrize("kind", ["N to zero", "mu = tan(slope)", "friction by speed"])
