@@ -34,7 +34,7 @@ def pytest_collection_finish(session):
 def one_process():
     """Commands called in this process start none beside them: the other worker has that core.
 
-    `tests/report/test_worker_process.py` tests the second process, and scripts in other tests start it.
+    `tests/report/test_worker_process.py` tests it, and scripts in other tests start it.
     """
 
     with pytest.MonkeyPatch.context() as patch:

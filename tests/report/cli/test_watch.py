@@ -245,7 +245,7 @@ class Idle:
         pass
 
 
-@pytest.mark.parametrize("second", [Idle, SameProcess], ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("worker", [Idle, SameProcess], ids=lambda kind: kind.__name__)
 @pytest.mark.nightly("report/cli/watch.py")
 def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, worker):
     gc.disable()
