@@ -21,9 +21,10 @@ from report.assessment.envelopes import (
 from report.assessment.neighbors import bare_edges
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
+from report.drawing.gaps import parapet_note, plan_gaps
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
-from report.sheet.schema import ROOF, ObjectKind, RoofObject, Shape
-from report.sheet.shapes import Point, closest, label_point, mean
+from report.sheet.schema import ROOF, ObjectKind, RoofObject
+from report.sheet.shapes import Point, label_point, mean
 from report.words.units import Quantity, Unit, compared, number, pair
 
 TEXT_SHARE = 1.0 / 120.0
@@ -101,26 +102,23 @@ class GapLine:
 
 
 def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
-    """Yield the clearances between shapes in plan, numbered as in the workbook."""
-    data = assessment.project
-    us_first = data.project.units_first == "US"
-    shapes: dict[str, Shape | None] = {item.id: item.placed for item in data.objects}
-    shapes |= {array.id: array.placed for array in data.arrays}
-    for count, gap in enumerate(assessment.clearances, start=1):
-        near, far = shapes[gap.clearance.array], shapes[gap.clearance.object]
-        if near is None or far is None:
-            continue
-        show_required, show_provided = compared(gap.required_m, gap.clearance.provided_m)
-        provided = pair(gap.clearance.provided_m, Quantity.SIZE, us_first, show_provided)
+    """Yield the clearances, numbered as in the workbook, and what is NG without one."""
+    us_first = assessment.project.project.units_first == "US"
+    for gap in plan_gaps(assessment):
+        show_required, show_provided = compared(gap.required_m, gap.provided_m)
+        provided = pair(gap.provided_m, Quantity.SIZE, us_first, show_provided)
         required = "no value"
         if not math.isnan(gap.required_m):
             required = pair(gap.required_m, Quantity.SIZE, us_first, show_required) + _by(gap.mark)
-        verdict = gap.verdict.value if gap.is_permitted else "no verdict"
+        verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
+        start = f"{gap.number}: provided {provided}"
+        if not gap.is_given:
+            start = f"no clearance given: {provided} in plan"
         yield GapLine(
             layer=_LAYERS[gap.verdict],
-            name=f"{gap.clearance.array} to {gap.clearance.object}",
-            ends=closest(near, far),
-            words=f"{count}: provided {provided}, required {required}, {verdict}",
+            name=f"{gap.array} to {gap.other}",
+            ends=gap.ends,
+            words=f"{start}, required {required}, {verdict}",
         )
 
 
@@ -130,6 +128,7 @@ def _texts(assessment: Assessment, unit: Unit, height: float, us_first: bool) ->
             words = item.id if item.height_m is None else (
                 f"{item.id}, height {pair(item.height_m, Quantity.SIZE, us_first)}"
             )  # fmt: skip
+            words += parapet_note(assessment, item)
             at = _in(label_point(item.placed), unit)
             yield PlanText(layer=_layer(item), words=words, at=at, height=height)
     for array in assessment.arrays:

@@ -83,7 +83,7 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
     spots = [spot for item in plan.placed if (spot := name_spot(plan, item)) is not None]
     for spot in spots:
         plan.paper.placer.take(spot)
-    for gap in sorted(plan.gaps, key=lambda gap: not gap.is_ng):
+    for gap in sorted(plan.gaps, key=lambda gap: not gap.of.is_ng):
         draw_callout(plan, gap)
     for array, name in zip(plan.assessment.arrays, names, strict=True):
         plan.paper.placer.release(name)

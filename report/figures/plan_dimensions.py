@@ -21,9 +21,8 @@ RADIUS_IN = 0.1
 
 def draw_gap(plan: PlanSheet, gap: Gap) -> None:
     """Draw a dimension line; a gap that is not satisfied is hatched."""
-    if gap.is_ng:
-        near, far = (plan.shapes[name] for name in gap.names)
-        area = between(near, far)
+    if gap.of.is_ng:
+        area = between(gap.of.near, gap.of.far)
         if area is not None:
             plan.paper.shape(area, **FAILED)
     gap_line(plan.paper, gap.a, gap.b)
@@ -31,26 +30,36 @@ def draw_gap(plan: PlanSheet, gap: Gap) -> None:
 
 
 def draw_callout(plan: PlanSheet, gap: Gap) -> None:
-    """Label a clearance: number, provided and required separation; the number if tight."""
-    provided, required = gap.check.clearance.provided_m, gap.check.required_m
+    """Label a gap: number, provided and required separation; the number if tight."""
+    provided, required = gap.of.provided_m, gap.of.required_m
     show_required, show_provided = compared(required, provided)
     needed = (
-        "no value" if math.isnan(required) else plan.first(required, show_required) + gap.check.mark
+        "no value" if math.isnan(required) else plan.first(required, show_required) + gap.of.mark
     )
-    lines = [f"provided {plan.first(provided, show_provided)}", f"required {needed}"]
+    shown_as = "provided" if gap.of.is_given else "not given; in plan"
+    lines = [f"{shown_as} {plan.first(provided, show_provided)}", f"required {needed}"]
     for shown in (lines, []) if plan.size.is_full else ([],):
         wide, tall = text_size(shown) if shown else (0.0, 2 * RADIUS_IN)
-        mark = ng_size()[0] + PAD_IN if gap.is_ng else 0.0
+        mark = ng_size()[0] + PAD_IN if gap.of.is_ng else 0.0
         label = plan.paper.placer.place(
-            wide + 2 * RADIUS_IN + mark,
+            wide + _circle(gap) + mark,
             max(tall, 2 * RADIUS_IN),
             gap.middle,
-            most=4.0 if gap.is_ng and not shown else plan.leader_in,
+            most=4.0 if gap.of.is_ng and not shown else plan.leader_in,
         )
         if label is not None:
             _draw_callout(plan, gap, label, shown, mark)
             return
-    plan.unnamed.append(f"clearance {gap.number}")
+    plan.unnamed.append(_name(gap))
+
+
+def _circle(gap: Gap) -> float:
+    """Return the width [in] of the number, which a gap without a clearance does not have."""
+    return 2 * RADIUS_IN if gap.of.is_given else 0.04
+
+
+def _name(gap: Gap) -> str:
+    return f"clearance {gap.of.number}" if gap.of.is_given else f"{gap.of.array} to {gap.of.other}"
 
 
 def _draw_callout(
@@ -60,10 +69,11 @@ def _draw_callout(
     plan.leader(gap.middle, label)
     if shown:
         paper.box(label, facecolor="white", edgecolor=GRAY, linewidth=0.4, zorder=2)
-        paper.lines(Frame(label.x0 + 2 * RADIUS_IN, label.y0, label.x1 - mark, label.y1), shown)
-    center = label.x0 + RADIUS_IN, y
-    paper.circle(center, RADIUS_IN - 0.01, facecolor="white", edgecolor=INK, linewidth=0.7,
-                 zorder=2)  # fmt: skip
-    paper.text(center[0], y - 0.04, str(gap.number), ha="center")
+        paper.lines(Frame(label.x0 + _circle(gap), label.y0, label.x1 - mark, label.y1), shown)
+    if gap.of.is_given:
+        center = label.x0 + RADIUS_IN, y
+        paper.circle(center, RADIUS_IN - 0.01, facecolor="white", edgecolor=INK, linewidth=0.7,
+                     zorder=2)  # fmt: skip
+        paper.text(center[0], y - 0.04, str(gap.of.number), ha="center")
     if mark:
         ng_box(paper, label.x1 - ng_size()[0] / 2 - 0.01, y)

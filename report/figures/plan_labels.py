@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
 from report.assessment.envelopes import keep_clear_m, keep_clear_mark, keep_clear_words
+from report.drawing.gaps import parapet_note
 from report.figures.base import tick_text
 from report.figures.labels import LINE_IN, Frame, centered, width_in
 from report.figures.paper_plan import text_size
@@ -49,7 +50,8 @@ def _edge_words(plan: PlanSheet, item: RoofObject) -> str:
     if item.kind is ObjectKind.EDGE_WITHOUT_PARAPET:
         return f"{tick_text(item.id)}: no parapet"
     height = math.nan if item.height_m is None else item.height_m
-    return f"{tick_text(item.id)}: parapet {plan.both(height)}"
+    note = parapet_note(plan.assessment, item)
+    return f"{tick_text(item.id)}: parapet {plan.both(height)}{note}"
 
 
 def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame:

@@ -18,6 +18,7 @@ from report.assessment.envelopes import (
 from report.assessment.friction import mus_words
 from report.assessment.neighbors import bare_edges
 from report.assessment.overrides import MEANING
+from report.assessment.verdict import Verdict
 from report.figures.plan_key import Key, Symbol
 from report.figures.plan_sheet import PlanSheet
 from report.sheet.schema import ObjectKind
@@ -39,7 +40,7 @@ def key_of(plan: PlanSheet) -> Key:
         Symbol.DESIGN: any(map(design_envelope, assessment.arrays)),
         Symbol.RUNS: any(map(runs_envelope, assessment.arrays)),
         Symbol.GAP: bool(plan.gaps),
-        Symbol.FAILED: any(gap.is_ng for gap in plan.gaps),
+        Symbol.FAILED: any(gap.of.is_ng for gap in plan.gaps),
     }
     return Key(
         north_deg=assessment.project.roof.north_deg,
@@ -67,7 +68,7 @@ def _notes(plan: PlanSheet) -> Iterator[str]:
             yield f"{words.capitalize()} of {of}, on all sides: no conduit or equipment."
     if _is_marked(plan):
         yield f"{MEANING}; see the summary."
-    unknown = [str(gap.number) for gap in plan.gaps if not gap.check.is_permitted]
+    unknown = [str(gap.of.number) for gap in plan.gaps if gap.of.verdict is Verdict.NONE]
     if unknown:
         yield (
             f"No verdict, because no route to a design displacement is permitted: clearance "
@@ -77,7 +78,7 @@ def _notes(plan: PlanSheet) -> Iterator[str]:
     if missing:
         names = _some([f"{pair.array} to {pair.other}" for pair in missing])
         yield f"No clearance is given: {names}."
-    numbers = {gap.number for gap in plan.gaps}
+    numbers = {gap.of.number for gap in plan.gaps}
     rows = enumerate(plan.assessment.clearances, start=1)
     unplaced = [str(count) for count, _ in rows if count not in numbers]
     if unplaced:

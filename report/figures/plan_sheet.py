@@ -6,18 +6,17 @@ Read `report.figures.plan` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator
+from collections.abc import Container
 from dataclasses import dataclass, field
 
-from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
+from report.drawing.gaps import PlanGap, plan_gaps, shapes_of
 from report.figures.base import GRAY
 from report.figures.labels import Frame
 from report.figures.paper_plan import PlanPaper, text_size
 from report.figures.plan_key import EDGES, FILLS
 from report.sheet.schema import ObjectKind, RoofObject, Shape
-from report.sheet.shapes import Point, closest, room
+from report.sheet.shapes import Point, room
 from report.words.units import Quantity, Show, measured, pair
 
 LEADER_IN = 1.5  # farthest label
@@ -61,22 +60,11 @@ PORTRAIT = PlanSize(wide=6.7, tall=8.05, key_wide=6.7, key_tall=2.1, is_full=Tru
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """A clearance on the plan, by its number; the ends of its dimension line on paper."""
+    """A gap of the plan; the ends of its dimension line on paper."""
 
-    number: int
-    check: ClearanceCheck
+    of: PlanGap
     a: Point
     b: Point
-
-    @property
-    def is_ng(self) -> bool:
-        """Whether it is not satisfied."""
-        return self.check.verdict is Verdict.NG
-
-    @property
-    def names(self) -> tuple[str, str]:
-        """The names of the array and of what it faces."""
-        return self.check.clearance.array, self.check.clearance.object
 
     @property
     def middle(self) -> Point:
@@ -93,7 +81,7 @@ class PlanSheet:
     shapes : dict of str to Shape
         What is on the plan, by name [m].
     gaps : tuple of Gap
-        The clearances between shapes.
+        The clearances between shapes, and what is NG without one.
     unnamed : list of str
         What found no room for its label so far.
     """
@@ -108,10 +96,8 @@ class PlanSheet:
     @classmethod
     def of(cls, assessment: Assessment, size: PlanSize, paper: PlanPaper) -> PlanSheet:
         """Return the empty sheet of an assessment."""
-        data = assessment.project
-        shapes = {item.id: item.placed for item in data.objects if item.placed is not None}
-        shapes |= {array.id: array.shape for array in data.arrays}
-        return cls(assessment, size, paper, shapes, tuple(_gaps(assessment, shapes, paper)))
+        gaps = (Gap(gap, *map(paper.at, gap.ends)) for gap in plan_gaps(assessment))
+        return cls(assessment, size, paper, shapes_of(assessment), tuple(gaps))
 
     @property
     def us_first(self) -> bool:
@@ -172,10 +158,3 @@ class PlanSheet:
 def is_us_first(assessment: Assessment) -> bool:
     """Whether US units come first in a project."""
     return assessment.project.project.units_first == "US"
-
-
-def _gaps(assessment: Assessment, shapes: dict[str, Shape], paper: PlanPaper) -> Iterator[Gap]:
-    for count, check in enumerate(assessment.clearances, start=1):
-        near, far = shapes.get(check.clearance.array), shapes.get(check.clearance.object)
-        if near is not None and far is not None:
-            yield Gap(count, check, *map(paper.at, closest(near, far)))

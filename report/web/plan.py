@@ -13,10 +13,11 @@ from report.assessment.envelopes import design_envelope
 from report.assessment.neighbors import EDGES
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
+from report.drawing.gaps import plan_gaps
 from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
 from report.sheet.schema import ObjectKind, ProjectInput, Shape
-from report.sheet.shapes import Point, around, closest, label_point
+from report.sheet.shapes import Point, around, label_point
 from report.words.units import Quantity, round_below
 
 NO_VALUE = "no value"
@@ -57,7 +58,7 @@ def plan(
             for item in data.objects
             if item.placed is not None
         ],
-        "gaps": list(_gaps(data, gaps, fmt, show)),
+        "gaps": list(_gaps(assessment, gaps, fmt, show)),
         "scale_bar": _scale_bar(data),
     }
 
@@ -77,23 +78,23 @@ def _scale_bar(data: ProjectInput) -> Mapping[str, Any]:
 
 
 def _gaps(
-    data: ProjectInput, gaps: Sequence[ClearanceResult], fmt: UnitFormat, show: ShowVerdict
+    assessment: Assessment, rows: Sequence[ClearanceResult], fmt: UnitFormat, show: ShowVerdict
 ) -> Iterator[Mapping[str, Any]]:
-    shapes: dict[str, Shape] = {row.id: row.placed for row in data.objects if row.placed}
-    shapes |= {array.id: array.shape for array in data.arrays}
-    for index, gap in enumerate(gaps):
-        near, far = shapes.get(gap.array), shapes.get(gap.object)
-        if near is None or far is None:
-            continue
-        start, end = closest(near, far)
+    for gap in plan_gaps(assessment):
+        start, end = gap.ends
+        row = rows[gap.number - 1] if gap.is_given else None
         yield {
-            "clearance": index,
+            "clearance": gap.number - 1 if gap.is_given else None,
             "from": _point(start),
             "to": _point(end),
-            "provided": gap.short("provided_m", fmt),
-            "required": gap.short("required_m", fmt),
+            "provided": row.short("provided_m", fmt) if row else _short(gap.provided_m, fmt),
+            "required": row.short("required_m", fmt) if row else _short(gap.required_m, fmt),
             "verdict": show(gap.verdict),
         }
+
+
+def _short(value_m: float, fmt: UnitFormat) -> str:
+    return fmt.short(value_m, Quantity.DISPLACEMENT)
 
 
 def _outline(shape: Shape | None) -> Sequence[Sequence[float]]:

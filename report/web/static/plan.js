@@ -218,8 +218,8 @@ function middleOf({ from, to: end }, to) {
   return [(x0 + x1) / 2, (y0 + y1) / 2];
 }
 
-function calloutLines({ provided, required }) {
-  return [`provided ${provided}`, `required ${required}`];
+function calloutLines({ clearance, provided, required }) {
+  return [`${clearance === null ? "not given; in plan" : "provided"} ${provided}`, `required ${required}`];
 }
 
 function calloutSize(gap) {
@@ -240,7 +240,7 @@ function callout(gap, at, isWhole, to) {
     { class: isNg ? "callout is-ng" : "callout" },
     svg("line", { class: "leader", x1: middle[0], y1: middle[1], ...nearest(at, middle) }),
     isWhole ? svg("rect", { class: "frame", x: at.x, y: at.y, width: at.wide, height: at.tall }) : null,
-    numbered(gap.clearance + 1, left, isNg ? y - 8 : y),
+    gap.clearance === null ? null : numbered(gap.clearance + 1, left, isNg ? y - 8 : y),
     isWhole ? calloutLines(gap).map(text) : null,
     isNg ? ngBox(left, y + 9) : null,
   );

@@ -1,0 +1,110 @@
+"""The gaps that a plan shows: each clearance, and each gap without one that is less than required.
+
+What draws or writes a plan takes them from here. Read `plan_gaps`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from report.assessment.neighbors import bare_edges
+from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
+from report.sheet.schema import ObjectKind, RoofObject, Shape
+from report.sheet.shapes import Point, closest
+from solver.rules.provisions import Neighbor
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanGap:
+    """A clearance between two shapes of the plan, or a gap without one that is NG.
+
+    Attributes
+    ----------
+    number : int
+        In the workbook, from 1; 0 where no clearance is given.
+    array, other : str
+        What it is between; `other` names a bare roof edge in words.
+    near, far : Shape
+    provided_m : float
+        As given [m]; where no clearance is, the gap of the plan.
+    required_m : float
+        Required separation [m]; NaN if it is not known.
+    mark : str
+        Of the required separation.
+    """
+
+    number: int
+    array: str
+    other: str
+    near: Shape
+    far: Shape
+    provided_m: float
+    required_m: float
+    mark: str
+    verdict: Verdict
+
+    @property
+    def is_given(self) -> bool:
+        """Whether the workbook has the clearance."""
+        return self.number > 0
+
+    @property
+    def is_ng(self) -> bool:
+        """Whether it is not satisfied."""
+        return self.verdict is Verdict.NG
+
+    @property
+    def ends(self) -> tuple[Point, Point]:
+        """The points nearest to each other [m]."""
+        return closest(self.near, self.far)
+
+
+def plan_gaps(assessment: Assessment) -> Iterator[PlanGap]:
+    """Yield the clearances between shapes in plan, and after them what is NG without one."""
+    shapes = shapes_of(assessment)
+    for count, gap in enumerate(assessment.clearances, start=1):
+        row = gap.clearance
+        if row.array in shapes and row.object in shapes:
+            yield PlanGap(
+                number=count,
+                array=row.array,
+                other=row.object,
+                near=shapes[row.array],
+                far=shapes[row.object],
+                provided_m=row.provided_m,
+                required_m=gap.required_m,
+                mark=gap.mark,
+                verdict=gap.verdict,
+            )
+    shapes |= {edge.name: edge.line for edge in bare_edges(assessment.project)}
+    for pair in assessment.neighbors:
+        if pair.is_short:
+            yield PlanGap(
+                number=0,
+                array=pair.array,
+                other=pair.other,
+                near=shapes[pair.array],
+                far=shapes[pair.other],
+                provided_m=pair.gap_m,
+                required_m=pair.required_m,
+                mark="",
+                verdict=Verdict.NG,
+            )
+
+
+def shapes_of(assessment: Assessment) -> dict[str, Shape]:
+    """Return the arrays and the objects that have a place in plan, by id."""
+    data = assessment.project
+    shapes: dict[str, Shape] = {item.id: item.placed for item in data.objects if item.placed}
+    return shapes | {array.id: array.shape for array in data.arrays}
+
+
+def parapet_note(assessment: Assessment, item: RoofObject) -> str:
+    """Return that a parapet does not qualify, and for which arrays where it does for others."""
+    gaps = [gap for gap in assessment.clearances if gap.clearance.object == item.id]
+    arrays = [gap.clearance.array for gap in gaps if gap.neighbor is Neighbor.EDGE]
+    if item.kind is not ObjectKind.EDGE_WITH_PARAPET or not arrays:
+        return ""
+    return ", does not qualify" + (f" for {', '.join(arrays)}" if len(arrays) < len(gaps) else "")

@@ -1,0 +1,63 @@
+"""What is NG is marked on the plan, wherever it is drawn: also where no clearance is given."""
+
+import re
+
+import pytest
+
+import scenes
+import stand_in
+from report.drawing.gaps import parapet_note, plan_gaps
+from report.drawing.layers import Layer
+from report.drawing.plan import plan_drawing
+from report.figures import charts
+from report.figures.plan_sheet import LANDSCAPE
+from report.pages.pictures import load_charts
+from report.web.answers import answer
+
+PARAPET = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=0.3)
+HIGH = stand_in.roof_object("S", "edge with parapet", 0, 400, -202, -200, height=1.2)
+NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
+
+
+@pytest.fixture(scope="module")
+def done():
+    """A unit a foot from an array without a row of its own, and a parapet of 11.8 in."""
+    return scenes.package(
+        arrays=[stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)],
+        objects=[NEAR, PARAPET, HIGH],
+        clearances=[
+            stand_in.clearance("A2", "A1", 40.0),
+            stand_in.clearance("A1", "N", 60.0),
+            stand_in.clearance("A1", "S", 60.0),
+        ],
+    ).assessment
+
+
+def test_a_gap_without_a_row_that_is_less_than_required_is_a_gap_of_the_plan(done):
+    gaps = list(plan_gaps(done))
+    assert [(gap.number, gap.array, gap.other) for gap in gaps] == [
+        (1, "A2", "A1"), (2, "A1", "N"), (3, "A1", "S"), (0, "A1", "RTU-9"),
+    ]  # fmt: skip
+    assert [gap.is_ng for gap in gaps] == [False, False, False, True]
+    missing = gaps[-1]
+    assert missing.provided_m == pytest.approx(0.3048)  # from x = 100 to 101 ft
+    assert missing.required_m == done.arrays[0].design_m
+
+
+def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
+    words = "no clearance given: 12.0 in (305 mm) in plan, required 40.8 in (1036 mm), NG"
+    assert [t.layer for t in plan_drawing(done).texts if t.words == words] == [Layer.CLEARANCE_NG]
+    load_charts()
+    shown = re.findall(r"<text[^>]*>([^<]*)</text>", charts.roof_plan(done, LANDSCAPE))
+    assert "NG" in shown
+    assert "not given; in plan 12.0 in" in shown
+    gap = answer(done, is_provisional=False)["plan"]["gaps"][-1]
+    assert (gap["clearance"], gap["verdict"]) == (None, "NG")
+    assert (gap["provided"], gap["required"]) == ("12.0 in", "40.8 in")
+
+
+def test_a_parapet_says_where_it_does_not_qualify(done):
+    notes = {item.id: parapet_note(done, item) for item in done.project.objects}
+    assert notes == {"RTU-9": "", "N": ", does not qualify", "S": ""}
+    texts = [text.words for text in plan_drawing(done).texts]
+    assert "N, height 11.8 in (300 mm), does not qualify" in texts
