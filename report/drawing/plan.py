@@ -19,9 +19,9 @@ from report.assessment.envelopes import (
     runs_envelope,
 )
 from report.assessment.neighbors import bare_edges
+from report.assessment.plan_gaps import parapet_note, plan_gaps
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.drawing.gaps import parapet_note, plan_gaps
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema import ROOF, ObjectKind, RoofObject
 from report.sheet.shapes import Point, label_point, mean

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
 from report.assessment.envelopes import keep_clear_m, keep_clear_mark, keep_clear_words
-from report.drawing.gaps import parapet_note
+from report.assessment.plan_gaps import parapet_note
 from report.figures.base import tick_text
 from report.figures.labels import LINE_IN, Frame, centered, width_in
 from report.figures.paper_plan import text_size

@@ -9,8 +9,8 @@ import math
 from collections.abc import Container
 from dataclasses import dataclass, field
 
+from report.assessment.plan_gaps import PlanGap, plan_gaps, shapes_of
 from report.assessment.project import Assessment
-from report.drawing.gaps import PlanGap, plan_gaps, shapes_of
 from report.figures.base import GRAY
 from report.figures.labels import Frame
 from report.figures.paper_plan import PlanPaper, text_size

@@ -11,9 +11,9 @@ from typing import Any
 
 from report.assessment.envelopes import design_envelope
 from report.assessment.neighbors import EDGES
+from report.assessment.plan_gaps import plan_gaps
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.drawing.gaps import plan_gaps
 from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
 from report.sheet.schema import ObjectKind, ProjectInput, Shape
