@@ -25,7 +25,7 @@ TYPE_PT = 9.0  # at smaller sizes the renderer clips the first letter of a label
 
 @memoized
 def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
-    """Return the contours in the primary unit; hollow dots have another friction law."""
+    """Return the contours in the primary unit, with a dot for each array of that friction law."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     degrees = np.degrees(surface.slopes_rad)
     mean = np.maximum(surface.mean_m, LEAST_M) / unit.si
@@ -36,9 +36,9 @@ def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool
         axes.plot(grid_mu[~lost], grid_deg[~lost], "+", color=GRAY, markersize=3.5)
         axes.plot(grid_mu[lost], grid_deg[lost], "x", color=INK, markersize=6)
         _lines(axes, surface, mean)
-        for array in arrays:
-            _dot(axes, array, hollow=array.id in surface.others)
-        for (mu, slope), names in _places(arrays).items():
+        alike = [array for array in arrays if array.id not in surface.others]
+        for (mu, slope), names in _places(alike).items():
+            axes.plot([mu], [slope], "o", color=INK, markersize=7, zorder=5)
             _name(axes, mu, slope, names)
         axes.set_xlabel("Friction coefficient μ at low velocity", fontsize=TYPE_PT)
         axes.set_ylabel("Slope [deg]", fontsize=TYPE_PT)
@@ -76,20 +76,6 @@ def _lines(axes: Axes, surface: Surface, mean: Floats) -> None:
     names = {math.log10(level): f"{level:g}" for level in drawn}
     for label in axes.clabel(lines, fmt=names, fontsize=TYPE_PT, inline_spacing=3):
         label.set(zorder=4, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3})
-
-
-def _dot(axes: Axes, array: ArrayAssessment, *, hollow: bool) -> None:
-    mu, degrees = array.array.mu, math.degrees(array.array.slope_rad)
-    axes.plot(
-        [mu],
-        [degrees],
-        "o",
-        markersize=7,
-        markerfacecolor="white" if hollow else INK,
-        markeredgecolor=INK,
-        markeredgewidth=1.3,
-        zorder=5,
-    )
 
 
 def _places(arrays: Sequence[ArrayAssessment]) -> Mapping[tuple[float, float], Sequence[str]]:

@@ -62,10 +62,15 @@ def _listed(values: Sequence[float], decimals: int) -> str:
 def _dots(surface: Surface) -> str:
     if not surface.others:
         return " Dots: the arrays."
+    return f" Dots: the arrays; {other_law(surface)}"
+
+
+def other_law(surface: Surface) -> str:
+    """Return which arrays have no dot, and why."""
     law = "constant" if surface.array.array.friction.is_constant else "velocity-dependent"
     return (
-        f" Dots: the arrays; hollow ({', '.join(surface.others)}): friction is not of the kind "
-        f"shown, that of {surface.array.id} ({law}), scaled as a whole."
+        f"not {', '.join(surface.others)}, whose friction is not of the kind shown, that of "
+        f"{surface.array.id} ({law}), scaled as a whole."
     )
 
 

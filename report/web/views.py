@@ -17,6 +17,7 @@ from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import Surface, surface
 from report.figures.levels import LEAST_M, is_decade, levels
+from report.pages.uncertainty import other_law
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from report.web.thinning import Indices, beside, peaks_kept
@@ -119,9 +120,9 @@ def contour(assessment: Assessment, array_id: str) -> Json:
                 "id": one.array.id,
                 "mu": one.array.mu,
                 "slope_deg": math.degrees(one.array.slope_rad),
-                "has_other_law": one.array.id in found.others,
             }
             for one in assessment.arrays
+            if one.array.id not in found.others
         ],
         "least_m": LEAST_M,
         "units": _units(us_first),
@@ -301,10 +302,7 @@ def _contour_texts(found: Surface, here_m: float, us_first: bool) -> Json:
             "of their record: their PRD is not final."
         )
     if found.others:
-        law = "constant" if array.friction.is_constant else "velocity-dependent"
-        notes.append(
-            f"Hollow: arrays whose friction is not that of {array.id} ({law}), scaled as a whole."
-        )
+        notes.append(f"Dots: the arrays, but {other_law(found)}")
     return {
         "title": f"Mean PRD of {runs} motion{'s' if runs > 1 else ''} over friction and slope, "
         f"array {array.id}",

@@ -169,16 +169,15 @@ function placed({ arrays: all, array }, x, y) {
   return [...places.values()].map((group) => ({
     at: [x(group[0].mu), y(group[0].slope_deg)],
     name: group.slice(0, 2).map((one) => one.id).join(", ") + (group.length > 2 ? ` and ${group.length - 2} more` : ""),
-    isHollow: group.every((one) => one.has_other_law),
     isShown: group.some((one) => one.id === array),
   }));
 }
 
-function arrayDot({ at: [a, b], name, isHollow, isShown }) {
+function arrayDot({ at: [a, b], name, isShown }) {
   return svg(
     "g",
     { class: "array-dot" },
-    svg("circle", { class: isHollow ? "is-hollow" : null, cx: a, cy: b, r: isShown ? 6 : 4.5 }),
+    svg("circle", { cx: a, cy: b, r: isShown ? 6 : 4.5 }),
     svg("text", { class: `on-line ${isShown ? "strong" : "label"}`, x: a + 9, y: b - 7 }, name),
   );
 }
