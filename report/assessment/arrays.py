@@ -15,7 +15,8 @@ from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
 from report.assessment.runs import RUNGS, MotionRun, OrientedRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
 from solver.rules import provisions
-from solver.rules.provisions import AnalysisValue, Basis, Check, Prescriptive, RuleSet
+from solver.rules.limit import Limit
+from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding import least_model
 from solver.sliding.tipping import Supports, Tipping, tipping
 from solver.sliding.uplift import Uplift, least_normal_mps2, uplift
@@ -91,9 +92,9 @@ class ArrayAssessment:
     by_direction: bool
     tipping: Tipping
     uplift: Uplift
-    checks: tuple[Check, ...]
-    analysis_checks: tuple[Check, ...]
-    prescriptive_checks: tuple[Check, ...]
+    checks: tuple[Limit, ...]
+    analysis_checks: tuple[Limit, ...]
+    prescriptive_checks: tuple[Limit, ...]
     interconnection_n: float
     adopted: ArrayAssessment | None
 
@@ -132,7 +133,7 @@ class ArrayAssessment:
         return self.design_toward_m(direction) if self.is_permitted else math.nan
 
     @property
-    def limits(self) -> tuple[Check, ...]:
+    def limits(self) -> tuple[Limit, ...]:
         """Every limit that must be satisfied on the route taken."""
         of_route = {
             Route.ANALYSIS: self.analysis_checks,
@@ -233,18 +234,18 @@ class RouteLimits:
     route : Route
     """
 
-    both: tuple[Check, ...]
-    analysis: tuple[Check, ...]
-    prescriptive: tuple[Check, ...]
+    both: tuple[Limit, ...]
+    analysis: tuple[Limit, ...]
+    prescriptive: tuple[Limit, ...]
     route: Route
 
     @property
-    def of_route(self) -> tuple[Check, ...]:
+    def of_route(self) -> tuple[Limit, ...]:
         """The limits of the route taken."""
         return self.analysis if self.route is Route.ANALYSIS else self.prescriptive
 
     @property
-    def on_route(self) -> tuple[Check, ...]:
+    def on_route(self) -> tuple[Limit, ...]:
         """Every limit that must be satisfied on the route taken."""
         return (*self.both, *self.of_route)
 
@@ -371,7 +372,7 @@ def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
     return tipping(worst.scene, supports)
 
 
-def _route(has_value: bool, analysis: Sequence[Check], prescriptive: Sequence[Check]) -> Route:
+def _route(has_value: bool, analysis: Sequence[Limit], prescriptive: Sequence[Limit]) -> Route:
     """Return the analysis route, unless it alone is not permitted."""
     by_analysis = has_value and all(check.ok for check in analysis)
     by_prescription = all(check.ok for check in prescriptive)

@@ -18,7 +18,7 @@ from report.motions.history import PreparedMotion
 from report.sheet.schema import Array, ProjectInput
 from report.words.units import Quantity, compared, number, pair, rounding
 from solver.records.acceptance import Acceptance
-from solver.records.acceptance_row import AcceptanceRow, Consequence
+from solver.rules.limit import Consequence, Limit
 
 DRIFT_M = 0.010
 """Final displacement of a record [m] above which it drifts."""
@@ -88,7 +88,7 @@ def motion_rows(acceptance: Acceptance, arrays: Sequence[ArrayAssessment]) -> tu
     return tuple(motion_row(missed, takes_analysis=takes_analysis) for missed in acceptance.missed)
 
 
-def motion_row(missed: AcceptanceRow, *, takes_analysis: bool) -> Row:
+def motion_row(missed: Limit, *, takes_analysis: bool) -> Row:
     """Return a limit on the motions that they miss.
 
     Parameters
@@ -97,14 +97,13 @@ def motion_row(missed: AcceptanceRow, *, takes_analysis: bool) -> Row:
         Whether any array takes the value from analysis.
     """
     is_ng = missed.consequence is Consequence.NG
-    unit = " s" if missed.unit == "s" else ""
-    sign = "≥" if missed.is_at_least else "≤"
+    found, least = (f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit))
     return Row(
         id="motions",
         title=missed.title,
-        found=f"{missed.found:.4g}{unit}" + (f" ({missed.worst})" if missed.worst else ""),
-        limit=f"{sign} {missed.limit:g}{unit}",
-        basis="limit of this program" if missed.is_program_limit else "motions for analysis",
+        found=found + (f" ({missed.worst})" if missed.worst else ""),
+        limit=f"{missed.sign} {least}",
+        basis=missed.provision.clause,
         is_satisfied=False,
         consequence=Consequence.NG if is_ng and takes_analysis else Consequence.CONDITION,
         remedy=_motion_remedy(is_ng, takes_analysis),

@@ -15,7 +15,7 @@ from report.sheet.schema import Array, ProjectInput
 from report.words.units import Quantity, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction
-from solver.records.acceptance_row import Consequence
+from solver.rules.limit import Consequence
 
 LEAST_RUNS = 3
 """Runs at one velocity in each condition, whose kinetic coefficients are averaged (PV1-2012)."""

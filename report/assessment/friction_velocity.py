@@ -21,7 +21,7 @@ from report.sheet.schema import ProjectInput
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
-from solver.records.acceptance_row import Consequence
+from solver.rules.limit import Consequence
 from solver.rules.provisions import RuleSet
 
 VELOCITY_ROW = "friction_velocity"

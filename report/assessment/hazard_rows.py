@@ -11,8 +11,8 @@ from functools import partial
 
 from report.assessment.verdict import NOT_GIVEN, Row, stated
 from report.sheet.schema import ProjectInput, Site
-from solver.records.acceptance_row import Consequence
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
+from solver.rules.limit import Consequence
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
 
 

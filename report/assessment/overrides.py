@@ -18,7 +18,7 @@ from report.sheet.schema import (
     provision_name,
     provision_unit,
 )
-from solver.records.acceptance_row import Consequence
+from solver.rules.limit import Consequence
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet
 from solver.rules.rulesets import ALLOWED
 

@@ -31,7 +31,8 @@ from report.sheet.schema import Array, ProjectInput
 from report.sheet.unseen import warnings
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions
-from solver.rules.provisions import Basis, Check, Measure, RuleSet
+from solver.rules.limit import Limit, Measure
+from solver.rules.provisions import Basis, RuleSet
 
 _FIELDS: Mapping[str, str] = {
     "low_profile_in": "cg_height_m",
@@ -94,7 +95,7 @@ def rule_set_of(data: ProjectInput) -> RuleSet:
     )
 
 
-def limit_value(check: Check, value: float, us_first: bool) -> str:
+def limit_value(check: Limit, value: float, us_first: bool) -> str:
     """Return a number of a check with the units of its measure."""
     match check.measure:
         case Measure.ANGLE_DEG:
@@ -108,10 +109,10 @@ def limit_value(check: Check, value: float, us_first: bool) -> str:
             return number(value, 3)
 
 
-def limit_words(check: Check, us_first: bool) -> str:
+def limit_words(check: Limit, us_first: bool) -> str:
     """Return a limit that is not satisfied: quantity, value, what would do, clause."""
-    value, most = (limit_value(check, v, us_first) for v in (check.value, check.limit))
-    wanted = f"at most {most} is permitted" if check.at_most else f"at least {most} is required"
+    value, most = (limit_value(check, v, us_first) for v in (check.found, check.limit))
+    wanted = f"at least {most} is required" if check.is_at_least else f"at most {most} is permitted"
     title = check.title[0].lower() + check.title[1:]
     return f"{title}: {value}; {wanted} ({check.provision.clause})"
 
@@ -154,7 +155,7 @@ def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Findin
         yield from _of_array(data, rules, index, array)
 
 
-def _limit(check: Check, section: str, row: int, us_first: bool) -> Iterator[Finding]:
+def _limit(check: Limit, section: str, row: int, us_first: bool) -> Iterator[Finding]:
     if not check.ok:
         place = Place(section, row, _FIELDS[check.key]) if check.key in _FIELDS else None
         text = f"{limit_words(check, us_first)}: {Verdict.NG.value}"
@@ -165,7 +166,7 @@ def _prescriptive(
     data: ProjectInput,
     index: int,
     route: Route,
-    analysis: Sequence[Check],
+    analysis: Sequence[Limit],
     us_first: bool,
     lacking: str,
 ) -> Iterator[Finding]:

@@ -49,7 +49,8 @@ from report.sheet.schema import Array, ProjectInput
 from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance
 from solver.rules import provisions
-from solver.rules.provisions import Check, RuleSet
+from solver.rules.limit import Limit
+from solver.rules.provisions import RuleSet
 from solver.rules.spectra import RequiredSpectrum
 
 THREADS = 2
@@ -92,7 +93,7 @@ class Assessment:
     horizontal_target: RequiredSpectrum
     vertical_target: RequiredSpectrum
     targets: Targets
-    building_checks: tuple[Check, ...]
+    building_checks: tuple[Limit, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
     linked: tuple[LinkedArray, ...]

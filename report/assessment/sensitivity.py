@@ -22,7 +22,7 @@ from report.assessment.runs import MotionRun
 from report.memoized import memoized
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status
 from solver.rivals.methods import METHODS, Method
-from solver.rules.provisions import Check
+from solver.rules.limit import Limit
 from solver.sliding.checked import slide
 
 """Fraction by which the friction coefficient is decreased and increased."""
@@ -117,7 +117,7 @@ class Accuracy:
         return tuple(after for before, after in pairs if before.ok and not after.ok)
 
     @property
-    def newly_limited(self) -> tuple[tuple[ArrayAssessment, Check], ...]:
+    def newly_limited(self) -> tuple[tuple[ArrayAssessment, Limit], ...]:
         """Limits of the routes taken that are satisfied as given but not with less friction."""
         pairs = zip(self.given.arrays, self.less.arrays, strict=True)
         return tuple(

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from solver.records.acceptance_row import Consequence
+from solver.rules.limit import Consequence
 
 
 class Verdict(StrEnum):

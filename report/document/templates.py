@@ -24,7 +24,7 @@ from report.words.counts import capitalized, counted, joined, spelled
 from report.words.formats import general, percent, scientific, seconds
 from report.words.letters import below_mm, lettered, power_above
 from report.words.units import Quantity, digits_down, digits_up, number
-from solver.rules.provisions import Check
+from solver.rules.limit import Limit
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -115,7 +115,7 @@ def _clause(context: Context, key: str) -> str:
 
 
 @pass_context
-def _of_check(context: Context, value: float, check: Check) -> str:
+def _of_check(context: Context, value: float, check: Limit) -> str:
     """Return a number of a check with the units of its measure."""
     return limit_value(check, value, context["p"].fmt.us_first)
 

@@ -13,8 +13,7 @@ from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.entities.shown import Entity
 from report.sheet.findings import Level, located
-from solver.records.acceptance_row import AcceptanceRow, Consequence
-from solver.rules.provisions import Check
+from solver.rules.limit import Consequence, Limit
 
 
 class FindingResult(Entity):
@@ -49,30 +48,30 @@ def finding_results(assessment: Assessment) -> Iterator[FindingResult]:
         yield FindingResult.of(finding, cell=cell)
 
 
-def limit(check: Check) -> dict[str, Any]:
-    """Return a limit of the rule set, with the unit in the keys."""
-    unit = {"deg": "_deg", "m": "_m", "count": "", "": ""}[check.measure]
+def limit(row: Limit) -> dict[str, Any]:
+    """Return a limit of the rule set."""
     return {
-        "title": check.title,
-        f"found{unit}": check.value,
-        f"limit{unit}": check.limit,
-        "clause": check.provision.clause,
-        "is_overridden": bool(check.provision.reason),
-        "ok": check.ok,
-        "by_exception": check.passes_by_exception,
+        **_compared(row),
+        "clause": row.provision.clause,
+        "is_overridden": bool(row.provision.reason),
+        "ok": row.ok,
+        "by_exception": row.passes_by_exception,
     }
 
 
-def acceptance(row: AcceptanceRow) -> dict[str, Any]:
-    """Return a limit on the motions, with the unit in the keys."""
-    unit = "_s" if row.unit == "s" else ""
+def acceptance(row: Limit) -> dict[str, Any]:
+    """Return a limit on the motions."""
     return {
-        "title": row.title,
-        f"found{unit}": row.found,
-        f"limit{unit}": row.limit,
+        **_compared(row),
         "is_at_least": row.is_at_least,
         "worst": row.worst,
         "is_in_no_code": row.is_program_limit,
-        "ok": row.satisfied,
+        "ok": row.ok,
         "consequence": row.consequence,
     }
+
+
+def _compared(row: Limit) -> dict[str, Any]:
+    """Return the value found and the limit, with the unit in the keys."""
+    unit = f"_{row.measure.unit}".rstrip("_")
+    return {"title": row.title, f"found{unit}": row.found, f"limit{unit}": row.limit}

@@ -17,21 +17,21 @@ from report.sheet.schema import MotionInput
 from report.typeset.equations import symbol
 from report.words.units import number
 from solver.records.acceptance import Acceptance, MotionStrength
-from solver.records.acceptance_row import AcceptanceRow
+from solver.rules.limit import Limit, Measure
 
 _COMPONENTS = ("x", "y", "z")
 _PAIRS = ("x-y", "x-z", "y-z")
-_PLACES = {"count": 0, "s": 1, "": 2}
+_PLACES = {Measure.COUNT: 0, Measure.TIME_S: 1, Measure.PLAIN: 2}
 
 
 def acceptance_table(package: PackageData) -> Table:
     """Return every limit on the motions: found, limit, where, OK or what follows."""
     columns = (
         (words("Limit", 4.75), lambda row: f"{row.title} *" if row.is_program_limit else row.title),
-        (text("Found", share=0.7), lambda row: _found(row) + _unit(row)),
+        (text("Found", share=0.7), _found),
         (text("Limit value", share=0.95), _limit),
         (words("Worst", 1.5), lambda row: row.worst or "—"),
-        (words("Result", 1.05), lambda row: verdict(row.satisfied, ("OK", row.consequence.value))),
+        (words("Result", 1.05), lambda row: verdict(row.ok, ("OK", row.consequence.value))),
     )
     rows, caption = (
         package.assessment.acceptance.rows,
@@ -40,20 +40,16 @@ def acceptance_table(package: PackageData) -> Table:
     return listed(rows, columns, caption, package.fmt, kind="compact")
 
 
-def _unit(row: AcceptanceRow) -> str:
-    return " s" if row.unit == "s" else ""
+def _limit(row: Limit) -> str:
+    return f"{row.sign} {number(row.limit, _PLACES[row.measure])} {row.measure.unit}".rstrip()
 
 
-def _limit(row: AcceptanceRow) -> str:
-    sign = "≥" if row.is_at_least else "≤"
-    return f"{sign} {number(row.limit, _PLACES[row.unit])}{_unit(row)}"
-
-
-def _found(row: AcceptanceRow) -> str:
+def _found(row: Limit) -> str:
     """Return the value found, with decimals enough that a miss never rounds onto its limit."""
-    least = _PLACES[row.unit]
+    least = _PLACES[row.measure]
     apart = (k for k in range(least, 9) if round(row.found, k) != round(row.limit, k))
-    return number(row.found, least if row.satisfied else next(apart, 9))
+    shown = number(row.found, least if row.ok else next(apart, 9))
+    return f"{shown} {row.measure.unit}".rstrip()
 
 
 def lowest_between(

@@ -20,7 +20,7 @@ from report.pages.parts import PackageData, check_value
 from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Status
-from solver.rules.provisions import Check
+from solver.rules.limit import Limit
 from solver.sliding.least_model import Model
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
@@ -163,8 +163,8 @@ def _change(value: float, given: float) -> str:
     return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
 
 
-def _value_and_limit(package: PackageData, check: Check) -> tuple[str, str]:
-    value, limit = (check_value(check, v, package.fmt) for v in (check.value, check.limit))
+def _value_and_limit(package: PackageData, check: Limit) -> tuple[str, str]:
+    value, limit = (check_value(check, v, package.fmt) for v in (check.found, check.limit))
     return value, limit + dagger(check.provision)
 
 

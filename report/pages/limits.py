@@ -15,8 +15,8 @@ from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import NG, OK, PackageData, check_value, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.findings import Level, lines
-from solver.records.acceptance_row import Consequence
-from solver.rules.provisions import Basis, Check
+from solver.rules.limit import Consequence, Limit
+from solver.rules.provisions import Basis
 
 EXCEPTED = "permitted*"
 """Verdict on a value beyond a limit that the rule set permits to be exceeded."""
@@ -71,20 +71,20 @@ def _requirements(package: PackageData) -> Table:
 def check_table(
     caption: str,
     package: PackageData,
-    checks: Sequence[tuple[str, Check]],
+    checks: Sequence[tuple[str, Limit]],
     outcomes: tuple[str, str] = (OK, NG),
 ) -> Table:
     """Return limits and values of the project; `outcomes` are satisfied and not satisfied."""
     fmt = package.fmt
 
-    def limit(check: Check) -> str:
+    def limit(check: Limit) -> str:
         return check_value(check, check.limit, fmt) + dagger(check.provision)
 
     columns = (
         (words("Item", 0.9), lambda row: row[0]),
         (words("Quantity", 3.3), lambda row: row[1].title),
-        (text("Value", share=1.5), lambda row: check_value(row[1], row[1].value, fmt)),
-        (centered("", 0.3), lambda row: _sign(row[1])),
+        (text("Value", share=1.5), lambda row: check_value(row[1], row[1].found, fmt)),
+        (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
         (text("Limit", share=1.6), lambda row: limit(row[1])),
         (words("Clause", 1.6), lambda row: row[1].provision.clause + dagger(row[1].provision)),
         (
@@ -95,12 +95,6 @@ def check_table(
         ),
     )
     return listed(checks, columns, caption, fmt)
-
-
-def _sign(check: Check) -> str:
-    if check.passes_by_exception:
-        return ">"
-    return "≤" if check.at_most else "≥"
 
 
 def limits(package: PackageData) -> Mapping[str, object]:

@@ -20,7 +20,8 @@ from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
 from report.provenance.files import fingerprint
-from solver.rules.provisions import Basis, Check
+from solver.rules.limit import Limit
+from solver.rules.provisions import Basis
 
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
@@ -43,7 +44,7 @@ def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
     return Markup('<b class="{}">{}</b>').format(*(("ok", good) if ok else ("ng", bad)))
 
 
-def check_value(check: Check, value: float, fmt: UnitFormat) -> str:
+def check_value(check: Limit, value: float, fmt: UnitFormat) -> str:
     """Return a number of a check with the units of its measure."""
     return limit_value(check, value, fmt.us_first)
 
@@ -79,7 +80,7 @@ class PackageData(Marked):
         return sum(len(motion.runs) for item in self.assessment.arrays for motion in item.motions)
 
     @property
-    def checks(self) -> tuple[tuple[str, Check], ...]:
+    def checks(self) -> tuple[tuple[str, Limit], ...]:
         """Every limit with the item that it applies to."""
         given = self.assessment
         return (

@@ -11,8 +11,7 @@ from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.assessment.verdict import BY_CONSEQUENCE, Row, Verdict
 from report.results.sheets import Pages, write_headings
-from solver.records.acceptance_row import AcceptanceRow
-from solver.rules.provisions import Check
+from solver.rules.limit import Limit
 
 _HEADINGS = ("Item", "Requirement", "Found", "Required", "Basis", "Verdict", "What must be done")
 
@@ -37,7 +36,8 @@ def _rows(assessment: Assessment) -> Iterator[tuple[str, ...]]:
     for item in assessment.arrays:
         for check in item.limits:
             yield _limit(item.id, check)
-    yield from map(_on_motions, assessment.acceptance.rows)
+    for check in assessment.acceptance.rows:
+        yield _limit("Motions", check)
 
 
 def _requirement(row: Row) -> tuple[str, ...]:
@@ -45,31 +45,14 @@ def _requirement(row: Row) -> tuple[str, ...]:
     return (subject, row.title, row.found, row.limit, row.basis, row.verdict.word, row.remedy)
 
 
-def _limit(item: str, check: Check) -> tuple[str, ...]:
-    unit = {"deg": " deg", "m": " m", "count": "", "": ""}[check.measure]
-    sign = "≤" if check.at_most else "≥"
-    result = Verdict.OK if check.ok else Verdict.NG
-    by_exception = f"over the limit, permitted: {check.provision.note}"
+def _limit(item: str, row: Limit) -> tuple[str, ...]:
+    found, limit = (f"{v:.6g} {row.measure.unit}".rstrip() for v in (row.found, row.limit))
     return (
         item,
-        check.title,
-        f"{check.value:.6g}{unit}",
-        f"{sign} {check.limit:.6g}{unit}{OVERRIDDEN if check.provision.reason else ''}",
-        check.provision.clause,
-        result.word,
-        by_exception if check.passes_by_exception else "",
-    )
-
-
-def _on_motions(row: AcceptanceRow) -> tuple[str, ...]:
-    unit = " s" if row.unit == "s" else ""
-    worst = f" ({row.worst})" if row.worst else ""
-    return (
-        "Motions",
         row.title,
-        f"{row.found:.6g}{unit}{worst}",
-        f"{'≥' if row.is_at_least else '≤'} {row.limit:.6g}{unit}",
-        "limit of this program" if row.is_program_limit else "limit on motions for analysis",
-        (Verdict.OK if row.satisfied else BY_CONSEQUENCE[row.consequence]).word,
-        "",
+        found + (f" ({row.worst})" if row.worst else ""),
+        f"{row.sign} {limit}{OVERRIDDEN if row.provision.reason else ''}",
+        row.provision.clause,
+        (Verdict.OK if row.ok else BY_CONSEQUENCE[row.consequence]).word,
+        f"over the limit, permitted: {row.provision.note}" if row.passes_by_exception else "",
     )

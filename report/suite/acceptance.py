@@ -12,7 +12,7 @@ from typing import Any
 from report.suite.inputs import SuiteTargets
 from solver.model import Motion
 from solver.records.acceptance import Acceptance, acceptance
-from solver.records.acceptance_row import AcceptanceRow
+from solver.rules.limit import Limit
 from solver.synthesis import SuiteMotion, target_sa_g
 
 
@@ -39,31 +39,29 @@ def _motion(name: str, given: SuiteMotion) -> Motion:
     )
 
 
-def acceptance_lines(rows: Sequence[AcceptanceRow]) -> list[str]:
+def acceptance_lines(rows: Sequence[Limit]) -> list[str]:
     """Return a line for each row: OK or what follows, title, value found, limit, where."""
     return [
-        f"{'OK' if row.satisfied else row.consequence.value}: {row.title}: "
-        f"{row.found:.4g}{_unit(row)}, {'at least' if row.is_at_least else 'at most'} "
-        f"{row.limit:.4g}{_unit(row)}{f' ({row.worst})' if row.worst else ''}"
+        f"{'OK' if row.ok else row.consequence.value}: {row.title}: "
+        f"{row.found:.4g} {row.measure.unit}".rstrip()
+        + f", {'at least' if row.is_at_least else 'at most'} "
+        + f"{row.limit:.4g} {row.measure.unit}".rstrip()
+        + f"{f' ({row.worst})' if row.worst else ''}"
         f"{'; limit of this program, in no code' if row.is_program_limit else ''}"
         for row in rows
     ]
 
 
-def _unit(row: AcceptanceRow) -> str:
-    return " s" if row.unit == "s" else ""
-
-
-def acceptance_facts(rows: Sequence[AcceptanceRow]) -> list[dict[str, Any]]:
+def acceptance_facts(rows: Sequence[Limit]) -> list[dict[str, Any]]:
     """Return the rows for suite.json."""
     return [
         {
             "title": row.title,
             "found": row.found,
             "limit": row.limit,
-            "unit": row.unit,
+            "unit": row.measure.value,
             "is_at_least": row.is_at_least,
-            "satisfied": row.satisfied,
+            "satisfied": row.ok,
             "worst": row.worst,
             "is_ours": row.is_program_limit,
             "consequence": row.consequence.value,

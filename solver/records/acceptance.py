@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from solver.model import Motion
-from solver.records.acceptance_row import AcceptanceRow, Consequence
 from solver.records.measures import Strength, correlation, strength
 from solver.records.record import Record
 from solver.records.spectrum_acceptance import (
@@ -22,6 +21,7 @@ from solver.records.spectrum_acceptance import (
     spectrum_ratios,
     spectrum_rows,
 )
+from solver.rules.limit import Consequence, Limit, Measure
 
 LEAST_MOTIONS = 3
 STRONG_S = 20.0
@@ -60,11 +60,11 @@ class Acceptance:
 
     Attributes
     ----------
-    rows : tuple of AcceptanceRow
+    rows : tuple of Limit
     motions : tuple of MotionStrength
     """
 
-    rows: tuple[AcceptanceRow, ...]
+    rows: tuple[Limit, ...]
     motions: tuple[MotionStrength, ...]
 
     @property
@@ -73,9 +73,9 @@ class Acceptance:
         return not any(row.consequence is Consequence.NG for row in self.missed)
 
     @property
-    def missed(self) -> tuple[AcceptanceRow, ...]:
+    def missed(self) -> tuple[Limit, ...]:
         """The rows that are not satisfied."""
-        return tuple(row for row in self.rows if not row.satisfied)
+        return tuple(row for row in self.rows if not row.ok)
 
 
 def acceptance(
@@ -132,31 +132,30 @@ def motion_strength(motion: Motion, hold_s: float) -> MotionStrength:
     )
 
 
-def _count(motions: Sequence[Motion]) -> AcceptanceRow:
-    return AcceptanceRow(
+def _count(motions: Sequence[Motion]) -> Limit:
+    return Limit(
         title="Number of motions",
         found=float(len(motions)),
         limit=float(LEAST_MOTIONS),
         is_at_least=True,
-        worst="",
-        unit="count",
+        measure=Measure.COUNT,
     )
 
 
-def _components(found: Sequence[MotionStrength]) -> AcceptanceRow:
+def _components(found: Sequence[MotionStrength]) -> Limit:
     fewest = min(found, key=lambda motion: len(motion.strengths))
     missing = [name for name in COMPONENTS if name not in fewest.strengths]
-    return AcceptanceRow(
+    return Limit(
         title="Number of components of each motion: two horizontal and the vertical together",
         found=float(len(fewest.strengths)),
         limit=float(len(COMPONENTS)),
         is_at_least=True,
         worst=f"{fewest.id}, no {' and no '.join(missing)}" if missing else "",
-        unit="count",
+        measure=Measure.COUNT,
     )
 
 
-def _strong_rows(found: Sequence[MotionStrength]) -> Iterator[AcceptanceRow]:
+def _strong_rows(found: Sequence[MotionStrength]) -> Iterator[Limit]:
     holds = [(motion.hold_s, motion.id) for motion in found if motion.is_generated]
     if holds:
         title = "Strong motion of generated motions: hold of the envelope"
@@ -174,20 +173,20 @@ def _strong_rows(found: Sequence[MotionStrength]) -> Iterator[AcceptanceRow]:
 
 def _strong_row(
     title: str, durations: Sequence[tuple[float, str]], consequence: Consequence
-) -> AcceptanceRow:
+) -> Limit:
     shortest_s, worst = min(durations)
-    return AcceptanceRow(
+    return Limit(
         title=title,
         found=shortest_s,
         limit=STRONG_S,
-        unit="s",
+        measure=Measure.TIME_S,
         is_at_least=True,
         worst=worst,
         consequence=consequence,
     )
 
 
-def _correlation_row(found: Sequence[MotionStrength]) -> Iterator[AcceptanceRow]:
+def _correlation_row(found: Sequence[MotionStrength]) -> Iterator[Limit]:
     pairs = [
         (abs(value), f"{motion.id} {pair}")
         for motion in found
@@ -196,7 +195,7 @@ def _correlation_row(found: Sequence[MotionStrength]) -> Iterator[AcceptanceRow]
     ]
     if pairs:
         value, worst = max(pairs)
-        yield AcceptanceRow(
+        yield Limit(
             title="Correlation of two components of generated motions, absolute value",
             found=value,
             limit=MOST_CORRELATION,

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.model import Floats, Motion
-from solver.records.acceptance_row import AcceptanceRow
 from solver.records.record import UNITS
 from solver.records.spectrum import response_spectrum
+from solver.rules.limit import MOTIONS, PROGRAM, Limit, Measure
+from solver.rules.rulesets import Provision
 
 COMPONENTS = ("x", "y", "z")
 """Names of the components of a motion: two horizontal ones and the vertical."""
@@ -131,7 +132,7 @@ def _spectrum_g(record: bytes, dt_s: float) -> Floats:
     return spectrum
 
 
-def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[AcceptanceRow]:
+def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:
     """Yield the rows on spectra, each with its worst component; none without a target.
 
     From 1.3 to 33.3 Hz the acceptance of AC156 as a test laboratory reads it: every point at 0.90
@@ -154,9 +155,9 @@ def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[AcceptanceRow]:
     if found := _compared(ratios, _IS_SLIDING):
         band = f"0.1 to 1.3 Hz{_extent(found, _IS_SLIDING)}"
         title = f"Spectrum / target at {N_SLIDING} points, {band}, each component"
-        yield _least(title, found, _IS_SLIDING, is_program_limit=True)
+        yield _least(title, found, _IS_SLIDING, provision=PROGRAM)
         title = f"Spectrum / target at {N_SLIDING} points, {band}, mean of the motions"
-        yield _least(title, _means(found), _IS_SLIDING, FULL_RATIO, is_program_limit=True)
+        yield _least(title, _means(found), _IS_SLIDING, FULL_RATIO, provision=PROGRAM)
 
 
 def _sets(points: NDArray[np.bool_]) -> Sequence[NDArray[np.bool_]]:
@@ -183,28 +184,28 @@ def _least(
     points: NDArray[np.bool_],
     limit: float = LEAST_RATIO,
     *,
-    is_program_limit: bool = False,
-) -> AcceptanceRow:
+    provision: Provision = MOTIONS,
+) -> Limit:
     found, worst = min(each.least(points) for each in ratios)
-    return AcceptanceRow(
+    return Limit(
         title=title,
         found=found,
         limit=limit,
         is_at_least=True,
         worst=worst,
-        is_program_limit=is_program_limit,
+        provision=provision,
     )
 
 
-def _most(title: str, limit: int, counts: Sequence[tuple[int, str]]) -> AcceptanceRow:
+def _most(title: str, limit: int, counts: Sequence[tuple[int, str]]) -> Limit:
     count, worst = max(counts, key=lambda found: found[0])
-    return AcceptanceRow(
+    return Limit(
         title=title,
         found=float(count),
         limit=float(limit),
         is_at_least=False,
         worst=worst,
-        unit="count",
+        measure=Measure.COUNT,
     )
 
 

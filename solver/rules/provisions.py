@@ -12,16 +12,13 @@ from enum import StrEnum
 from typing import TypeVar
 
 from solver.model import Floats
+from solver.rules.limit import Limit, Measure, at_least
 from solver.rules.rulesets import ALLOWED, LowProfileLength
 from solver.rules.rulesets import OVERRIDABLE as OVERRIDABLE
 from solver.rules.rulesets import RULE_SETS as RULE_SETS
 from solver.rules.rulesets import Confidence as Confidence
 from solver.rules.rulesets import Provision as Provision
 from solver.rules.rulesets import RuleSet as RuleSet
-
-# Relative difference up to which values count as equal: a limit such as "1 in 20" is compared with
-# a slope typed as "5 percent".
-_EQUAL = 1e-9
 
 Lengths = TypeVar("Lengths", float, Floats)
 
@@ -214,7 +211,7 @@ def parapet_qualifies(rules: RuleSet, *, parapet_height_m: float, cg_height_m: f
 
     Its strength (0.2 S_DS W impact in ASCE 7) is not checked here.
     """
-    return _at_least(parapet_height_m, rules.length_m("parapet_height_in")) and _at_least(
+    return at_least(parapet_height_m, rules.length_m("parapet_height_in")) and at_least(
         parapet_height_m - cg_height_m, rules.length_m("parapet_over_cg_in")
     )
 
@@ -222,50 +219,6 @@ def parapet_qualifies(rules: RuleSet, *, parapet_height_m: float, cg_height_m: f
 def interconnection_strength_n(rules: RuleSet, *, s_ds_g: float, w1_n: float) -> float:
     """Return the interconnection strength [N] for a part of weight w1_n on its lighter side."""
     return max(rules["interconnection_sds"] * s_ds_g, rules["interconnection_min"]) * w1_n
-
-
-class Measure(StrEnum):
-    """Quantity of a check, which determines its units and format."""
-
-    ANGLE_DEG = "deg"
-    LENGTH_M = "m"
-    COUNT = "count"
-    PLAIN = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Check:
-    """A value of the project compared with a limit of a rule set; NaN is never satisfied.
-
-    `may_exceed` is whether the rule set permits this project to exceed the limit.
-    """
-
-    title: str
-    value: float
-    limit: float
-    at_most: bool
-    measure: Measure
-    key: str
-    provision: Provision
-    may_exceed: bool = False
-
-    @property
-    def ok(self) -> bool:
-        """Whether the value is permitted; one equal to the limit within rounding is."""
-        return self._is_within or self.passes_by_exception
-
-    @property
-    def passes_by_exception(self) -> bool:
-        """Whether the value is beyond the limit, which the rule set permits here."""
-        return self.may_exceed and not self._is_within and not math.isnan(self.value)
-
-    @property
-    def _is_within(self) -> bool:
-        return _at_least(*((self.limit, self.value) if self.at_most else (self.value, self.limit)))
-
-
-def _at_least(value: float, limit: float) -> bool:
-    return value >= limit - _EQUAL * abs(limit)
 
 
 def required_mu(rules: RuleSet, slope_rad: float) -> float:
@@ -277,7 +230,7 @@ def required_mu(rules: RuleSet, slope_rad: float) -> float:
     return rules["prescriptive_min_mu"] + 0.7 * rise
 
 
-def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tuple[Check, ...]:
+def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tuple[Limit, ...]:
     """Return the checks of the limits on the building, which apply to both routes."""
     return (
         _check(rules, "Risk category (I = 1 to IV = 4)", risk_category, "max_risk_category"),
@@ -287,7 +240,7 @@ def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tupl
 
 def array_checks(
     rules: RuleSet, *, cg_height_m: float, support_spacing_m: float, base_m: float, slope_rad: float
-) -> tuple[Check, ...]:
+) -> tuple[Limit, ...]:
     """Return the checks of an array that apply to both routes: low profile, and slope by the IBC.
 
     Parameters
@@ -317,7 +270,7 @@ def array_checks(
     )
 
 
-def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple[Check, ...]:
+def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple[Limit, ...]:
     """Return the checks of the limits of the prescriptive route."""
     return (
         _check(
@@ -340,7 +293,7 @@ def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple
 
 def analysis_checks(
     rules: RuleSet, *, slope_rad: float, n_motions: int, sdc: str, is_reviewed: bool
-) -> tuple[Check, ...]:
+) -> tuple[Limit, ...]:
     """Return the checks of the limits of the analysis route.
 
     ASCE 7, 13.6.12: steeper roofs in SDC A, B, C with peer review. The limit of the IBC, which
@@ -373,12 +326,12 @@ def _check(
     *,
     limit: float | None = None,
     measure: Measure = Measure.COUNT,
-) -> Check:
-    return Check(
+) -> Limit:
+    return Limit(
         title=title,
-        value=value,
+        found=value,
         limit=rules[key] if limit is None else limit,
-        at_most=ALLOWED[key].is_most,
+        is_at_least=not ALLOWED[key].is_most,
         measure=measure,
         key=key,
         provision=rules.values[key],

@@ -8,7 +8,7 @@ import scenes
 import stand_in
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.verdict import Verdict, worst
-from solver.records.acceptance_row import Consequence
+from solver.rules.limit import Consequence
 from stand_in import FOOT
 
 

@@ -8,7 +8,7 @@ from report.assessment.overrides import OVERRIDDEN, override_rows
 from report.assessment.precheck import limits_before_runs
 from report.assessment.verdict import Verdict
 from report.sheet.fields import Place
-from solver.records.acceptance_row import Consequence
+from solver.rules.limit import Consequence
 
 
 def overrides(**values):

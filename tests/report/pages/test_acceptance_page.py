@@ -17,8 +17,8 @@ from report.motions.targets import TargetSpectrum, targets
 from report.sheet.archive import open_book
 from report.sheet.schema import MotionInput, RecordedAt
 from solver.records.acceptance import Acceptance
-from solver.records.acceptance_row import AcceptanceRow
 from solver.records.record import Record, write_record
+from solver.rules.limit import Limit
 
 
 def limits(given, **evidence):
@@ -69,14 +69,14 @@ def test_a_part_of_a_record_has_no_longer_its_envelope(tmp_path, changes, hold_s
     [(0.8999, "0.8999", "NG"), (0.899999, "0.899999", "NG"), (0.9, "0.90", "OK")],
 )
 def test_a_miss_never_rounds_onto_its_limit(value, shown, word):
-    row = AcceptanceRow(title="Ratio", found=value, limit=0.9, is_at_least=True, worst="M1 x")
+    row = Limit(title="Ratio", found=value, limit=0.9, is_at_least=True, worst="M1 x")
     made = limits(Acceptance(rows=(row,), motions=())).row("Ratio")
     assert [*made.values()][1:] == [shown, "≥ 0.90", "M1 x", word]
 
 
 def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
     done = scenes.package().assessment
-    row = AcceptanceRow(title="Spectrum / target, 1.3 to 33.3 Hz, each component", found=1.0,
+    row = Limit(title="Spectrum / target, 1.3 to 33.3 Hz, each component", found=1.0,
                         limit=0.9, is_at_least=True, worst="M1 x")  # fmt: skip
     given = replace(done, acceptance=Acceptance(rows=(row,), motions=()))
     part, *others = spectra(done)

@@ -14,7 +14,7 @@ import stand_in
 from printed import printed
 from report.pages.symbols import SYMBOLS
 from report.typeset.pdf import lay_out
-from solver.records.acceptance_row import Consequence
+from solver.rules.limit import Consequence
 
 MOTIONS = scenes.motions(3, seconds=4.0)
 

@@ -179,7 +179,7 @@ def test_json_has_neighbors_that_are_missing_or_contradict_and_the_limits_on_mot
     assert missing == [near.is_missing for near in assessment.neighbors]
     assert rows["A1", "RTU-1"]["contradictions"]
     satisfied = [row["ok"] for row in document["acceptance"]]
-    assert satisfied == [row.satisfied for row in assessment.acceptance.rows]
+    assert satisfied == [row.ok for row in assessment.acceptance.rows]
     assert {"found_s", "limit_s"} <= {key for row in document["acceptance"] for key in row}
 
 

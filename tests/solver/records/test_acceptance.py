@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from modal import psa_g
 from solver.model import Motion
 from solver.records.acceptance import acceptance
-from solver.records.acceptance_row import Consequence
 from solver.records.record import read_only
 from solver.records.spectrum_acceptance import POINTS_HZ
+from solver.rules.limit import Consequence
 
 G = 9.80665
 DT_S, N = 0.02, 301
@@ -93,7 +93,7 @@ class TestSpectrum:
         ):
             row = only(found, words)
             assert row.found == pytest.approx(value, rel=1e-4)
-            assert (row.satisfied, row.is_program_limit) == (satisfied, is_program_limit)
+            assert (row.ok, row.is_program_limit) == (satisfied, is_program_limit)
             assert worst_at is None or row.worst == f"M1 x, {POINTS_HZ[worst_at]:.3g} Hz"
         assert only(found, "Neighboring").limit == 1.0
         spectral = [row for row in found.rows if "target" in row.title]
@@ -103,8 +103,8 @@ class TestSpectrum:
     @pytest.mark.parametrize(("ratio", "ok"), [(0.899, False), (0.901, True)])
     def test_a_single_point_may_fall_to_nine_tenths(self, alone, spectrum_g, ratio, ok):
         found = accepted(alone, target=below(spectrum_g, {121: ratio}))
-        assert only(found, "1.3 to 33.3 Hz, each").satisfied is ok
-        assert only(found, "Neighboring").satisfied
+        assert only(found, "1.3 to 33.3 Hz, each").ok is ok
+        assert only(found, "Neighboring").ok
         assert only(found, ", 1.3 to 8.3 Hz").found == 1.0
 
     def test_points_a_sixth_of_an_octave_apart_count_wherever_the_first_lies(
@@ -134,7 +134,7 @@ class TestSpectrum:
         each = np.mean([1.2 * np.ones(209), scale * ratio], axis=0)
         each[40] = 0.5 * (0.95 + scale * ratio[40])
         assert mean.found == pytest.approx(each[:93].min(), rel=1e-4)
-        assert mean.satisfied
+        assert mean.ok
         assert mean.worst.startswith("mean of x")
 
     def test_the_vertical_has_a_target_of_its_own(self, spectrum_g):
@@ -151,7 +151,7 @@ class TestSpectrum:
         found = accepted(alone, target=shorter)
         low = only(found, "0.1 to 1.3 Hz as far as the target is given, each")
         assert low.found == pytest.approx(0.93, rel=1e-4)
-        assert only(found, "1.3 to 33.3 Hz, each").satisfied
+        assert only(found, "1.3 to 33.3 Hz, each").ok
         assert not any("target" in row.title for row in accepted(alone).rows)
 
     @settings(max_examples=8)
@@ -178,7 +178,7 @@ class TestMotions:
         for count, ok in ((2, False), (3, True)):
             found = accepted(*several[:count])
             row = only(found, "Number of motions")
-            assert (row.found, row.limit, row.satisfied) == (count, 3.0, ok)
+            assert (row.found, row.limit, row.ok) == (count, 3.0, ok)
             assert row.consequence is Consequence.NG
 
     def test_a_motion_that_lacks_components_is_named_with_them(self):
@@ -189,7 +189,7 @@ class TestMotions:
             (NO_Y | NO_Z, "M2, no y and no z", 1),
         ):
             row = only(accepted(full, motion("M2", 2, **changes)), "components")
-            assert (row.found, row.worst, row.satisfied) == (count, words, count == 3)
+            assert (row.found, row.worst, row.ok) == (count, words, count == 3)
 
 
 class TestStrongMotion:
@@ -200,14 +200,14 @@ class TestStrongMotion:
         found = accepted(record)
         row = only(found, "records")
         assert row.found == pytest.approx(27.0, rel=1e-12)
-        assert row.satisfied
+        assert row.ok
         # pi / (2 g) times a^2 times the duration, 4 m2/s4 and 30 s.
         strong = found.motions[0].strengths["x"]
         assert strong.arias_mps == pytest.approx(math.pi / (2.0 * G) * 120.0, rel=1e-12)
         short = accepted(replace(record, dt_s=0.07))
         row = only(short, "records")
         assert row.found == pytest.approx(18.9, rel=1e-12)
-        assert (row.satisfied, row.unit, row.consequence) == (False, "s", Consequence.CONDITION)
+        assert (row.ok, row.measure, row.consequence) == (False, "s", Consequence.CONDITION)
         assert short.missed[-1] is row
 
     @pytest.mark.parametrize(("hold_s", "ok"), [(20.0, True), (19.9, False)])
@@ -215,7 +215,7 @@ class TestStrongMotion:
         both = [motion("M1"), motion("M2", 2)]
         found = accepted(*both, holds_s=[30.0, hold_s])
         row = only(found, "generated motions: hold")
-        assert (row.found, row.worst, row.satisfied) == (hold_s, "M2", ok)
+        assert (row.found, row.worst, row.ok) == (hold_s, "M2", ok)
         assert row.consequence is Consequence.NG
         assert not any("records" in row.title for row in found.rows)
 
@@ -234,7 +234,7 @@ class TestCorrelation:
         )
         row = only(found, "Correlation")
         assert row.found == pytest.approx(abs(share), rel=1e-12)
-        assert (row.worst, row.satisfied, row.consequence) == ("M1 x-z", ok, Consequence.NG)
+        assert (row.worst, row.ok, row.consequence) == ("M1 x-z", ok, Consequence.NG)
 
     def test_correlations_of_records_are_measured_but_not_limited(self):
         found = accepted(motion(ay_mps2=motion().ax_mps2))

@@ -7,6 +7,7 @@ import numba
 import numpy as np
 import pytest
 
+from solver.kernels import one_axis
 from solver.model import InputError, Status
 from solver.sliding.checked import slide
 from solver.sliding.sweep import STATUSES, order_alike, sweep
@@ -73,3 +74,15 @@ def test_scenes_that_yield_alike_are_neighbors():
     yields_at = [math.tan(math.atan(mu) - slope) / scale for slope, mu, scale in down]
     assert len(down) > 4
     assert yields_at == sorted(yields_at)
+
+
+def test_on_one_core_each_scene_has_its_row(noise):
+    """As a part of a study runs them: more scenes than columns of a scene."""
+    ax = noise[:300].copy()
+    ax.setflags(write=False)
+    scenes = np.array([(0.02, 0.1 * (1 + k), 1.0) for k in range(5)])
+    out = np.full((5, 4), math.nan)
+    one_axis.sweep_alone(ax, None, one_axis.bounds(ax), None, 0.01, 9.8, scenes, out)
+    for (slope, mu, _), row in zip(scenes, out, strict=True):
+        result = slide(ax, 0.01, slope_rad=slope, mu=mu, g_mps2=9.8)
+        assert row[2] == result.residual_m
