@@ -23,8 +23,8 @@ from report.assessment.verdict import Row, Verdict
 from report.motions.plausible import record_findings
 from report.motions.prepare import Shaking
 from report.motions.targets import targets
-from report.sheet.fields import Place
-from report.sheet.findings import Finding, acknowledged, limit, note
+from report.sheet.fields import Finding, Place
+from report.sheet.findings import acknowledged, limit, note
 from report.sheet.plausible import implausible
 from report.sheet.read import Sheet
 from report.sheet.schema import Array, ProjectInput

@@ -17,7 +17,7 @@ from report.cli.terminal import AS_JSON, QUIET, SCHEMA_VERSION, Progress, input_
 
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
-    from report.sheet.findings import Finding
+    from report.sheet.fields import Finding
     from report.sheet.read import Sheet
 
 STEPS = 3
@@ -164,7 +164,7 @@ def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
 
 
 def _summary(sheet: Sheet, shaking: Shaking, found: Iterable[Finding]) -> str:
-    from report.sheet.findings import Level
+    from report.sheet.fields import Level
 
     data = sheet.project
     levels = [finding.level for finding in found]

@@ -12,7 +12,8 @@ from report.assessment.precheck import findings
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.entities.shown import Entity
-from report.sheet.findings import Level, located
+from report.sheet.fields import Level
+from report.sheet.findings import located
 from solver.rules.limit import Consequence, Limit
 
 

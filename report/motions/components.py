@@ -16,7 +16,7 @@ import numpy as np
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
 from report.motions.spikes import spikes
 from report.sheet.archive import OpenBook
-from report.sheet.fields import Fault, Place
+from report.sheet.fields import Finding, Place
 from report.sheet.motion_checks import LABELS
 from report.sheet.schema import AccelUnit, Baseline, MotionInput, Scaling
 from report.sheet.unseen import Unseen
@@ -104,7 +104,9 @@ class Components:
     whole: Mapping[str, Record]
 
 
-def read_components(book: OpenBook, index: int, row: Mapping[str, Any]) -> Components | list[Fault]:
+def read_components(
+    book: OpenBook, index: int, row: Mapping[str, Any]
+) -> Components | list[Finding]:
     """Read and process the records of a motion, or return their faults.
 
     Parameters
@@ -116,7 +118,7 @@ def read_components(book: OpenBook, index: int, row: Mapping[str, Any]) -> Compo
         Fields of `report.sheet.schema.MotionInput`; one that could not be read is absent. Without
         units or time step, records are located but not read.
     """
-    faults: list[Fault] = []
+    faults: list[Finding] = []
     components: dict[str, Component] = {}
     read = cache(read_motion_file)
     for field in LABELS:
@@ -143,9 +145,11 @@ def _shortest(records: Mapping[str, Record]) -> int:
     return min(len(record.a_mps2) for record in records.values())
 
 
-def _faults(index: int, field: str, error: InputError) -> list[Fault]:
+def _faults(index: int, field: str, error: InputError) -> list[Finding]:
     place = Place("motions", index, field)
-    return [Fault(place, f"{LABELS[field]} record: {problem}") for problem in error.problems]
+    return [
+        Finding.error(place, f"{LABELS[field]} record: {problem}") for problem in error.problems
+    ]
 
 
 def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> Iterator[Component]:
@@ -164,7 +168,7 @@ def _cut(components: Mapping[str, Component], to_s: float | None) -> dict[str, R
     return {field: process(component.record, kept) for field, component in components.items()}
 
 
-def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
+def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
     """Yield components that do not match the horizontal one in time step."""
     horizontal = records["record"]
     for field, record in records.items():
@@ -174,7 +178,7 @@ def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
                 f"{label} has a time step of {record.dt_s:g} s, but the horizontal record has"
                 f" {dt_s:g} s; make them equal"
             )
-            yield Fault(Place("motions", index, field), text)
+            yield Finding.error(Place("motions", index, field), text)
 
 
 HORIZONTAL = ("record", "transverse")
@@ -185,16 +189,18 @@ _TO_A_LEVEL = {Scaling.PPA: ("record",), Scaling.TARGET: ("record", "transverse"
 
 def _unscalable(
     index: int, row: Mapping[str, Any], records: Mapping[str, Record]
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     scaling = row.get("scaling")
     for field in _TO_A_LEVEL.get(scaling, ()) if scaling else ():
         if field in records and not records[field].a_mps2.any():
             goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
             text = f"{LABELS[field]} record is all zeros and cannot be scaled to {goal}"
-            yield Fault(Place("motions", index, field), f"{text}; change the record or scaling")
+            yield Finding.error(
+                Place("motions", index, field), f"{text}; change the record or scaling"
+            )
 
 
-def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
+def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
     """Yield what is no earthquake motion, as run: too short, or without a horizontal component."""
     horizontal = records["record"]
     duration_s = (len(horizontal.a_mps2) - 1) * horizontal.dt_s
@@ -204,10 +210,10 @@ def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Fault]:
             f"horizontal record lasts {duration_s:.4g} s as run ({len(horizontal.a_mps2)} samples);"
             f" give a record of {SHORTEST_S:g} s or more"
         )
-        yield Fault(place, text)
+        yield Finding.error(place, text)
     elif not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
         which = "and transverse records are" if "transverse" in records else "record is"
-        yield Fault(place, f"horizontal {which} all zeros; give a record of the shaking")
+        yield Finding.error(place, f"horizontal {which} all zeros; give a record of the shaking")
 
 
 def _processed(
@@ -215,7 +221,7 @@ def _processed(
     row: MotionInput,
     components: Mapping[str, Component],
     records: Mapping[str, Record],
-) -> Components | list[Fault]:
+) -> Components | list[Finding]:
     # Time steps that differ by rounding error are equal from here on, and so are lengths: the
     # components of one recording often differ by a few samples at the end.
     count = _shortest(records)

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 
 from report.motions.components import RecordFile
 from report.motions.prepare import Shaking
-from report.sheet.fields import Place
-from report.sheet.findings import Finding, note, warning
+from report.sheet.fields import Finding, Place
+from report.sheet.findings import note, warning
 from report.sheet.motion_checks import LABELS
 from report.sheet.schema import ProjectInput
 

@@ -14,7 +14,7 @@ from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
 from report.motions.repeated import repeated
 from report.motions.stiff_links import stiff_links
-from report.sheet.fields import Fault, Place
+from report.sheet.fields import Finding, Place
 from report.sheet.motion_checks import LABELS
 from report.sheet.read import Sheet
 from solver.model import Motion
@@ -64,14 +64,14 @@ def prepare(sheet: Sheet) -> Shaking:
 def read_records(sheet: Sheet) -> tuple[Components, ...]:
     """Read and process the records of each motion; raises as `prepare`, but knows no roof yet."""
     by_motion: dict[int, Components] = {}
-    faults: list[Fault] = []
+    faults: list[Finding] = []
     total = 0
     for index, row in enumerate(sheet.draft["motions"]):
         total += bytes_of(sheet.book, {row[field] for field in LABELS if row.get(field)})
         if faults and total > MAX_BESIDE_FAULTS:
             break
         if total > MAX_TOGETHER:
-            faults.append(Fault(Place("motions", index, "record"), _TOO_MUCH))
+            faults.append(Finding.error(Place("motions", index, "record"), _TOO_MUCH))
             break
         match read_components(sheet.book, index, row):
             case Components() as components:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from report.motions.components import HORIZONTAL, Components
-from report.sheet.fields import DraftRow, Fault, Place, Where
+from report.sheet.fields import DraftRow, Finding, Place, Where
 from report.sheet.motion_checks import LABELS
 from solver.model import Floats
 
@@ -38,7 +38,7 @@ class _Given:
 
 def repeated(
     rows: Sequence[DraftRow], by_motion: Mapping[int, Components], where: Where
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     """Yield each motion with a horizontal record of a motion above it.
 
     Parameters
@@ -60,7 +60,7 @@ def repeated(
                 f" {where(old.place)} (equal samples, apart from scale and sign):"
                 f" {new.row['id']} is {old.row['id']} again; give each motion once"
             )
-            yield Fault(new.place, text)
+            yield Finding.error(new.place, text)
         for key, item in given:
             seen.setdefault(key, []).append(item)
 

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from report.sheet.fields import Fault, Place
+from report.sheet.fields import Finding, Place
 from report.sheet.schema import Links, ProjectInput
 from report.words.units import G_MPS2, Quantity
 from solver.model import Motion
 from solver.sliding.row import MOST_STEPS, BlockRow, least_steps
 
 
-def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault]:
+def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Finding]:
     """Yield the rows whose runs together need more than `MOST_STEPS` steps."""
     seconds = sum(
         len(motion.orientations) * motion.dt_s * len(motion.ax_mps2) for motion in motions
@@ -23,7 +23,7 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Fault
     for index, links in enumerate(data.links):
         most = _stiffest(links, weights[links.array], seconds)
         if links.stiffness_n_per_m > most:
-            yield Fault(
+            yield Finding.error(
                 Place("links", index, "stiffness_n_per_m"),
                 f"link stiffness is {_said(links.stiffness_n_per_m)}, too stiff to integrate in "
                 f"{MOST_STEPS:.0e} steps; give {_said(0.9 * most)} or less (a stiffer row moves as "

@@ -14,7 +14,8 @@ from report.pages.links import link_troubles
 from report.pages.model import model_troubles, tipping_troubles
 from report.pages.parts import NG, OK, PackageData, check_value, verdict
 from report.pages.symbols import with_symbols
-from report.sheet.findings import Level, lines
+from report.sheet.fields import Level
+from report.sheet.findings import lines
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import Basis
 

@@ -19,7 +19,8 @@ from report.entities.array import ArrayResult, array_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
 from report.pages.registry import package_data
-from report.sheet.findings import Level, lines
+from report.sheet.fields import Level
+from report.sheet.findings import lines
 from report.sheet.legacy_notes import what_is_new
 from report.sheet.schema import ModelChoice
 from report.words.units import Quantity, compared, no_less, pair, ratio, rounding

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from report.sheet.archive import OpenBook
-from report.sheet.fields import Place
-from report.sheet.findings import Finding, warning
+from report.sheet.fields import Finding, Place
+from report.sheet.findings import warning
 from report.sheet.unseen import Used
 
 _MOST_LISTED = 8

@@ -12,7 +12,7 @@ from typing import Any
 
 from report.sheet.cells import cut
 from report.sheet.conditions import REFERENCES, UNIQUE, missing
-from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
+from report.sheet.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults
 from report.sheet.plan_checks import places_of, plan_faults, shapes_of, us_first
@@ -46,7 +46,7 @@ def gap_tolerance_m(gap_m: float) -> float:
     return min(max(GAP_TOLERANCE * gap_m, low), high)
 
 
-def faults(draft: Draft, where: Where) -> list[Fault]:
+def faults(draft: Draft, where: Where) -> list[Finding]:
     """Return all inconsistencies of a draft.
 
     Parameters
@@ -74,17 +74,17 @@ def faults(draft: Draft, where: Where) -> list[Fault]:
     return [fault for check in checks for fault in check(draft, where)]
 
 
-def _tables(draft: Draft, where: Where) -> Iterator[Fault]:
+def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
     for section, noun in (("arrays", "array"), ("motions", "motion")):
         if not draft[section]:
-            yield Fault(Place(section), f"no {noun} is given; fill in at least one row")
+            yield Finding.error(Place(section), f"no {noun} is given; fill in at least one row")
 
 
-def _missing(draft: Draft, where: Where) -> Iterator[Fault]:
+def _missing(draft: Draft, where: Where) -> Iterator[Finding]:
     yield from missing(draft)
 
 
-def _ids(draft: Draft, where: Where) -> Iterator[Fault]:
+def _ids(draft: Draft, where: Where) -> Iterator[Finding]:
     # Arrays come first, so that a duplicate is reported at the object.
     for sections in UNIQUE:
         seen: dict[str, Place] = {}
@@ -92,7 +92,7 @@ def _ids(draft: Draft, where: Where) -> Iterator[Fault]:
             first = seen.setdefault(value.casefold(), place)
             if first is not place:
                 text = f"ID is '{value}', already used at {where(first)}; give a unique ID"
-                yield Fault(place, text)
+                yield Finding.error(place, text)
 
 
 def _column(draft: Draft, sections: Sequence[str], field: str) -> Iterator[tuple[Place, Any]]:
@@ -102,22 +102,22 @@ def _column(draft: Draft, sections: Sequence[str], field: str) -> Iterator[tuple
                 yield Place(section, index, field), row[field]
 
 
-def _arrays(draft: Draft, where: Where) -> Iterator[Fault]:
+def _arrays(draft: Draft, where: Where) -> Iterator[Finding]:
     for index, row in enumerate(draft["arrays"]):
         yield from _slope(index, row)
         yield from _friction(index, row)
 
 
-def _slope(index: int, row: DraftRow) -> Iterator[Fault]:
+def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
     value, unit = row.get("slope_value"), row.get("slope_unit")
     if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
         return
     most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
     text = f"slope is {value:g} {unit}; give 0 to less than {most} {unit}"
-    yield Fault(Place("arrays", index, "slope_value"), text)
+    yield Finding.error(Place("arrays", index, "slope_value"), text)
 
 
-def _friction(index: int, row: DraftRow) -> Iterator[Fault]:
+def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
     """Yield inconsistencies of velocity-dependent friction, and models that neglect it."""
     fields = ("mu", "mu_fast", "mu_static", "model")
     if any(field not in row for field in fields):
@@ -125,11 +125,11 @@ def _friction(index: int, row: DraftRow) -> Iterator[Fault]:
     mu, static, model = row["mu"], row["mu_static"], row["model"]
     if static is not None and static < mu:
         text = f"static friction is {static:g}; give the friction coefficient, {mu:g}, or more"
-        yield Fault(Place("arrays", index, "mu_static"), text)
+        yield Finding.error(Place("arrays", index, "mu_static"), text)
     if _by_speed(row) and model is not ModelChoice.CHOOSE:
         text = f"model is '{model}', which neglects velocity-dependent and static friction; select"
         more = f"{text} '{ModelChoice.CHOOSE}', or leave high-velocity and static friction blank"
-        yield Fault(Place("arrays", index, "model"), more)
+        yield Finding.error(Place("arrays", index, "model"), more)
 
 
 def _by_speed(array: DraftRow) -> list[str]:
@@ -138,14 +138,14 @@ def _by_speed(array: DraftRow) -> list[str]:
     return [name for name in ("mu_fast", "mu_static") if array.get(name) not in same]
 
 
-def _clearances(draft: Draft, where: Where) -> Iterator[Fault]:
+def _clearances(draft: Draft, where: Where) -> Iterator[Finding]:
     yield from _repeated(draft, where)
     shapes = shapes_of(draft)
     for index, row in enumerate(draft["clearances"]):
         yield from _room(index, row, shapes, draft, where)
 
 
-def _unknown(draft: Draft, where: Where) -> Iterator[Fault]:
+def _unknown(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield names of what is in no table; `plan_checks` has those of outlines."""
     for (section, field), tables in REFERENCES.items():
         if section == "outlines":
@@ -155,10 +155,10 @@ def _unknown(draft: Draft, where: Where) -> Iterator[Fault]:
         for place, value in _column(draft, (section,), field):
             if value not in ids:
                 text = f"{field} is '{value}', which is not in {sheets}; {suggestion(value, ids)}"
-                yield Fault(place, text)
+                yield Finding.error(place, text)
 
 
-def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
+def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
     seen: dict[tuple[Any, ...], int] = {}
     for index, row in enumerate(draft["clearances"]):
         key = tuple(row.get(field) for field in ("array", "object", "direction"))
@@ -168,16 +168,16 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
         if first != index:
             at = where(Place("clearances", first, "array"))
             text = f"array is '{key[0]}', with the same object and direction as at {at}; delete one"
-            yield Fault(Place("clearances", index, "array"), text)
+            yield Finding.error(Place("clearances", index, "array"), text)
 
 
 def _room(
     index: int, row: DraftRow, shapes: Mapping[str, Shape], draft: Draft, where: Where
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == other:
         text = f"object is '{other}', the array itself; give an object or another array"
-        yield Fault(Place("clearances", index, "object"), text)
+        yield Finding.error(Place("clearances", index, "object"), text)
         return
     a, b = (shapes.get(str(name)) for name in (array, other))
     if a is None or b is None or provided is None:
@@ -190,20 +190,22 @@ def _room(
     at = places_of(draft, (str(array), str(other)), where)
     if gap < -1e-9:
         text = f"provided clearance is {given}, but {array} and {other} overlap in plan; correct"
-        yield Fault(place, f"{text} their {noun} in {at}")
+        yield Finding.error(place, f"{text} their {noun} in {at}")
     elif provided > gap + gap_tolerance_m(gap):
         most = pair(max(gap, 0.0), Quantity.SIZE, is_us)
         text = f"provided clearance is {given}, but {array} and {other} are {most} apart in plan"
-        yield Fault(place, f"{text}; reduce it, or correct the {noun} in {at}")
+        yield Finding.error(place, f"{text}; reduce it, or correct the {noun} in {at}")
 
 
-def _links(draft: Draft, where: Where) -> Iterator[Fault]:
+def _links(draft: Draft, where: Where) -> Iterator[Finding]:
     arrays = {name: place for place, name in _column(draft, ("arrays",), "id")}
     seen: dict[str, Place] = {}
     for place, name in _column(draft, ("links",), "array"):
         first = seen.setdefault(name, place)
         if first is not place:
-            yield Fault(place, f"array is '{name}', already given at {where(first)}; delete one")
+            yield Finding.error(
+                place, f"array is '{name}', already given at {where(first)}; delete one"
+            )
         if name in arrays:
             yield from _one_coefficient(place, name, draft["arrays"][arrays[name].row])
     for place, text in _column(draft, ("links",), "friction"):
@@ -211,51 +213,57 @@ def _links(draft: Draft, where: Where) -> Iterator[Fault]:
         yield from _blocks(place, text, draft, where, home)
 
 
-def _one_coefficient(place: Place, name: str, array: DraftRow) -> Iterator[Fault]:
+def _one_coefficient(place: Place, name: str, array: DraftRow) -> Iterator[Finding]:
     if "mu" in array and _by_speed(array):
         text = f"array is '{name}', which has high-velocity or static friction; leave both blank on"
-        yield Fault(place, f"{text} the sheet Arrays, or delete this row")
+        yield Finding.error(place, f"{text} the sheet Arrays, or delete this row")
 
 
 def _blocks(
     place: Place, text: str, draft: Draft, where: Where, home: Place | None
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     """Yield errors in the coefficients of a row, and inconsistencies with its array."""
     mus = coefficients(text)
     if not mus:
         wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points"
-        yield Fault(place, f"block friction is '{text}'; {wanted}, such as 0.40, 0.45, 0.50")
+        yield Finding.error(
+            place, f"block friction is '{text}'; {wanted}, such as 0.40, 0.45, 0.50"
+        )
         return
     mu = draft["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
         start = f"block friction is '{text}', all {'above' if mu < min(mus) else 'below'} the"
         at = where(home._replace(field="mu"))
-        yield Fault(place, f"{start} {mu:g} at {at}; give a range that includes it, or change it")
+        yield Finding.error(
+            place, f"{start} {mu:g} at {at}; give a range that includes it, or change it"
+        )
 
 
-def _smaller_events(draft: Draft, where: Where) -> Iterator[Fault]:
+def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
     for row in draft["options"]:
         text = row.get("smaller_events", "")
         if text and not factors(text):
             wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
-            yield Fault(
+            yield Finding.error(
                 Place("options", 0, "smaller_events"),
                 f"smaller events is '{cut(text)}'; {wanted}, such as 0.50, 0.25",
             )
 
 
-def _overrides(draft: Draft, where: Where) -> Iterator[Fault]:
+def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
     seen: dict[str, Place] = {}
     for place, key in _column(draft, ("overrides",), "provision"):
         first = seen.setdefault(key, place)
         if key not in PROVISION_KEYS:
             text = f"provision is '{key}'; choose one of {', '.join(PROVISION_KEYS)}"
-            yield Fault(place, text)
+            yield Finding.error(place, text)
         elif first is not place:
-            yield Fault(place, f"provision is '{key}', already given at {where(first)}; delete one")
+            yield Finding.error(
+                place, f"provision is '{key}', already given at {where(first)}; delete one"
+            )
     for row, override in enumerate(draft["overrides"]):
         key, value = override.get("provision", ""), override.get("value")
         allowed = ALLOWED.get(key)
         if allowed and value is not None and not allowed.has(value):
             text = f"value is {value:g} for {key}; give {allowed.words}"
-            yield Fault(Place("overrides", row, "value"), text)
+            yield Finding.error(Place("overrides", row, "value"), text)

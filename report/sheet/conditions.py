@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from report.sheet.fields import Draft, DraftRow, Fault, Place, entries
+from report.sheet.fields import Draft, DraftRow, Finding, Place, entries
 from report.sheet.schema import ROOF, SECTIONS, SIDES, ObjectKind, RecordedAt, Scaling
 
 Refer = Callable[[str], str]
@@ -174,14 +174,16 @@ ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 """Fields of which the second is larger, where a table has them."""
 
 
-def missing(draft: Draft) -> Iterator[Fault]:
+def missing(draft: Draft) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
     for (section, field), required in REQUIRED.items():
         label = _spoken(section, field)
         for index, row in enumerate(draft[section] if required.wish else ()):
             is_blank = field in row and row[field] in (None, "")
             if is_blank and required.when.holds(row, draft):
-                yield Fault(Place(section, index, field), f"{label} is missing; {required.wish}")
+                yield Finding.error(
+                    Place(section, index, field), f"{label} is missing; {required.wish}"
+                )
 
 
 def _spoken(section: str, field: str) -> str:

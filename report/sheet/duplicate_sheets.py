@@ -10,8 +10,8 @@ from collections.abc import Iterator, Mapping, Set
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.archive import OpenBook
-from report.sheet.fields import Place, Section, entries
-from report.sheet.findings import Finding, warning
+from report.sheet.fields import Finding, Place, Section, entries
+from report.sheet.findings import warning
 from report.sheet.positions import label_key, labels_of, scanned, sheets_of
 from report.sheet.schema import SECTIONS
 

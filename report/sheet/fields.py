@@ -29,11 +29,45 @@ class Place(NamedTuple):
     field: str = ""
 
 
-class Fault(NamedTuple):
-    """An input error at a place: what was found, and what would be accepted."""
+class Level(StrEnum):
+    """Weight of a finding: an error stops the work."""
 
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finding:
+    """Something in a workbook that is refused, or permitted and perhaps not meant.
+
+    Attributes
+    ----------
+    level : Level
+    id : str
+        By which the sheet Acknowledged answers a warning; empty for a limit, which no reason lifts,
+        and for all others.
+    place : Place
+        The cell to look at.
+    text : str
+        What was found, and what would do.
+    reason : str
+        From the sheet Acknowledged; empty if not acknowledged.
+    cell : str
+        Address, for a cell that is no input; empty for that of the place.
+    """
+
+    level: Level
     place: Place
     text: str
+    id: str = ""
+    reason: str = ""
+    cell: str = ""
+
+    @classmethod
+    def error(cls, place: Place, text: str) -> Finding:
+        """Return an input error: what was found, and what would be accepted."""
+        return cls(level=Level.ERROR, place=place, text=text)
 
 
 DraftRow = Mapping[str, Any]

@@ -1,54 +1,17 @@
 """Warnings on the input, which an engineer may answer with a reason, and notes.
 
-Owns levels, ids and acknowledgments; an error is a `Fault` instead, and stops the work. Read
-`report.sheet.plausible` next.
+Owns ids and acknowledgments. Read `report.sheet.plausible` next.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
-from report.sheet.fields import Place
+from report.sheet.fields import Finding, Level, Place
 from report.sheet.grouped import listed
 from report.sheet.references import suggestion
 from report.sheet.schema import SECTIONS, ProjectInput
-
-
-class Level(StrEnum):
-    """Weight of a finding that does not stop the work."""
-
-    WARNING = "warning"
-    NOTE = "note"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Finding:
-    """Something in a workbook that is permitted, and perhaps not meant.
-
-    Attributes
-    ----------
-    level : Level
-    id : str
-        By which the sheet Acknowledged answers it; empty for a limit, which no reason lifts, and
-        for a note.
-    place : Place
-        The cell to look at.
-    text : str
-        What was found, and what would do.
-    reason : str
-        From the sheet Acknowledged; empty if not acknowledged.
-    cell : str
-        Address, for a cell that is no input; empty for that of the place.
-    """
-
-    level: Level
-    id: str
-    place: Place
-    text: str
-    reason: str = ""
-    cell: str = ""
 
 
 def warning(name: str, place: Place, text: str) -> Finding:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
+from report.sheet.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema import FrictionTestRow
 from solver.friction_tests import Series, governing, series
 from solver.model import Friction
@@ -17,7 +17,7 @@ MU_TOLERANCE = 0.005
 """Difference of coefficients that comes from rounding to two decimals."""
 
 
-def friction_faults(draft: Draft, where: Where) -> Iterator[Fault]:
+def friction_faults(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield runs given twice, and friction coefficients larger than those tested."""
     yield from _repeated(draft, where)
     tested = _tested(draft)
@@ -34,7 +34,7 @@ def _report(draft: Draft, row: DraftRow) -> str:
     return str(row.get("report") or draft["friction_tests"][0].get("report") or "")
 
 
-def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
+def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
     seen: dict[tuple[Any, ...], int] = {}
     for index, row in enumerate(draft["friction_runs"]):
         surface, number = row.get("surface"), row.get("number")
@@ -45,7 +45,7 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Fault]:
         if first != index:
             at = where(Place("friction_runs", first, "number"))
             text = f"run is {number}, {surface}, already given at {at}; give another number"
-            yield Fault(Place("friction_runs", index, "number"), text)
+            yield Finding.error(Place("friction_runs", index, "number"), text)
 
 
 def _tested(draft: Draft) -> tuple[Series, ...]:
@@ -81,7 +81,7 @@ def _first(draft: Draft, tests: Series, where: Where) -> str:
     return where(Place("friction_runs"))
 
 
-def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Fault]:
+def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Finding]:
     by_velocity = law.mu_fast != law.mu_slow
     given, tested = tests.mean_of(law), tests.mean
     if given > tested + MU_TOLERANCE:
@@ -89,8 +89,8 @@ def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Fault
         text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
         runs = f" of {len(tests.runs)} from {at})"
         wanted = "reduce it" if by_velocity else f"give {tested:.3g} or less"
-        yield Fault(Place("arrays", index, "mu"), f"{text}{runs}; {wanted}")
+        yield Finding.error(Place("arrays", index, "mu"), f"{text}{runs}; {wanted}")
     if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
         text = f"static friction is {law.mu_static:g}; the tests give {tests.static_mean:.3g}"
         more = f"({tests.surface}); give {tests.static_mean:.3g} or less"
-        yield Fault(Place("arrays", index, "mu_static"), f"{text} {more}")
+        yield Finding.error(Place("arrays", index, "mu_static"), f"{text} {more}")

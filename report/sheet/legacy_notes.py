@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from report.sheet.archive import OpenBook
-from report.sheet.fields import Place
-from report.sheet.findings import Finding, note
+from report.sheet.fields import Finding, Place
+from report.sheet.findings import note
 from report.sheet.live import has_live_formulas
 from report.sheet.locate import is_absent
 from report.sheet.locate_tables import find_table

@@ -17,8 +17,8 @@ from report.sheet.answers import site_answers
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found, cut, plain
 from report.sheet.counts import START, write_counts
-from report.sheet.fields import Place, Section
-from report.sheet.findings import Finding, unanswered
+from report.sheet.fields import Finding, Place, Section
+from report.sheet.findings import unanswered
 from report.sheet.formula_text import canonical, moved
 from report.sheet.grids import Column, columns_of, table_formulas
 from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from report.sheet.conditions import ORDERED
-from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
+from report.sheet.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.references import suggestion
 from report.sheet.schema import (
     ROOF,
@@ -75,7 +75,7 @@ def _sides(row: Place, where: Where) -> str:
     return f"{first}:{last.partition('!')[2]}"
 
 
-def plan_faults(draft: Draft, where: Where) -> Iterator[Fault]:
+def plan_faults(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield what is wrong with the shapes in plan."""
     yield from _rectangles(draft, where)
     yield from _outline_rows(draft, where)
@@ -125,7 +125,7 @@ def _vertices(rows: list[DraftRow]) -> tuple[Point, ...]:
     return tuple((row["x_m"], row["y_m"]) for row in rows) if is_whole else ()
 
 
-def _rectangles(draft: Draft, where: Where) -> Iterator[Fault]:
+def _rectangles(draft: Draft, where: Where) -> Iterator[Finding]:
     for section in ("roof", *_PLACED):
         for index, row in enumerate(draft[section]):
             yield from _in_order(section, index, row, us_first(draft), where)
@@ -133,7 +133,7 @@ def _rectangles(draft: Draft, where: Where) -> Iterator[Fault]:
 
 def _in_order(
     section: str, index: int, row: DraftRow, is_us: bool, where: Where
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     for first, last in ORDERED:
         low, high = row.get(first), row.get(last)
         if low is None or high is None or low < high:
@@ -141,42 +141,44 @@ def _in_order(
         given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
         at = where(Place(section, index, first))
         text = f"{_label(last)} is {given}; give more than {_label(first)} in {at}, {least}"
-        yield Fault(Place(section, index, last), text)
+        yield Finding.error(Place(section, index, last), text)
 
 
 def _label(side: str) -> str:
     return side.removesuffix("_m").replace("_", " ")
 
 
-def _outline_rows(draft: Draft, where: Where) -> Iterator[Fault]:
+def _outline_rows(draft: Draft, where: Where) -> Iterator[Finding]:
     ids = [row["id"] for section in _PLACED for row in draft[section] if "id" in row]
     for outline in _outlines(draft).values():
         if outline.name not in (ROOF, *ids):
-            yield Fault(
+            yield Finding.error(
                 outline.place,
                 f"outline of '{outline.name}', which is not in Arrays or Objects;"
                 f" {suggestion(outline.name, [*ids, ROOF])}",
             )
         if outline.name == ROOF and ROOF in map(str.casefold, ids):
             text = "outline of 'roof', which is also the ID of an array or object"
-            yield Fault(outline.place, f"{text}; give that another ID")
+            yield Finding.error(outline.place, f"{text}; give that another ID")
         yield from _ring_faults(outline, us_first(draft))
     yield from _scattered(draft, where)
 
 
-def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Fault]:
+def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Finding]:
     if not outline.vertices:
         return
     points = ring(outline.vertices)
     if len(set(points)) < LEAST_VERTICES:
         count = len(set(points))
         text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
-        yield Fault(outline.place, f"{text}; give at least {LEAST_VERTICES}, one to a row")
+        yield Finding.error(outline.place, f"{text}; give at least {LEAST_VERTICES}, one to a row")
         return
     at = crossing(points)
     if at is not None:
         text = f"outline of {outline.name} touches or crosses itself near {spot(at, is_us)}"
-        yield Fault(outline.place, f"{text}; give its vertices in order, none of them twice")
+        yield Finding.error(
+            outline.place, f"{text}; give its vertices in order, none of them twice"
+        )
 
 
 def spot(at: Point, is_us: bool) -> str:
@@ -185,7 +187,7 @@ def spot(at: Point, is_us: bool) -> str:
     return f"x {x}, y {y}"
 
 
-def _scattered(draft: Draft, where: Where) -> Iterator[Fault]:
+def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield the rows at which an outline goes on after rows of another one."""
     last: dict[str, int] = {}
     for index, row in enumerate(draft["outlines"]):
@@ -196,11 +198,11 @@ def _scattered(draft: Draft, where: Where) -> Iterator[Fault]:
         if before != index - 1:
             at = where(Place("outlines", before, "name"))
             text = f"outline of '{name}' goes on here after {at}; put all of its rows together"
-            yield Fault(Place("outlines", index, "name"), text)
+            yield Finding.error(Place("outlines", index, "name"), text)
         last[name.casefold()] = index
 
 
-def _doubled(draft: Draft, where: Where) -> Iterator[Fault]:
+def _doubled(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield rectangles of what has an outline as well."""
     outlines = _outlines(draft)
     rows = [(section, i, row) for section in _PLACED for i, row in enumerate(draft[section])]
@@ -212,10 +214,10 @@ def _doubled(draft: Draft, where: Where) -> Iterator[Fault]:
             text = f"{_label(side)} is given, and {name} has an outline at"
             at = where(outlines[name].place)
             wanted = "leave the four sides blank, or delete the outline"
-            yield Fault(Place(section, index, side), f"{text} {at}; {wanted}")
+            yield Finding.error(Place(section, index, side), f"{text} {at}; {wanted}")
 
 
-def _on_the_roof(draft: Draft, where: Where) -> Iterator[Fault]:
+def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
     outlines = _outlines(draft)
     for row in draft["roof"]:
         roof = _shape(row, outlines.get(ROOF))
@@ -232,12 +234,14 @@ def _on_the_roof(draft: Draft, where: Where) -> Iterator[Fault]:
             if found is not None:
                 text = f"{array.get('id')} is outside the roof near {spot(found, us_first(draft))}"
                 place = Place("arrays", index, "x_from_m") if own is None else own.place
-                yield Fault(place, f"{text}; correct it, or the outline of the roof at {where(at)}")
+                yield Finding.error(
+                    place, f"{text}; correct it, or the outline of the roof at {where(at)}"
+                )
 
 
 def _beyond(
     roof: Rectangle, index: int, array: DraftRow, draft: Draft, where: Where
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     """Yield the sides of a rectangular array that are outside a rectangular roof."""
     for side in SIDES:
         value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
@@ -246,7 +250,7 @@ def _beyond(
         given, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
         wanted = f"give {limit} or {'more' if is_low else 'less'}"
         text = f"{_label(side)} is {given}, outside the roof; {wanted}, or correct the outline at"
-        yield Fault(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")
+        yield Finding.error(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,7 +264,7 @@ class _Body:
     bounds: Rectangle
 
 
-def _overlaps(draft: Draft, where: Where) -> Iterator[Fault]:
+def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield arrays that overlap each other or an object; `checks` has those with a clearance."""
     given = {frozenset((row.get("array"), row.get("object"))) for row in draft["clearances"]}
     bodies = sorted(_bodies(draft), key=lambda body: body.bounds.x_from_m)
@@ -273,7 +277,7 @@ def _overlaps(draft: Draft, where: Where) -> Iterator[Fault]:
                 continue
             if gap_m(one.bounds, other.bounds) < 0.0 and gap_m(one.shape, other.shape) < -NEAR_M:
                 text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
-                yield Fault(first.place, f"{text}; correct one of them")
+                yield Finding.error(first.place, f"{text}; correct one of them")
 
 
 def _bodies(draft: Draft) -> Iterator[_Body]:

@@ -9,8 +9,8 @@ import math
 from collections.abc import Iterator, Mapping
 
 from report.sheet.checks import gap_tolerance_m
-from report.sheet.fields import Place
-from report.sheet.findings import Finding, Level, note, warning
+from report.sheet.fields import Finding, Level, Place
+from report.sheet.findings import note, warning
 from report.sheet.schema import (
     PROVISION_KEYS,
     Array,

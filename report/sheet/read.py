@@ -25,8 +25,7 @@ from report.sheet.cells import (
 )
 from report.sheet.checks import faults
 from report.sheet.duplicate_sheets import copies
-from report.sheet.fields import Entry, Fault, Place, Section, entries
-from report.sheet.findings import Finding
+from report.sheet.fields import Entry, Finding, Place, Section, entries
 from report.sheet.locate import (
     added_later,
     find_cell,
@@ -136,7 +135,7 @@ class Sheet:
         rows = tuple(section.model(**row) for row in self.draft[section.key])
         return rows if section.is_table else rows[0]
 
-    def refuse(self, faults: Iterable[Fault]) -> None:
+    def refuse(self, faults: Iterable[Finding]) -> None:
         """Raise the problems of the workbook together with further faults, if there are any.
 
         Raises
@@ -197,11 +196,12 @@ def _where(place: Place, addresses: Mapping[Place, str]) -> str:
 
 
 def _lines(
-    faults: Iterable[Fault], addresses: Mapping[Place, str], unfound: Set[str]
+    faults: Iterable[Finding], addresses: Mapping[Place, str], unfound: Set[str]
 ) -> Iterator[tuple[Place, str]]:
     """Yield faults as lines, except those that only follow from a missing table."""
     sources = {"clearances": {"arrays", "objects"}, "links": {"arrays"}}
-    for place, text in faults:
+    for fault in faults:
+        place, text = fault.place, fault.text
         if place.section not in unfound and not sources.get(place.section, set()) & unfound:
             yield place, f"{_where(place, addresses)}: {text}"
 
@@ -246,7 +246,7 @@ class Gathered:
         """Add finished lines."""
         self.problems += [(place, line) for line in lines]
 
-    def take(self, faults: Iterable[Fault]) -> None:
+    def take(self, faults: Iterable[Finding]) -> None:
         """Add faults."""
         self.problems += _lines(faults, self.addresses, self.unfound)
 

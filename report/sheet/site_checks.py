@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.sheet.fields import Draft, DraftRow, Fault, Place, Where
+from report.sheet.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema import RiskCategory, edition_of, site_class_or_default
 from solver.rules import hazard
 from solver.rules.hazard import Edition, HazardBasis, SeismicParameters
@@ -35,7 +35,7 @@ _CHAINS = (
 )
 
 
-def site_faults(draft: Draft, where: Where) -> Iterator[Fault]:
+def site_faults(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield inconsistencies of the site."""
     for row in draft["site"]:
         yield from _importance(row)
@@ -68,34 +68,36 @@ def site_parameters(row: DraftRow) -> SeismicParameters | None:
     return hazard.seismic_parameters(edition, **values)
 
 
-def _importance(row: DraftRow) -> Iterator[Fault]:
+def _importance(row: DraftRow) -> Iterator[Finding]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
-    yield Fault(
+    yield Finding.error(
         Place("site", 0, "i_e"),
         f"importance factor I_e is {i_e:g}; give at least {LEAST_I_E[risk_category]:g} for risk"
         f" category {risk_category}",
     )
 
 
-def _edition(row: DraftRow, edition: Edition) -> Iterator[Fault]:
+def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     """Yield an edition that contradicts the rule set, and coefficients that it does not have."""
     rule_set = row["rule_set"]
     if rule_set in hazard.EDITIONS and rule_set != edition.name:
         text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"
-        yield Fault(Place("site", 0, "edition_name"), f"{text}; leave it blank, or correct one")
+        yield Finding.error(
+            Place("site", 0, "edition_name"), f"{text}; leave it blank, or correct one"
+        )
     if edition.has_site_coefficients:
         return
     for field, label, wanted in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
         if row.get(field) is not None:
             text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients; leave"
-            yield Fault(
+            yield Finding.error(
                 Place("site", 0, field), f"{text} it blank and give {wanted} from a hazard tool"
             )
 
 
-def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Fault]:
+def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     parameters = site_parameters(row)
     if parameters is None or parameters.s_ds is not None:
         return
@@ -104,10 +106,10 @@ def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Fault]:
     field = missing[0] if len(missing) == 1 else "s_ds_g"
     label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
     wanted = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
-    yield Fault(Place("site", 0, field), f"{label} is missing; {wanted}")
+    yield Finding.error(Place("site", 0, field), f"{label} is missing; {wanted}")
 
 
-def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Fault]:
+def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Finding]:
     """Yield a value that differs from the same derived from other cells of its chain."""
     mapped, coefficient, maximum, design = (row.get(name) for name, _ in chain)
     (_, mapped_label), (_, factor_label), (maximum_name, maximum_label) = chain[:3]
@@ -123,7 +125,7 @@ def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Fault
     ):
         if given is not None and derived is not None and abs(given - derived) > AGREES_G:
             text = f"{label} is {given:g} g, but {words} is {derived:.4f} g; leave one of them"
-            yield Fault(Place("site", 0, name), f"{text} blank, or correct it")
+            yield Finding.error(Place("site", 0, name), f"{text} blank, or correct it")
             return
 
 
@@ -131,16 +133,16 @@ def _design(maximum_g: float | None) -> float | None:
     return None if maximum_g is None else 2.0 / 3.0 * maximum_g
 
 
-def _site_class(row: DraftRow, edition: Edition) -> Iterator[Fault]:
+def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     site_class = row.get("site_class")
     if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
         text = f"site class is '{site_class}', which {edition.name} does not have; give one of"
-        yield Fault(Place("site", 0, "site_class"), f"{text} {', '.join(F_A.rows)}")
+        yield Finding.error(Place("site", 0, "site_class"), f"{text} {', '.join(F_A.rows)}")
 
 
 def _below_table(
     row: DraftRow, edition: Edition, chain: _Chain, table: CoefficientTable, where: Where
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     """Yield what is below that of the mapped value, the site class and the table of its edition.
 
     A given coefficient is compared with the table, and `_agreement` compares the rest with it.
@@ -183,13 +185,13 @@ def _tabulated(
     return math.nan if has_none else site_coefficient(table, site_class, mapped_g)
 
 
-def _or_study(field: str, text: str, table: CoefficientTable) -> Fault:
+def _or_study(field: str, text: str, table: CoefficientTable) -> Finding:
     """Return a value below its table, with the way out."""
     out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
-    return Fault(Place("site", 0, field), f"{text} ({table.clause}†), {out}")
+    return Finding.error(Place("site", 0, field), f"{text} ({table.clause}†), {out}")
 
 
-def _sdc(row: DraftRow) -> Iterator[Fault]:
+def _sdc(row: DraftRow) -> Iterator[Finding]:
     sdc, risk_category = row.get("sdc"), row.get("risk_category")
     parameters = site_parameters(row)
     if sdc is None or risk_category is None or parameters is None or parameters.s_ds is None:
@@ -209,7 +211,7 @@ def _sdc(row: DraftRow) -> Iterator[Fault]:
         key=lambda table: table[0],
     )
     if sdc < least:
-        yield Fault(
+        yield Finding.error(
             Place("site", 0, "sdc"),
             f"seismic design category is '{sdc}'; {reason} in risk category {risk_category}"
             f" requires {least} or higher ({clause})",

@@ -18,8 +18,8 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found
-from report.sheet.fields import Place
-from report.sheet.findings import Finding, warning
+from report.sheet.fields import Finding, Place
+from report.sheet.findings import warning
 from report.sheet.number_format import shows_nothing
 from report.sheet.positions import bounds_of
 

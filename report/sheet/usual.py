@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from report.sheet.fields import Entry, Frozen, Place, Section, entries
-from report.sheet.findings import Finding, warning
+from report.sheet.fields import Entry, Finding, Frozen, Place, Section, entries
+from report.sheet.findings import warning
 from report.sheet.schema import (
     SECTIONS,
     Array,

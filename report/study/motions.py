@@ -16,7 +16,7 @@ import numpy as np
 
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
-from report.sheet.fields import Fault, Place, entries
+from report.sheet.fields import Finding, Place, entries
 from report.sheet.schema import MotionInput
 from report.study.read import StudyInput, StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding
@@ -64,7 +64,7 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
         With every problem of the records, by cell.
     """
     read: list[tuple[MotionInput, Components]] = []
-    faults: list[Fault] = []
+    faults: list[Finding] = []
     for index, row in enumerate(_rows(sheet)):
         match read_components(sheet.book, index, row):
             case Components() as components:
@@ -100,7 +100,7 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     folder = (top / name).resolve()
     cell = Place("study", 0, "folder")
     if not folder.is_relative_to(top.resolve()) or not folder.is_dir():
-        sheet.refuse([Fault(cell, f"'{name}' is no folder beside this workbook; give one")])
+        sheet.refuse([Finding.error(cell, f"'{name}' is no folder beside this workbook; give one")])
     groups: dict[str, dict[str, str]] = {}
     for path in sorted(folder.iterdir()):
         if path.name.startswith(".") or not path.is_file() or path.suffix in _NO_RECORDS:
@@ -112,22 +112,24 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     lost = [motion for motion, row in groups.items() if "record" not in row]
     if lost or not groups:
         wrong = f"'{name}' has no record" + (f" {lost[0]}-x" if lost else "")
-        sheet.refuse([Fault(cell, f"{wrong}; add it, or list the motions on the sheet Motions")])
+        sheet.refuse(
+            [Finding.error(cell, f"{wrong}; add it, or list the motions on the sheet Motions")]
+        )
     return list(groups.values())
 
 
-def _of_folder(faults: Sequence[Fault]) -> Iterator[Fault]:
-    for _, text in faults:
-        yield Fault(Place("study", 0, "folder"), text)
+def _of_folder(faults: Sequence[Finding]) -> Iterator[Finding]:
+    for fault in faults:
+        yield Finding.error(Place("study", 0, "folder"), fault.text)
 
 
-def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -> Iterator[Fault]:
+def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -> Iterator[Finding]:
     """Yield motions with other components than the first, and records beyond the memory."""
     wanted = read[0][1].records.keys()
     for index, (row, components) in enumerate(read):
         if components.records.keys() != wanted:
             place = Place("motions", index, "record") if given.motions else _FOLDER
-            yield Fault(
+            yield Finding.error(
                 place,
                 f"motion {row.id} has {len(components.records)} components, the first has "
                 f"{len(wanted)}; a study compares motions with the same components",
@@ -136,7 +138,7 @@ def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -
     samples *= max(1, len(given.buildings))
     if samples > MOST_SAMPLES:
         place = Place("motions") if given.motions else _FOLDER
-        yield Fault(
+        yield Finding.error(
             place, f"the records have {samples:,} samples in all; give at most {MOST_SAMPLES:,}"
         )
 
@@ -165,7 +167,7 @@ def _motion(
     unit = _intensity(sheet.input, components.records["record"], at_roof)
     if not (unit > 0.0 and math.isfinite(unit)):
         place = _FOLDER if not sheet.input.motions else Place("motions")
-        sheet.refuse([Fault(place, f"motion {row.id} is all zeros and has no intensity")])
+        sheet.refuse([Finding.error(place, f"motion {row.id} is all zeros and has no intensity")])
     return Motion(
         id=row.id,
         source=row.source,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from report.sheet.fields import Fault, Place
+from report.sheet.fields import Finding, Place
 from report.study.design import DesignRule, design_rule
 from report.study.motions import StudyMotions
 from report.study.read import StudyInput, StudySheet
@@ -155,12 +155,14 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     )
 
 
-def _too_many(campaign: Campaign) -> Iterator[Fault]:
+def _too_many(campaign: Campaign) -> Iterator[Finding]:
     place = Place("study", 0, "intensities")
     if len(campaign.cases) > MOST_CASES:
-        yield Fault(place, f"make {len(campaign.cases):,} cases; give at most {MOST_CASES:,}")
+        yield Finding.error(
+            place, f"make {len(campaign.cases):,} cases; give at most {MOST_CASES:,}"
+        )
     elif campaign.rows > MOST_RUNS:
-        yield Fault(place, f"make {campaign.rows:,} runs; give at most {MOST_RUNS:,}")
+        yield Finding.error(place, f"make {campaign.rows:,} runs; give at most {MOST_RUNS:,}")
 
 
 def _seed(seed: int, number: int) -> int:

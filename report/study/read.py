@@ -15,7 +15,7 @@ import numpy as np
 
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.calculated import not_calculated
-from report.sheet.fields import Draft, Fault, Place
+from report.sheet.fields import Draft, Finding, Place
 from report.sheet.locate import is_absent
 from report.sheet.read import Gathered, gather, ordered
 from report.sheet.schema import RecordedAt
@@ -121,7 +121,7 @@ class StudySheet:
         for finding in found:
             yield finding.cell or self.gathered.where(finding.place), finding.text
 
-    def refuse(self, faults: Sequence[Fault]) -> None:
+    def refuse(self, faults: Sequence[Finding]) -> None:
         """Raise faults with their cells, if there are any."""
         _refuse(self.gathered, faults)
 
@@ -154,14 +154,14 @@ def read_study(path: Path) -> StudySheet:
     )
 
 
-def _refuse(gathered: Gathered, faults: Sequence[Fault]) -> None:
+def _refuse(gathered: Gathered, faults: Sequence[Finding]) -> None:
     problems = list(gathered.problems)
-    problems += [(place, f"{gathered.where(place)}: {text}") for place, text in faults]
+    problems += [(one.place, f"{gathered.where(one.place)}: {one.text}") for one in faults]
     if problems:
         raise InputError(ordered(problems, SECTIONS))
 
 
-def _faults(draft: Draft) -> Iterator[Fault]:
+def _faults(draft: Draft) -> Iterator[Finding]:
     """Yield errors of the workbook that the cells alone do not show."""
     study = draft["study"][0] if draft["study"] else {}
     mats = draft["mats"]
@@ -186,13 +186,13 @@ def _faults(draft: Draft) -> Iterator[Fault]:
     yield from _about_arrays(study, draft)
 
 
-def _at(field: str, text: str) -> Fault:
-    return Fault(Place("study", 0, field), text)
+def _at(field: str, text: str) -> Finding:
+    return Finding.error(Place("study", 0, field), text)
 
 
 def _axis(
     study: Any, field: str, name: str, fits: Callable[[float], bool], allowed: str
-) -> Iterator[Fault]:
+) -> Iterator[Finding]:
     if field not in study:
         return
     text = str(study[field])
@@ -203,7 +203,7 @@ def _axis(
         yield _at(field, f"{name} have {wrong[0]:g}; give numbers {allowed}")
 
 
-def _about_size(study: Any, mats: Any, buildings: Any) -> Iterator[Fault]:
+def _about_size(study: Any, mats: Any, buildings: Any) -> Iterator[Finding]:
     counts = [len(values(str(study.get(f) or ""))) for f in ("slopes_deg", "intensities", "mus")]
     cases = max(counts[0], 1) * max(counts[1], 1) * (counts[2] + len(mats)) * max(len(buildings), 1)
     if cases > MOST_CASES:
@@ -212,7 +212,7 @@ def _about_size(study: Any, mats: Any, buildings: Any) -> Iterator[Fault]:
         )
 
 
-def _about_intensity(study: Any) -> Iterator[Fault]:
+def _about_intensity(study: Any) -> Iterator[Finding]:
     kind = study.get("intensity")
     if kind is Intensity.S_DS and "s_ds_g" in study and study["s_ds_g"] is None:
         yield _at("s_ds_g", "S_DS of the motions is missing; the intensity measure needs it")
@@ -220,7 +220,7 @@ def _about_intensity(study: Any) -> Iterator[Fault]:
         yield _at("intensity", "is PGA, but the motions are roof motions; choose PPA or PPV")
 
 
-def _about_dispersion(study: Any) -> Iterator[Fault]:
+def _about_dispersion(study: Any) -> Iterator[Finding]:
     if "record_source" not in study or "record_beta" not in study:
         return
     if study["record_beta"] is not None and not study["record_source"]:
@@ -229,7 +229,7 @@ def _about_dispersion(study: Any) -> Iterator[Fault]:
         yield _at("record_beta", "a source is given without the dispersion; give it, or clear both")
 
 
-def _about_motions(study: Any, draft: Draft) -> Iterator[Fault]:
+def _about_motions(study: Any, draft: Draft) -> Iterator[Finding]:
     if "folder" in study and bool(study["folder"]) == bool(draft["motions"]):
         both = "a folder is named and the sheet Motions has rows; keep one"
         yield _at(
@@ -237,45 +237,49 @@ def _about_motions(study: Any, draft: Draft) -> Iterator[Fault]:
         )
     is_ground = study.get("recorded_at") is RecordedAt.GROUND
     if is_ground and not draft["buildings"]:
-        yield Fault(Place("buildings"), "ground motions need at least one building; fill in a row")
+        yield Finding.error(
+            Place("buildings"), "ground motions need at least one building; fill in a row"
+        )
     if "recorded_at" in study and not is_ground and draft["buildings"]:
-        yield Fault(
+        yield Finding.error(
             Place("buildings", 0, "id"),
             "a building is given, but the motions are roof motions; clear the row, or set Recorded "
             "at to ground",
         )
 
 
-def _repeated(draft: Draft, section: str) -> Iterator[Fault]:
+def _repeated(draft: Draft, section: str) -> Iterator[Finding]:
     seen: set[str] = set()
     for row, fields in enumerate(draft[section]):
         name = str(fields.get("id", "")).casefold()
         if name and name in seen:
-            yield Fault(Place(section, row, "id"), f"ID '{fields['id']}' appears twice; rename one")
+            yield Finding.error(
+                Place(section, row, "id"), f"ID '{fields['id']}' appears twice; rename one"
+            )
         seen.add(name)
 
 
-def _about_mat(row: int, mat: Any) -> Iterator[Fault]:
+def _about_mat(row: int, mat: Any) -> Iterator[Finding]:
     text = str(mat.get("tested") or "")
     found = tested(text)
     if text and (len(found) < 3 or not all(0.0 < v <= 2.0 for v in found)):
-        yield Fault(
+        yield Finding.error(
             Place("mats", row, "tested"),
             f"tested values are '{text[:60]}'; give three or more numbers above 0, to 2, with a "
             "blank after each comma",
         )
     if "mu" in mat and mat["mu"] is None and not text:
-        yield Fault(
+        yield Finding.error(
             Place("mats", row, "mu"), "friction coefficient and tested values are missing; give one"
         )
 
 
-def _about_arrays(study: Any, draft: Draft) -> Iterator[Fault]:
+def _about_arrays(study: Any, draft: Draft) -> Iterator[Finding]:
     names = {str(mat.get("id", "")).casefold() for mat in draft["mats"]}
     for row, array in enumerate(draft["study_arrays"]):
         mat = str(array.get("mat", ""))
         if mat and mat.casefold() not in names:
-            yield Fault(
+            yield Finding.error(
                 Place("study_arrays", row, "mat"), f"mat '{mat}' is not on the sheet Mats; add it"
             )
     if study.get("site_intensity") and not draft["study_arrays"]:

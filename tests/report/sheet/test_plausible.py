@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from inputs import FT, INCH, LB
-from report.sheet.fields import Place
-from report.sheet.findings import Level, lines, note, warning
+from report.sheet.fields import Level, Place
+from report.sheet.findings import lines, note, warning
 from report.sheet.plausible import implausible
 from sheets import arrays, at, make, project, row_changed, told
 
