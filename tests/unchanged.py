@@ -222,7 +222,8 @@ def _of_results(sheet: Any) -> Iterator[str]:
     said_anew = {"Clearances": "L", "Requirements": "F", "Design": "S"}.get(sheet.title, "-")
     for line in _cells(sheet):
         if not line.startswith(said_anew):
-            yield line.replace("OK with conditions", "Condition")
+            words = line.replace("OK with conditions", "Condition")
+            yield words.replace("limit on motions for analysis", "motions for analysis")
 
 
 def _of_input(sheet: Any) -> Iterator[str]:

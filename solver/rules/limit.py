@@ -91,7 +91,7 @@ class Limit:
     @property
     def is_program_limit(self) -> bool:
         """Whether the limit is that of this program: it stands in no code."""
-        return self.provision is PROGRAM
+        return self.provision.clause == PROGRAM.clause  # another process has an object of its own
 
     @property
     def sign(self) -> str:

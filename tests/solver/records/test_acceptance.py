@@ -1,6 +1,7 @@
 """Rows on motions. Oracles: a spectrum by complex modes, closed forms of energy and correlation."""
 
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +14,7 @@ from solver.model import Motion
 from solver.records.acceptance import acceptance
 from solver.records.record import read_only
 from solver.records.spectrum_acceptance import POINTS_HZ
-from solver.rules.limit import Consequence
+from solver.rules.limit import PROGRAM, Consequence, Limit
 
 G = 9.80665
 DT_S, N = 0.02, 301
@@ -244,3 +245,8 @@ class TestCorrelation:
     def test_a_component_of_zeros_correlates_with_nothing(self):
         found = accepted(motion(ay_mps2=np.zeros(N)), holds_s=[20.0])
         assert found.motions[0].correlations["x-y"] == 0.0
+
+
+def test_a_limit_of_the_program_is_one_in_another_process_too():
+    made = Limit(title="", found=1.0, limit=1.0, is_at_least=True, provision=PROGRAM)
+    assert pickle.loads(pickle.dumps(made)).is_program_limit
