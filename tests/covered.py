@@ -1,8 +1,8 @@
 """How much of the product its tests run: `python tests/covered.py`, or `--raise`.
 
-The statements that the tests of a day run are counted for each package, kernels by their tests
-with the compiler off, and compared with `tests/covered.csv`; `--raise` writes what is more than
-there. Modules of which the quick tests run nothing are named. `./roofslip test --nightly` does it.
+The statements that tests run on a day on which every file has changed are counted for each package,
+kernels by their tests with the compiler off, and compared with `tests/covered.csv`; `--raise`
+writes what is more than there. Modules of which the quick tests run nothing are named. `./roofslip test --nightly` does it.
 """
 
 from __future__ import annotations
@@ -158,7 +158,7 @@ def problems(day: dict[Path, Lines], quick: dict[Path, Lines], kept: dict[str, f
 def main(words: list[str]) -> int:
     """Measure, compare, and with `--raise` keep what is more."""
     with tempfile.TemporaryDirectory() as folder:
-        day, quick = (measure(which, Path(folder)) for which in ("usual", "quick"))
+        day, quick = (measure(which, Path(folder)) for which in ("changed", "quick"))
     reached, kept = percents(day), read()
     for name, value in reached.items():
         print(f"{name}: {value:.2f} %, at least {kept[name]:.1f} % are asked for")

@@ -19,6 +19,10 @@ import pytest
 from places import GOLDEN, ROOT
 
 DURATIONS = Path(__file__).with_name("durations.csv")
+WHICH = ("usual", "quick", "nightly", "changed", "all")
+"""Tests of the day, the quick ones of these, those of the night; `changed` are those of a day on
+which every file has changed."""
+
 KEPT_S = 0.02
 """Shorter tests are not kept in the file: they are quick."""
 
@@ -38,7 +42,7 @@ def function_of(nodeid: str) -> str:
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the options that `./roofslip test` uses."""
     group = parser.getgroup("selection")
-    group.addoption("--which", choices=("usual", "quick", "nightly", "all"), default="usual")
+    group.addoption("--which", choices=WHICH, default="usual")
     group.addoption("--write-durations", action="store_true")
     group.addoption("--golden", action="store_true")
 
@@ -49,12 +53,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if which == "all" or any("::" in argument for argument in config.args):
         return
     quick = is_quick(read(DURATIONS), {function_of(i.nodeid): tuple(i.fixturenames) for i in items})
-    nights = nightly(items, changed_files())
+    nights = nightly(items, changed_files(), is_all_changed=which == "changed")
     left_out = []
     for item in items:
         is_nightly = item in nights
         runs = {
             "usual": not is_nightly,
+            "changed": not is_nightly,
             "quick": not is_nightly and function_of(item.nodeid) in quick,
             "nightly": is_nightly,
         }
@@ -66,7 +71,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = [item for item in items if item not in gone]
 
 
-def nightly(items: list[pytest.Item], changed: set[str]) -> set[pytest.Item]:
+def nightly(
+    items: list[pytest.Item], changed: set[str], *, is_all_changed: bool = False
+) -> set[pytest.Item]:
     """Return the tests that are left out by day.
 
     A test marked `nightly(*paths)` runs by day where one of these files, or a file in one of these
@@ -75,7 +82,10 @@ def nightly(items: list[pytest.Item], changed: set[str]) -> set[pytest.Item]:
     found, cases = set(), defaultdict(list)
     for item in items:
         night = item.get_closest_marker("nightly")
-        if night is not None and not any(file.startswith(night.args) for file in changed):
+        runs_by_day = night is None or (
+            bool(night.args) and (is_all_changed or any(f.startswith(night.args) for f in changed))
+        )
+        if not runs_by_day:
             found.add(item)
         elif item.get_closest_marker("by_day"):
             cases[function_of(item.nodeid)].append(item)
@@ -244,6 +254,7 @@ def pytest_terminal_summary(
 
 LEFT_OUT = {
     "usual": "nightly tests are left out: ./roofslip test --nightly runs them",
+    "changed": "nightly tests are left out: ./roofslip test --nightly runs them",
     "quick": "tests that take longer are left out: ./roofslip test runs them",
     "nightly": "tests of the day are left out: ./roofslip test runs them",
 }

@@ -38,6 +38,7 @@ def test_a_nightly_test_runs_by_day_where_one_of_its_files_changed():
     items = of("f", pytest.mark.nightly("a.py")) + of("g", pytest.mark.nightly())
     assert selection.nightly(items, {"b.py"}) == set(items)
     assert selection.nightly(items, {"a.py"}) == {items[1]}
+    assert selection.nightly(items, set(), is_all_changed=True) == {items[1]}
 
 
 def test_of_each_file_the_shortest_test_is_quick_and_every_one_that_is_short():
