@@ -2,7 +2,8 @@
 
 The statements that tests run on a day on which every file has changed are counted for each package,
 kernels by their tests with the compiler off, and compared with `tests/covered.csv`; `--raise`
-writes what is more than there. Modules of which the quick tests run nothing are named. `./roofslip test --nightly` does it.
+writes what is more than there. Modules of which the quick tests run nothing are named.
+`./roofslip test --nightly` does it.
 """
 
 from __future__ import annotations
