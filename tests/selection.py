@@ -19,10 +19,6 @@ import pytest
 from places import GOLDEN, ROOT
 
 DURATIONS = Path(__file__).with_name("durations.csv")
-WHICH = ("usual", "quick", "nightly", "changed", "all")
-"""Tests of the day, the quick ones of these, those of the night; `changed` are those of a day on
-which every file has changed."""
-
 KEPT_S = 0.02
 """Shorter tests are not kept in the file: they are quick."""
 
@@ -42,7 +38,8 @@ def function_of(nodeid: str) -> str:
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the options that `./roofslip test` uses."""
     group = parser.getgroup("selection")
-    group.addoption("--which", choices=WHICH, default="usual")
+    group.addoption("--which", choices=("usual", "quick", "nightly", "all"), default="usual")
+    group.addoption("--all-changed", action="store_true", help="as if every file had changed")
     group.addoption("--write-durations", action="store_true")
     group.addoption("--golden", action="store_true")
 
@@ -53,13 +50,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     if which == "all" or any("::" in argument for argument in config.args):
         return
     quick = is_quick(read(DURATIONS), {function_of(i.nodeid): tuple(i.fixturenames) for i in items})
-    nights = nightly(items, changed_files(), is_all_changed=which == "changed")
+    is_all_changed = config.getoption("--all-changed")
+    nights = nightly(items, changed_files(), is_all_changed=is_all_changed)
     left_out = []
     for item in items:
         is_nightly = item in nights
         runs = {
             "usual": not is_nightly,
-            "changed": not is_nightly,
             "quick": not is_nightly and function_of(item.nodeid) in quick,
             "nightly": is_nightly,
         }
@@ -254,7 +251,6 @@ def pytest_terminal_summary(
 
 LEFT_OUT = {
     "usual": "nightly tests are left out: ./roofslip test --nightly runs them",
-    "changed": "nightly tests are left out: ./roofslip test --nightly runs them",
     "quick": "tests that take longer are left out: ./roofslip test runs them",
     "nightly": "tests of the day are left out: ./roofslip test runs them",
 }
