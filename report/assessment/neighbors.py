@@ -75,6 +75,8 @@ class PlanNeighbor:
     ----------
     array, other : str
         Ids, in the order of the workbook between arrays; `other` names a bare edge in words.
+    near, far : Shape
+        The array, and the other.
     gap_m : float
         Smallest distance in plan [m]; negative if they overlap.
     reach_m : float
@@ -86,18 +88,17 @@ class PlanNeighbor:
         Clearances between them, from either side.
     to_add : str
         Cell of the table to which a missing row is to be added.
-    drawn_as : str
-        What the gap is between: rectangles or outlines.
     """
 
     array: str
     other: str
     kind: NearbyKind
+    near: Shape
+    far: Shape
     gap_m: float
     reach_m: float
     given: tuple[GivenGap, ...]
     to_add: str
-    drawn_as: str
     required_m: float = math.nan
 
     @property
@@ -140,9 +141,10 @@ class PlanNeighbor:
                 else "nearer than is required"
             )
             return (f"{self.to_add}: {apart}, {near}, and no clearance is given; {what}",)
+        noun = _noun(self.near, self.far)
         return tuple(
             f"{row.cell}: provided clearance is {_both(row.clearance.provided_m, us_first)}, but "
-            f"{apart}{self._short_in_plan(row)}; correct the clearance or the {self.drawn_as}"
+            f"{apart}{self._short_in_plan(row)}; correct the clearance or the {noun}"
             for row in self.contradictions
         )
 
@@ -310,11 +312,12 @@ def _pairs(
             array=a.id,
             other=b.id,
             kind=NearbyKind.ARRAY,
+            near=a.array.shape,
+            far=b.array.shape,
             gap_m=gap_m(a.array.shape, b.array.shape),
             reach_m=max(_reach_m(a), _reach_m(b)),
             given=rows.get(frozenset((a.id, b.id)), ()),
             to_add=table,
-            drawn_as=_noun(a.array.shape, b.array.shape),
         )
     edges = bare_edges(data)
     for array in arrays:
@@ -331,11 +334,12 @@ def _objects_of(
                 array=array.id,
                 other=item.id,
                 kind=NearbyKind.OBJECT,
+                near=array.array.shape,
+                far=item.placed,
                 gap_m=gap_m(array.array.shape, item.placed),
                 reach_m=_reach_m(array),
                 given=rows.get(frozenset((array.id, item.id)), ()),
                 to_add=table,
-                drawn_as=_noun(array.array.shape, item.placed),
             )
 
 
@@ -347,11 +351,12 @@ def _edges_of(
             array=array.id,
             other=f"the {edge.name}",
             kind=NearbyKind.BARE_EDGE,
+            near=array.array.shape,
+            far=edge.line,
             gap_m=gap_m(array.array.shape, edge.line),
             reach_m=_reach_m(array),
             given=(),
             to_add=table,
-            drawn_as=_noun(array.array.shape, edge.line),
         )
 
 

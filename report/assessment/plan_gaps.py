@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from report.assessment.neighbors import bare_edges
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.sheet.schema import ObjectKind, RoofObject, Shape
@@ -78,15 +77,14 @@ def plan_gaps(assessment: Assessment) -> Iterator[PlanGap]:
                 mark=gap.mark,
                 verdict=gap.verdict,
             )
-    shapes |= {edge.name: edge.line for edge in bare_edges(assessment.project)}
     for pair in assessment.neighbors:
         if pair.is_short:
             yield PlanGap(
                 number=0,
                 array=pair.array,
                 other=pair.other,
-                near=shapes[pair.array],
-                far=shapes[pair.other],
+                near=pair.near,
+                far=pair.far,
                 provided_m=pair.gap_m,
                 required_m=pair.required_m,
                 mark="",

@@ -39,7 +39,7 @@ def key_of(plan: PlanSheet) -> Key:
         Symbol.BARE: bool(bare_edges(assessment.project)),
         Symbol.DESIGN: any(map(design_envelope, assessment.arrays)),
         Symbol.RUNS: any(map(runs_envelope, assessment.arrays)),
-        Symbol.GAP: bool(plan.gaps),
+        Symbol.GAP: any(gap.of.is_given for gap in plan.gaps),
         Symbol.FAILED: any(gap.of.is_ng for gap in plan.gaps),
     }
     return Key(

@@ -1,5 +1,6 @@
 """What is NG is marked on the plan, wherever it is drawn: also where no clearance is given."""
 
+import math
 import re
 
 import pytest
@@ -65,3 +66,18 @@ def test_a_parapet_says_where_it_does_not_qualify(done):
     assert notes == {"RTU-9": "", "N": ", does not qualify", "S": ""}
     texts = [text.words for text in plan_drawing(done).texts]
     assert "N, height 11.8 in (300 mm), does not qualify" in texts
+
+
+def test_of_two_bare_parts_of_a_side_the_one_that_is_near_is_marked():
+    """A parapet along the middle of the west side leaves a part on each side of it bare."""
+    done = scenes.package(
+        roof={"x_from_m": 0.0, "x_to_m": 120.0, "y_from_m": 0.0, "y_to_m": 60.0},
+        arrays=[stand_in.array("A1", 0.5, x=1)],
+        objects=[stand_in.roof_object("W", "edge with parapet", 0, 0.5, 90, 120, height=1.2)],
+        clearances=[],
+    ).assessment
+    bare = [gap for gap in plan_gaps(done) if gap.other == "the west edge of the roof"]
+    assert len(bare) == 1
+    for gap in bare:
+        (x0, y0), (x1, y1) = gap.ends
+        assert math.hypot(x1 - x0, y1 - y0) == pytest.approx(gap.provided_m, rel=1e-9)
