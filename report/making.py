@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from report.assessment.evidence import Evidence
     from report.assessment.project import Assessment
     from report.entities.results import Compared
+    from report.motions.prepare import Shaking
     from report.package.html import PendingPictures
     from report.provenance.files import Source
     from report.sheet.read import Sheet
@@ -40,26 +41,21 @@ def make(
     `on_assessment` is given the assessment before the package is made, which takes longer.
     """
     worker.submit(load)
-    from report.assessment.cost import cost
     from report.assessment.project import assess
-    from report.motions.prepare import prepare
     from report.package.html import pages
-    from report.provenance.files import sources
     from report.results.publish import publish
 
     progress("reading the workbook")
     request = read(source, out, since)
-    shaking = prepare(request.sheet)
-    found = sources(request.sheet, shaking, since)
-    long_run_notice = cost(request.sheet.project, shaking)
-    progress(f"running the motions ({long_run_notice or 'the first run compiles the solver'})")
-    assessment = assess(request.sheet, shaking)
+    prepared = prepare(request)
+    progress(f"running the motions ({prepared.notice})")
+    assessment = assess(request.sheet, prepared.shaking)
     on_assessment(assessment)
     supported = support(assessment, request, worker)
     progress("writing the pages")
     html = pages(assessment, supported.evidence, supported.changes, supported.pictures)
     progress("laying out the package")
-    files = lay_out(html, assessment, supported.evidence, found, worker)
+    files = lay_out(html, assessment, supported.evidence, prepared.sources, worker)
     progress("writing the result tables")
     publish(files, request.folder)
     return assessment, request.folder, files, supported.changes
@@ -73,11 +69,14 @@ class Request:
     ----------
     former : tuple of Compared
         The results that these are compared with, if any.
+    since : Path or None
+        Their file.
     """
 
     sheet: Sheet
     folder: Path
     former: tuple[Compared, ...]
+    since: Path | None
 
 
 def read(source: Path, out: Path | None, since: Path | None) -> Request:
@@ -93,7 +92,30 @@ def read(source: Path, out: Path | None, since: Path | None) -> Request:
     check_letters(sheet)
     check_writable(folder)
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
-    return Request(sheet=sheet, folder=folder, former=former)
+    return Request(sheet=sheet, folder=folder, former=former, since=since)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Prepared:
+    """The motions at the roof, the files that all is computed from, and how long it will take."""
+
+    shaking: Shaking
+    sources: Sequence[Source]
+    notice: str
+
+
+def prepare(request: Request) -> Prepared:
+    """Read and process the records, and keep every file as it is now."""
+    from report.assessment.cost import cost
+    from report.motions.prepare import prepare
+    from report.provenance.files import sources
+
+    shaking = prepare(request.sheet)
+    return Prepared(
+        shaking=shaking,
+        sources=sources(request.sheet, shaking, request.since),
+        notice=cost(request.sheet.project, shaking) or "the first run compiles the solver",
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.sheet.cells import cut
-from report.sheet.conditions import REFERENCES, UNIQUE, missing
+from report.sheet.conditions import MAX_SLOPE_DEG, REFERENCES, UNIQUE, missing
 from report.sheet.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.friction_checks import friction_faults
 from report.sheet.motion_checks import motion_faults
@@ -33,7 +33,6 @@ from report.words.units import Quantity, pair
 from solver.model import INCH_M
 from solver.rules.rulesets import ALLOWED
 
-MAX_SLOPE_DEG = 45.0
 GAP_TOLERANCE = 0.01
 # Below the inch at which a package states that a clearance contradicts the plan
 # (`report.assessment.neighbors`): what passes here passes there.

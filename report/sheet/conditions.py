@@ -170,6 +170,9 @@ REFERENCES: Mapping[tuple[str, str], tuple[str, ...]] = {
 
 OTHER_NAMES: Mapping[tuple[str, str], str] = {("outlines", "name"): ROOF}
 
+MAX_SLOPE_DEG = 45.0
+"""Slope of an array from which it is refused."""
+
 ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 """Fields of which the second is larger, where a table has them."""
 

@@ -9,14 +9,19 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby
 
-from report.sheet.conditions import ORDERED, OTHER_NAMES, REFERENCES, REQUIRED, UNIQUE
+from report.sheet.conditions import (
+    MAX_SLOPE_DEG,
+    ORDERED,
+    OTHER_NAMES,
+    REFERENCES,
+    REQUIRED,
+    UNIQUE,
+)
 from report.sheet.fields import Entry, entries
 from report.sheet.layout import BlockPlace, Layout, TablePlace
 
 WRONG = 1_000_000
 """A status is the count of cells that a row lacks, less so much for each that is wrong."""
-
-SLOPE_TOO_STEEP = "AND(ISNUMBER({slope_deg}),{slope_deg}>=45)"
 
 
 def condition(section: str, entry: Entry, refer: Callable[[str], str]) -> str:
@@ -60,7 +65,8 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
             least, most = (f"N({place.this(name)})*unit_{section}_{name}" for name in (low, high))
             yield f"AND({given},{least}>={most})"
     if "slope_deg" in place.letters:
-        yield SLOPE_TOO_STEEP.replace("{slope_deg}", place.this("slope_deg"))
+        slope = place.this("slope_deg")
+        yield f"AND(ISNUMBER({slope}),{slope}>={MAX_SLOPE_DEG:g})"
 
 
 def is_wrong(cell: str, entry: Entry, unit: str) -> Iterator[str]:
