@@ -22,7 +22,7 @@ DURATIONS = Path(__file__).with_name("durations.csv")
 KEPT_S = 0.02
 """Shorter tests are not kept in the file: they are quick."""
 
-QUICK_S = 0.05
+QUICK_S = 0.1
 """Longest quick test; of a file whose tests all take longer, the shortest one is quick."""
 
 
