@@ -26,6 +26,9 @@ DRIFT_M = 0.010
 FIRE_LANE_M = 150 * 0.3048
 """Largest plan dimension of an array between fire lanes [m]."""
 
+MOTIONS_ID = "motions"
+"""Of the rows on limits that the motions miss."""
+
 NO_DESIGN = "unknown without a permitted design displacement"
 
 
@@ -99,7 +102,7 @@ def motion_row(missed: Limit, *, takes_analysis: bool) -> Row:
     is_ng = missed.consequence is Consequence.NG
     found, least = (f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit))
     return Row(
-        id="motions",
+        id=MOTIONS_ID,
         title=missed.title,
         found=found + (f" ({missed.worst})" if missed.worst else ""),
         limit=f"{missed.sign} {least}",

@@ -18,6 +18,7 @@ from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
 from report.assessment.clearances import ClearanceCheck, check_clearance, least_gap_m
 from report.assessment.conditions import (
+    MOTIONS_ID,
     array_rows,
     friction_row,
     motion_rows,
@@ -41,7 +42,7 @@ from report.assessment.precheck import rule_set_of
 from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
-from report.assessment.verdict import Row, Verdict, worst
+from report.assessment.verdict import BY_CONSEQUENCE, Row, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.read import Sheet
@@ -137,6 +138,12 @@ class Assessment:
                 *(row.verdict for row in self.rows_of(item.array.id)),
             ]
         )
+
+    def limit_verdict(self, limit: Limit) -> Verdict:
+        """Return the verdict on a limit: of one that is a requirement too, the verdict on that."""
+        rows = (row for row in self.rows if row.id == MOTIONS_ID and row.title == limit.title)
+        missed = next((row.verdict for row in rows), BY_CONSEQUENCE[limit.consequence])
+        return Verdict.OK if limit.ok else missed
 
     def is_sound(self, item: ArrayAssessment) -> bool:
         """Whether an array satisfies its limits, and its motions, model and runs are adequate."""

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from functools import partial
 
 from report.assessment.spectra import LEAST_MEAN, Spectra
-from report.document.tables import Column, Table, listed
+from report.document.tables import Column, Table, listed, stamp
 from report.entities.shown import plain, text, words
-from report.pages.parts import PackageData, verdict
+from report.pages.parts import PackageData
 from report.sheet.schema import MotionInput
 from report.typeset.equations import symbol
 from report.words.units import number
@@ -31,7 +31,7 @@ def acceptance_table(package: PackageData) -> Table:
         (text("Found", share=0.7), _found),
         (text("Limit value", share=0.95), _limit),
         (words("Worst", 1.5), lambda row: row.worst or "—"),
-        (words("Result", 1.05), lambda row: verdict(row.ok, ("OK", row.consequence.value))),
+        (words("Result", 1.05), lambda row: stamp(package.assessment.limit_verdict(row))),
     )
     rows, caption = (
         package.assessment.acceptance.rows,

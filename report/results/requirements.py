@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
-from report.assessment.verdict import BY_CONSEQUENCE, Row, Verdict
+from report.assessment.verdict import Row
 from report.results.sheets import Pages, write_headings
 from solver.rules.limit import Limit
 
@@ -32,12 +32,12 @@ def write_requirements(pages: Pages, assessment: Assessment) -> None:
 def _rows(assessment: Assessment) -> Iterator[tuple[str, ...]]:
     yield from map(_requirement, assessment.rows)
     for check in assessment.building_checks:
-        yield _limit("Building", check)
+        yield _limit(assessment, "Building", check)
     for item in assessment.arrays:
         for check in item.limits:
-            yield _limit(item.id, check)
+            yield _limit(assessment, item.id, check)
     for check in assessment.acceptance.rows:
-        yield _limit("Motions", check)
+        yield _limit(assessment, "Motions", check)
 
 
 def _requirement(row: Row) -> tuple[str, ...]:
@@ -45,7 +45,7 @@ def _requirement(row: Row) -> tuple[str, ...]:
     return (subject, row.title, row.found, row.limit, row.basis, row.verdict.word, row.remedy)
 
 
-def _limit(item: str, row: Limit) -> tuple[str, ...]:
+def _limit(assessment: Assessment, item: str, row: Limit) -> tuple[str, ...]:
     found, limit = (f"{v:.6g} {row.measure.unit}".rstrip() for v in (row.found, row.limit))
     return (
         item,
@@ -53,6 +53,6 @@ def _limit(item: str, row: Limit) -> tuple[str, ...]:
         found + (f" ({row.worst})" if row.worst else ""),
         f"{row.sign} {limit}{OVERRIDDEN if row.provision.reason else ''}",
         row.provision.clause,
-        (Verdict.OK if row.ok else BY_CONSEQUENCE[row.consequence]).word,
+        assessment.limit_verdict(row).word,
         f"over the limit, permitted: {row.provision.note}" if row.passes_by_exception else "",
     )

@@ -103,3 +103,14 @@ def test_events_are_printed_where_the_workbook_gives_any():
     (row,) = page.table("Events of the records").cells
     assert row == ("M2", "Kobe 1995", "6.9", "not given", "312")
     assert "Events" not in printed(scenes.package(), "motions")
+
+
+def test_a_limit_that_is_a_condition_is_one_in_each_table():
+    """Without an array that takes the value from analysis, what makes that value NG is none."""
+    alone = {"arrays": [stand_in.array("A1", 0.5)], "objects": [], "clearances": []}
+    package = scenes.package(scenes.motions(2, 4.0), **alone)
+    title = "Number of motions"
+    rows = printed(package, "limits").table("Requirements beside").rows
+    assert [row["Verdict"] for row in rows if row["Requirement"] == title] == ["Condition"]
+    shown = printed(package, "motions").table("Limits on the motions").rows
+    assert [row["Result"] for row in shown if row["Limit"] == title] == ["Condition"]
