@@ -45,7 +45,7 @@ def pictures(package: PackageData, surface: Surface) -> Sequence[Picture]:
             f"Crosses: the grid, μ = {_listed(surface.mus.tolist(), 2)} by slope = "
             f"{_listed([math.degrees(s) for s in surface.slopes_rad.tolist()], 1)} deg; contours "
             f"interpolate its logarithm. Tolerance of a run: {power_of_ten(_exponent(TOLERANCE))} "
-            f"of its PRD.{_dots(surface)}",
+            f"of its PRD. {dots(surface)}",
             alt="Contours of the mean PRD over friction coefficient and slope",
         ),
     )
@@ -59,18 +59,14 @@ def _listed(values: Sequence[float], decimals: int) -> str:
     return ", ".join(number(value, decimals) for value in values)
 
 
-def _dots(surface: Surface) -> str:
+def dots(surface: Surface) -> str:
+    """Return which arrays are dots of the contours."""
     if not surface.others:
-        return " Dots: the arrays."
-    return f" Dots: the arrays; {other_law(surface)}"
-
-
-def other_law(surface: Surface) -> str:
-    """Return which arrays have no dot, and why."""
+        return "Dots: the arrays."
     law = "constant" if surface.array.array.friction.is_constant else "velocity-dependent"
     return (
-        f"not {', '.join(surface.others)}, whose friction is not of the kind shown, that of "
-        f"{surface.array.id} ({law}), scaled as a whole."
+        f"Dots: the arrays whose friction is that of {surface.array.id} ({law}), scaled as a whole:"
+        f" not {', '.join(surface.others)}."
     )
 
 

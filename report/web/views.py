@@ -17,7 +17,7 @@ from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import Surface, surface
 from report.figures.levels import LEAST_M, is_decade, levels
-from report.pages.uncertainty import other_law
+from report.pages.uncertainty import dots
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from report.web.thinning import Indices, beside, peaks_kept
@@ -302,7 +302,7 @@ def _contour_texts(found: Surface, here_m: float, us_first: bool) -> Json:
             "of their record: their PRD is not final."
         )
     if found.others:
-        notes.append(f"Dots: the arrays, but {other_law(found)}")
+        notes.append(dots(found))
     return {
         "title": f"Mean PRD of {runs} motion{'s' if runs > 1 else ''} over friction and slope, "
         f"array {array.id}",
