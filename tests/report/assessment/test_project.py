@@ -12,13 +12,14 @@ import pytest
 import scenes
 import stand_in
 from one_by_one import slid, slides
+from report import assess_project
 from report.assessment.arrays import DesignBasis, assess_array
 from report.assessment.evidence import support
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import motion_run
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Direction
-from solver.model import Status
+from solver.model import InputError, Status
 from solver.rules.provisions import Basis
 from solver.sliding import least_model
 from solver.sliding.least_model import Model
@@ -246,3 +247,8 @@ def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
         apart, (single,) = found(one, other | changes), found(other | changes).arrays
         assert apart.arrays[1].motions[0] is not apart.arrays[0].motions[0]
         assert apart.arrays[1].design_m == single.design_m
+
+
+def test_a_project_that_is_not_there_is_an_input_error_in_python(tmp_path):
+    with pytest.raises(InputError, match="no such file; give a workbook"):
+        assess_project(tmp_path / "gone.xlsx")

@@ -42,6 +42,20 @@ def test_the_schema_names_every_key_that_is_written_and_no_other(content):
     assert schema["$defs"]["RunResult"]["properties"]["prd_m"]["type"] == ["number", "null"]
 
 
+def references(node):
+    """Every "$ref" in a schema."""
+    if isinstance(node, dict):
+        yield from ([node["$ref"]] if "$ref" in node else [])
+        node = list(node.values())
+    for each in node if isinstance(node, list) else ():
+        yield from references(each)
+
+
+def test_every_reference_of_the_schema_is_to_a_definition_and_each_is_used():
+    schema = json.loads(CliRunner().invoke(main, ["schema"]).output)
+    assert set(references(schema)) == {f"#/$defs/{name}" for name in schema["$defs"]}
+
+
 def gap(**changes):
     row = {
         "array": "A1", "object": "RTU-1", "direction": "any", "neighbor": "fixed object",

@@ -28,9 +28,11 @@ import tampering
 from report.cli.main import main
 from report.proof import signatures
 from report.proof.package import Package, reader
+from report.proof.sign import signed as signed_by
 from report.proof.signatures import Signature
 from report.proof.updates import Appended, appended
 from report.typeset.finish import FIELD
+from solver.model import InputError
 
 PASSWORD = "pass word"
 CONFIG = """
@@ -318,3 +320,18 @@ def test_a_file_that_is_not_there_is_told_before_a_password_is_asked_for(missing
     assert done.exit_code == 2
     assert missing in done.output
     assert "assword" not in done.output
+
+
+def test_the_package_is_not_overwritten_by_the_one_that_is_signed(tmp_path):
+    package = tmp_path / "calc-package.pdf"
+    package.write_bytes(b"as it was")
+    words = ["sign", str(package), "--p12", str(package), "--password", "x", "--out", str(package)]
+    done = CliRunner().invoke(main, words)
+    assert done.exit_code == 2
+    assert "choose another --out" in done.output
+    assert package.read_bytes() == b"as it was"
+
+
+def test_a_file_that_is_no_certificate_is_an_input_error():
+    with pytest.raises(InputError, match="not PKCS#12, or another password"):
+        signed_by(b"", b"no certificate", PASSWORD)

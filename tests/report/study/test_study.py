@@ -8,6 +8,7 @@ import math
 import re
 import sys
 from statistics import NormalDist
+from types import SimpleNamespace
 
 import defusedxml.ElementTree
 import numpy as np
@@ -24,7 +25,13 @@ from report.cli.main import main
 from report.cli.study import make
 from report.results.publish import locked
 from report.study import figures, files
-from report.study.exports import component_id, export_files, known_states, probabilities_of
+from report.study.exports import (
+    component_id,
+    export_files,
+    has_probabilities,
+    known_states,
+    probabilities_of,
+)
 from report.study.files import study_html
 from report.study.prescribed import compare
 from report.study.run import estimate, planned, run_study
@@ -565,3 +572,16 @@ def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
     table = printed.study(dataclasses.replace(results, plan=warned)).table("Warnings on the")
     assert table.cells == (("Mats!B8", "cell B8 is struck through."),)
     assert "Warnings on the workbook" not in printed.study(results)
+
+
+@pytest.mark.parametrize(
+    ("censored", "is_known", "has"), [(0, False, True), (2, True, True), (2, False, False)]
+)
+def test_an_array_has_probabilities_where_each_state_has_a_lognormal_or_all_its_runs(
+    censored, is_known, has
+):
+    fitted = Lognormal(theta=0.5, beta=0.4) if is_known else UNKNOWN
+    state = SimpleNamespace(name="S1", fragility=SimpleNamespace(censored=censored, fitted=fitted))
+    array = SimpleNamespace(states=(state,))
+    assert has_probabilities(array) == has
+    assert known_states(array) == ((state,) if is_known else ())

@@ -1,0 +1,44 @@
+"""A suite of one motion given sample by sample: what its files say of it."""
+
+import hashlib
+import json
+import math
+
+import numpy as np
+import pytest
+
+from report.suite.files import suite_files, suite_table
+from report.suite.inputs import ac156_targets
+from report.words.units import G_MPS2
+from solver.records.record import record_from_values
+from solver.rules.spectra import Tail
+from solver.synthesis import SuiteMotion
+
+DT_S, SECONDS, PEAK_G = 0.01, 4.0, 0.25
+
+
+def wave(axis, hz):
+    """Whole periods of a sine."""
+    times = np.arange(0.0, SECONDS + DT_S / 2, DT_S)
+    name = f"motion-01-{axis}"
+    return record_from_values(name, PEAK_G * np.sin(2 * math.pi * hz * times), units="g", dt_s=DT_S)
+
+
+def test_the_files_of_a_suite_say_what_its_samples_are():
+    x, y, z = (wave(axis, hz) for axis, hz in zip("xyz", (0.5, 2.5, 5.0), strict=True))
+    suite = [SuiteMotion(x=x, y=y, z=z, seeds=("noise",) * 3, hold_s=2.0)]
+    targets = ac156_targets("asce7-16", s_ds_g=1.2, z_over_h=1.0, tail=Tail.AC156)
+    files = suite_files(suite, targets, seed=3, records={})
+    document = json.loads(files["suite.json"])
+    (motion,) = document["motions"]
+    for each in motion["components"]:
+        assert each["sha256"] == hashlib.sha256(files[each["file"]]).hexdigest()
+        assert each["pga_g"] == pytest.approx(PEAK_G, rel=1e-3)
+    first = motion["components"][0]
+    # The velocity of a sine that starts at rest reaches twice its amplitude, a / (pi f).
+    assert first["pgv_mps"] == pytest.approx(PEAK_G * G_MPS2 / (math.pi * 0.5), rel=1e-3)
+    assert motion["correlation_xy"] == pytest.approx(0.0, abs=1e-9)
+    assert document["envelope_s"] == pytest.approx([1.0, 2.0, 1.0])
+    assert any(not row["satisfied"] for row in document["acceptance"])
+    assert files["suite.png"].startswith(b"\x89PNG")
+    assert any(line.startswith("0 of 3 components") for line in suite_table(suite, targets))
