@@ -63,7 +63,7 @@ def _peer_review(data: ProjectInput) -> Iterator[Row]:
 
 
 def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Row]:
-    us_first = data.project.units_first == "US"
+    us_first = data.project.units_first.is_us
     for motion in prepared:
         largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
         more, most = compared(largest, DRIFT_M)
@@ -128,7 +128,7 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Row, 
 
     A gap of the plan that no clearance covers, and that is less than is required, is NG.
     """
-    us_first = data.project.units_first == "US"
+    us_first = data.project.units_first.is_us
     return tuple(
         Row(
             id="neighbors",
@@ -176,7 +176,7 @@ def array_rows(data: ProjectInput, assessed: ArrayAssessment) -> tuple[Row, ...]
 
 def fire_lanes(data: ProjectInput, array: Array) -> Row:
     """Return whether an array fits between fire lanes."""
-    us_first = data.project.units_first == "US"
+    us_first = data.project.units_first.is_us
     plan = array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
     return Row(
@@ -194,7 +194,7 @@ def fire_lanes(data: ProjectInput, array: Array) -> Row:
 
 def interconnection(data: ProjectInput, array: Array, required: float) -> Row:
     """Return whether the strength between the parts of an array is as required [N]."""
-    us_first = data.project.units_first == "US"
+    us_first = data.project.units_first.is_us
     provided = array.interconnection_n
     given = math.nan if provided is None else provided
     shown, had = compared(required, given)
@@ -213,7 +213,7 @@ def interconnection(data: ProjectInput, array: Array, required: float) -> Row:
 
 
 def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
-    us_first = data.project.units_first == "US"
+    us_first = data.project.units_first.is_us
     provided, design = assessed.array.slack_m, assessed.permitted_m
     has_value = not math.isnan(design)
     given = math.nan if provided is None else provided

@@ -118,7 +118,7 @@ def limit_words(check: Limit, us_first: bool) -> str:
 
 
 def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
-    rules, us_first = rule_set_of(data), data.project.units_first == "US"
+    rules, us_first = rule_set_of(data), data.project.units_first.is_us
     for check in provisions.building_checks(
         rules,
         risk_category=list(type(data.site.risk_category)).index(data.site.risk_category) + 1,

@@ -182,7 +182,7 @@ class Assessment:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Runs whose displacement is missing or not final, in words."""
-        return run_warnings(self.arrays, self.project.project.units_first == "US")
+        return run_warnings(self.arrays, self.project.project.units_first.is_us)
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""

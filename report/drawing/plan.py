@@ -33,7 +33,7 @@ TEXT_SHARE = 1.0 / 120.0
 
 def plan_drawing(assessment: Assessment) -> PlanDrawing:
     """Return the plan of an assessment."""
-    is_feet = assessment.project.project.units_first == "US"
+    is_feet = assessment.project.project.units_first.is_us
     unit = Quantity.PLAN.us if is_feet else Quantity.PLAN.si
     lines = tuple(_in_unit(line, unit) for line in _lines(assessment))
     points = [point for line in lines for point in line.points]
@@ -103,7 +103,7 @@ class GapLine:
 
 def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
     """Yield the clearances, numbered as in the workbook, and what is NG without one."""
-    us_first = assessment.project.project.units_first == "US"
+    us_first = assessment.project.project.units_first.is_us
     for gap in plan_gaps(assessment):
         show_required, show_provided = compared(gap.required_m, gap.provided_m)
         provided = pair(gap.provided_m, Quantity.SIZE, us_first, show_provided)

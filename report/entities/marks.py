@@ -52,7 +52,7 @@ class Marked:
     @property
     def fmt(self) -> UnitFormat:
         """Format of values."""
-        return UnitFormat(us_first=self.data.project.units_first == "US")
+        return UnitFormat(us_first=self.data.project.units_first.is_us)
 
     def mark(self, key: str) -> str:
         """Return the marks of a provision."""

@@ -157,4 +157,4 @@ class PlanSheet:
 
 def is_us_first(assessment: Assessment) -> bool:
     """Whether US units come first in a project."""
-    return assessment.project.project.units_first == "US"
+    return assessment.project.project.units_first.is_us

@@ -107,7 +107,7 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
 
 def attention(assessment: Assessment) -> Iterator[Line]:
     """Yield what is not satisfied, each with array, value, limit, and what would do."""
-    us_first = assessment.project.project.units_first == "US"
+    us_first = assessment.project.project.units_first.is_us
     for text in assessment.warnings:
         wanted = next(do for status, do in _WHAT_WOULD_DO.items() if status.sentence in text)
         yield Line("NG", f"{_lowered(text.rstrip('.'))}; {wanted}")

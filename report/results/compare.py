@@ -31,7 +31,7 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
     before = {array.id: array for array in former.arrays}
     values = frozenset(_changed_values(before, now.arrays))
     gaps, new_gaps = (_keyed(one.clearances, _gap_key) for one in (former, now))
-    us_first = assessment.project.project.units_first == "US"
+    us_first = assessment.project.project.units_first.is_us
     return Changes(
         revision=former.input.project.revision,
         date=former.input.project.date.isoformat(),

@@ -55,7 +55,7 @@ def _cases(results: StudyResults) -> Iterator[tuple[Row, tuple[int, ...]]]:
 def length_unit(results: StudyResults) -> Unit:
     """Return the unit of displacements that is printed first."""
     quantity = Quantity.DISPLACEMENT
-    return quantity.us if results.plan.input.study.units_first == "US" else quantity.si
+    return quantity.us if results.plan.input.study.units_first.is_us else quantity.si
 
 
 def study_xlsx(results: StudyResults) -> bytes:

@@ -55,7 +55,7 @@ def both(results: StudyResults, value_m: float) -> str:
     """
     if math.isnan(value_m):
         return "none"
-    us_first = results.plan.input.study.units_first == "US"
+    us_first = results.plan.input.study.units_first.is_us
     return pair(value_m, Quantity.DISPLACEMENT, us_first, no_less)
 
 

@@ -233,5 +233,5 @@ def _clearances(data: ProjectInput) -> str:
     if not data.clearances:
         return ""
     row = min(data.clearances, key=lambda row: row.provided_m)
-    text = pair(row.provided_m, Quantity.SIZE, data.project.units_first == "US")
+    text = pair(row.provided_m, Quantity.SIZE, data.project.units_first.is_us)
     return f"smallest {text}, {row.array} to {row.object}"

@@ -72,7 +72,7 @@ def _extent(data: ProjectInput) -> Sequence[float]:
 def _scale_bar(data: ProjectInput) -> Mapping[str, Any]:
     """Return a round length, about a seventh of the width."""
     x0, _, x1, _ = _extent(data)
-    unit = Quantity.PLAN.us if data.project.units_first == "US" else Quantity.PLAN.si
+    unit = Quantity.PLAN.us if data.project.units_first.is_us else Quantity.PLAN.si
     length = round_below((x1 - x0) / 6.0 / unit.si)
     return {"length_m": length * unit.si, "text": f"{length:g} {unit.symbol}"}
 

@@ -161,7 +161,7 @@ def _named(kind: str, items: Sequence[_T], wanted: str, name: Callable[[_T], str
 
 
 def _us_first(assessment: Assessment) -> bool:
-    return assessment.project.project.units_first == "US"
+    return assessment.project.project.units_first.is_us
 
 
 def _run_choice(motion: MotionRun, run: OrientedRun, us_first: bool) -> Json:

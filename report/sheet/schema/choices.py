@@ -60,6 +60,11 @@ class UnitsFirst(StrEnum):
     US = "US"
     SI = "SI"
 
+    @property
+    def is_us(self) -> bool:
+        """Whether inches and pounds come first."""
+        return self is UnitsFirst.US
+
 
 class RiskCategory(StrEnum):
     """Risk category, ASCE 7 Table 1.5-1."""
