@@ -30,7 +30,7 @@ from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_velocity import (
     NOT_BY_VELOCITY,
-    LowVelocity,
+    LowVelocityAssessment,
     low_velocity,
     velocity_rows,
     with_low_velocity,
@@ -82,7 +82,7 @@ class Assessment:
     less : Assessment or None
         The same with less friction, from runs that tell whether clearances are satisfied
         (`report.assessment.rough`); None in that one itself.
-    low_velocity : LowVelocity
+    low_velocity : LowVelocityAssessment
         Arrays with their low-velocity coefficient alone; without any in `less`, and in what
         `reassess` and `anticipate` give.
     """
@@ -102,7 +102,7 @@ class Assessment:
     acceptance: Acceptance
     rows: tuple[Row, ...]
     less: Assessment | None
-    low_velocity: LowVelocity
+    low_velocity: LowVelocityAssessment
     solver_seconds: float
 
     @property

@@ -55,7 +55,7 @@ ANGLES_DEG = tuple(k * 22.5 for k in range(16) if k % 4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Surface:
+class ResponseSurface:
     """Mean PRD of the motions over friction and slope, each in its governing orientation.
 
     Attributes
@@ -137,7 +137,7 @@ class Uncertainty:
         For each clearance, one for each array that it involves.
     """
 
-    surface: Surface
+    surface: ResponseSurface
     margins: tuple[Margin, ...]
     motion: MotionRun
     turned: tuple[RotatedRun, ...]
@@ -168,7 +168,7 @@ def uncertainty(given: Assessment) -> Uncertainty:
         )
 
 
-def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> Surface:
+def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> ResponseSurface:
     """Return the mean PRD of an array over a grid of friction and slope around all arrays."""
     arrays = [array.array for array in given.arrays]
     mus = _axis([array.mu for array in arrays], item.array.mu, N_MUS, unit=0.01, room=0.05)
@@ -184,7 +184,7 @@ def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> Surface
     results = list(pool.map(partial(_cell, item), cells))
     means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
     statuses = [run.status for cell in results for run in cell]
-    return Surface(
+    return ResponseSurface(
         array=item,
         mus=mus,
         slopes_rad=slopes,

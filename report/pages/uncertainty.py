@@ -9,7 +9,7 @@ import numpy as np
 
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
-from report.assessment.uncertainty import TOLERANCE, Margin, Surface, Uncertainty
+from report.assessment.uncertainty import TOLERANCE, Margin, ResponseSurface, Uncertainty
 from report.document.blocks import Picture
 from report.document.tables import Column, Table, listed
 from report.entities.shown import length, text, words
@@ -30,7 +30,7 @@ def page(package: PackageData, uncertainty: Uncertainty) -> dict[str, object]:
     }
 
 
-def pictures(package: PackageData, surface: Surface) -> Sequence[Picture]:
+def pictures(package: PackageData, surface: ResponseSurface) -> Sequence[Picture]:
     """Return the contours; none where nothing slides on the whole grid."""
     from report.figures.uncertainty import contours
 
@@ -59,7 +59,7 @@ def _listed(values: Sequence[float], decimals: int) -> str:
     return ", ".join(number(value, decimals) for value in values)
 
 
-def dots(surface: Surface) -> str:
+def dots(surface: ResponseSurface) -> str:
     """Return which arrays are dots of the contours."""
     if not surface.others:
         return "Dots: the arrays."
@@ -70,7 +70,7 @@ def dots(surface: Surface) -> str:
     )
 
 
-def _at_governing(surface: Surface) -> Mapping[str, object]:
+def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:
     """Return the grid at the governing array, and one step beside it as a ratio to that."""
     array, means, mus, slopes = surface.array.array, surface.mean_m, surface.mus, surface.slopes_rad
     row = _nearest(slopes.tolist(), array.slope_rad)

@@ -18,7 +18,7 @@ from report.study.array_capacities import SHARES, array_capacities
 from report.study.parts import Done, peaks, read_part
 from report.study.plan import ArrayPlan, StudyPlan
 from report.study.schema import NoValue
-from report.study.spread import Spread, spectral_spread
+from report.study.spread import SpectralSpread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
 from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
@@ -58,7 +58,7 @@ class LimitState:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ArrayResult:
+class ArrayStudyResult:
     """The results of one array on one building.
 
     Attributes
@@ -95,13 +95,13 @@ class StudyResults:
         Of shape (buildings, slopes, frictions, intensities).
     analysis_m, design_m : array
         Value from analysis, and design displacement, of the same shape [m]; NaN for none.
-    spread : Spread
+    spread : SpectralSpread
         Of the motions' spectra.
     ppa_g : array, shape (buildings,)
         Mean peak horizontal acceleration at the roof for an intensity of 1 [g].
     fits : tuple of Fit or str
         By building; a text says why there is none.
-    arrays : tuple of ArrayResult
+    arrays : tuple of ArrayStudyResult
     allow_matched : bool
         Whether fragilities without a record-to-record dispersion are exported, with a warning.
     """
@@ -111,10 +111,10 @@ class StudyResults:
     curves: Statistics
     analysis_m: Floats
     design_m: Floats
-    spread: Spread
+    spread: SpectralSpread
     ppa_g: Floats
     fits: tuple[Fit | str, ...]
-    arrays: tuple[ArrayResult, ...]
+    arrays: tuple[ArrayStudyResult, ...]
     allow_matched: bool
 
     @property
@@ -250,7 +250,7 @@ def _array(
     slip: NDArray[np.bool_],
     offset: int,
     number: int,
-) -> ArrayResult:
+) -> ArrayStudyResult:
     def of(cases: slice) -> slice:
         return slice(cases.start - offset, cases.stop - offset)
 
@@ -285,7 +285,7 @@ def _array(
         exceedances = (exceedance(prd[of(array.samples)], clearance, seed=seed),)
         means = prd[of(array.bars)].mean(axis=1)
         bars, center = tornado(array.spreads, means), float(means[0])
-    return ArrayResult(
+    return ArrayStudyResult(
         plan=array,
         states=tuple(states),
         exceedances=exceedances,

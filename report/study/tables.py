@@ -18,7 +18,7 @@ import xlsxwriter
 
 from report.entities.marks import UNVERIFIED
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
-from report.study.results import ArrayResult, LimitState, StudyResults
+from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
 from report.words.counts import capitalized
 from report.words.units import Quantity, Unit
@@ -171,7 +171,7 @@ def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
             )
 
 
-def _dispersions(results: StudyResults, one: ArrayResult, state: LimitState) -> Row:
+def _dispersions(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> Row:
     """Return the dispersions of a limit state by name, and that exported; NaN for none."""
     if not (is_exportable(results) and state.fragility.fitted.is_known):
         return [math.nan] * (len(NAMES) + 1)

@@ -42,7 +42,7 @@ _NO_DRIFT = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Component:
+class SuiteComponent:
     """One component of a generated motion, as reported."""
 
     motion: str
@@ -74,10 +74,10 @@ def _cleared(value: float, peak: float) -> float:
     return 0.0 if abs(value) <= _NO_DRIFT * peak else value
 
 
-def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[Component, ...]:
+def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[SuiteComponent, ...]:
     """Return every component of a suite with its fit and measures."""
     return tuple(
-        Component(
+        SuiteComponent(
             motion=f"motion-{k:02d}",
             component=name,
             grew_from=grew_from,
@@ -123,7 +123,7 @@ def suite_files(
 def _document(
     suite: Sequence[SuiteMotion],
     targets: SuiteTargets,
-    parts: Sequence[Component],
+    parts: Sequence[SuiteComponent],
     seed: int,
     records: Mapping[str, str],
     files: Mapping[str, bytes],
@@ -163,7 +163,7 @@ def _corners(target: Target) -> dict[str, list[float]]:
 
 
 def _motion(
-    motion: SuiteMotion, parts: Sequence[Component], files: Mapping[str, bytes]
+    motion: SuiteMotion, parts: Sequence[SuiteComponent], files: Mapping[str, bytes]
 ) -> dict[str, Any]:
     xy, xz, yz = motion.correlations
     return {
@@ -175,7 +175,7 @@ def _motion(
     }
 
 
-def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
+def _component(part: SuiteComponent, files: Mapping[str, bytes]) -> dict[str, Any]:
     name, values = f"{part.record.name}.csv", part.measures
     return {
         "component": part.component,
@@ -248,7 +248,7 @@ def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str
     ]
 
 
-def _cells(part: Component, pair: str) -> tuple[str, ...]:
+def _cells(part: SuiteComponent, pair: str) -> tuple[str, ...]:
     values = part.measures
     return (
         part.motion if part.component == "x" else "",

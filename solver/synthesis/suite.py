@@ -16,7 +16,7 @@ from solver.model import Floats, InputError
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
 from solver.records.record import Record
-from solver.synthesis.matching import Frame, make_frame, matched, rounded, shaped
+from solver.synthesis.matching import MatchingFrame, make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
 from solver.synthesis.target import (
     SpectrumFit,
@@ -195,7 +195,7 @@ class _Wanted:
     """A target with the frame for matching its motions."""
 
     target: Target
-    frame: Frame
+    frame: MatchingFrame
 
 
 def _component(

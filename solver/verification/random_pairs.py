@@ -32,7 +32,7 @@ Law = Callable[[float], Friction]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class PairComparison:
     """Comparison of the two runs of a pair.
 
     Attributes
@@ -77,7 +77,7 @@ class Pair:
     rounding_m: float
     compare: Compare
 
-    def run(self) -> Outcome:
+    def run(self) -> PairComparison:
         """Run both.
 
         Raises
@@ -90,7 +90,7 @@ class Pair:
         if a.status is not Status.OK or b.status is not Status.OK:
             raise ArithmeticError(f"{a.status}, {b.status}")
         bound = a.error_m + b.error_m + self.rounding_m
-        return Outcome(
+        return PairComparison(
             prd_m=a.prd_m,
             off_m=float(np.abs(self.compare(a, b)).max()),
             bound_m=bound if self.first.friction.is_monotone else math.inf,
