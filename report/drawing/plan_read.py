@@ -243,7 +243,8 @@ def _edges(roof: Shape, objects: Sequence[DrawnOutline]) -> Iterator[DrawnOutlin
     for edge in bare_sides(Polygon(roof.points), strips, 90.0):
         name = _free_name(kind, counts, taken)
         yield DrawnOutline(name=name, kind=kind, shape=_strip(*edge.ends), handle="", layer="",
-                           height_m=math.nan, note=f"{edge.name}, taken as without parapet")  # fmt: skip
+                           height_m=math.nan,
+                           note=f"{edge.name}, taken as without parapet")  # fmt: skip
 
 
 def _strip(start: Point, end: Point) -> Shape:

@@ -76,10 +76,10 @@ def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:
     row = _nearest(slopes.tolist(), array.slope_rad)
     column = _nearest(mus.tolist(), array.mu)
     here = float(means[row, column])
-    beside: dict[str, object] = {"less": None, "steeper": None}
+    beside: dict[str, object] = {"reduced_friction": None, "steeper": None}
     if here > 0.0 and column > 0:
         law = with_mu(array, float(mus[column - 1])).friction
-        beside["less"] = (law, float(means[row, column - 1]) / here)
+        beside["reduced_friction"] = (law, float(means[row, column - 1]) / here)
     if here > 0.0 and row + 1 < slopes.size:
         beside["steeper"] = (float(slopes[row + 1]), float(means[row + 1, column]) / here)
     return beside | {
