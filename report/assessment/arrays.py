@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
-from report.assessment.runs import RUNGS, MotionRun, OrientedRun, nan_is_worst
+from report.assessment.runs import REQUESTED_MODELS, MotionRun, OrientedRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
 from solver.rules import provisions
 from solver.rules.limit import Limit
@@ -189,7 +189,7 @@ class ArrayAssessment:
     @property
     def is_model_requested(self) -> bool:
         """Whether the workbook requests a model."""
-        return self.array.model in RUNGS
+        return self.array.model in REQUESTED_MODELS
 
     @property
     def is_model_enough(self) -> bool:

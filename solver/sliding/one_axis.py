@@ -1,4 +1,4 @@
-"""Rungs 1 and 2: one block along the slope, by the exact method or another one.
+"""Models 1 and 2: one block along the slope, by the exact method or another one.
 
 Checks no input (`solver.sliding.checked`) and computes no physics (`solver.kernels.one_axis`,
 `solver.rivals`). Read `run` first.

@@ -1,4 +1,4 @@
-"""Rungs 3 and 4: a block in two axes, with constant or velocity-dependent friction, to a tolerance.
+"""Models 3 and 4: a block in two axes, friction constant or by velocity, to a tolerance.
 
 Computes no physics itself (see `solver.kernels.two_axes`) and checks no input
 (`solver.sliding.checked` does). Read `solver.model.Scene`, then `follow`.

@@ -12,7 +12,7 @@ import numpy as np
 
 from solver.model import Floats, Status
 from solver.studies.curves import least_friction
-from solver.verification.rung_evidence import RungEvidence
+from solver.verification.model_evidence import ModelEvidence
 from solver.verification.shake_table import ShakeTable
 
 FLOOR_M = 1e-3
@@ -378,7 +378,7 @@ class Verification:
     conditioning : tuple of Conditioning
     roofs : tuple of RoofComparison
         The model building first, then those whose records were given.
-    rungs : tuple of RungEvidence
+    models : tuple of ModelEvidence
         One.
     tables : tuple of ShakeTable
         One if tests of a shake table were given, otherwise empty.
@@ -399,7 +399,7 @@ class Verification:
     curves: tuple[DesignCurves, ...]
     conditioning: tuple[Conditioning, ...]
     roofs: tuple[RoofComparison, ...]
-    rungs: tuple[RungEvidence, ...]
+    models: tuple[ModelEvidence, ...]
     tables: tuple[ShakeTable, ...]
     peers: tuple[PeerPoint, ...]
     records: tuple[str, ...]

@@ -14,9 +14,9 @@ from solver.kernels import fixed_steps
 from solver.model import Scene, coulomb
 from solver.sliding import two_axes
 from solver.verification import plane_scipy
+from solver.verification.model_checks import stopped_scene
+from solver.verification.model_evidence import PlaneWork, StopPoint
 from solver.verification.plane_scipy import Solver, samples_of
-from solver.verification.rung_evidence import PlaneWork, StopPoint
-from solver.verification.rungs import stopped_scene
 from solver.verification.study import MODEL_CASES, TIGHT, clocked, least_seconds
 from solver.verification.triples import Triple
 
@@ -105,7 +105,7 @@ def _scipy(scene: Scene, prd_m: float, quick: bool) -> Iterator[PlaneWork]:
 def stops() -> Iterator[StopPoint]:
     """Run the block that stops under a transverse acceleration and rests for 1.8 s, every method.
 
-    Its position is known in closed form, see `rungs.stopped_scene` and its checks.
+    Its position is known in closed form, see `model_checks.stopped_scene` and its checks.
     """
     scene = stopped_scene()
     truth = two_axes.run(scene, TIGHT)

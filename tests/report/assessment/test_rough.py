@@ -63,8 +63,8 @@ def test_where_one_axis_is_exact_its_prd_stands_across_for_rough_runs_as_well():
     make = partial(assess_with, motions, arrays=arrays, options=BY_DIRECTION)
     wide = make(clearances=[stand_in.clearance("A1", "RTU-1", 30.0, "across")])
     exact = exactly(wide)
-    rungs = {run.solution.model for motion in exact.arrays[0].motions for run in motion.runs}
-    assert {Model.ONE_AXIS_VERTICAL, Model.TWO_AXES} <= rungs
+    models = {run.solution.model for motion in exact.arrays[0].motions for run in motion.runs}
+    assert {Model.ONE_AXIS_VERTICAL, Model.TWO_AXES} <= models
     between = (gaps(wide)[0] + gaps(exact)[0]) / 2.0
     done = make(clearances=[stand_in.clearance("A1", "RTU-1", between, "across")])
     assert done.clearances[0].ok

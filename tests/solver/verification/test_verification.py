@@ -34,7 +34,7 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.records == ("motion-01-x", "near-fault-pulse")
     v = verification
     parts = v.checks, v.work, v.maps, v.convergence, v.links, v.curves, v.conditioning, v.roofs
-    assert all(len(part) > 0 for part in (*parts, v.rungs))
+    assert all(len(part) > 0 for part in (*parts, v.models))
     assert len(verification.convergence) == len(verification.curves) == 2
     assert [(link.record, link.slope_deg) for link in verification.links] == [
         (record, slope) for record in verification.records for slope in (0.0, 4.0)
