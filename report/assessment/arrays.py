@@ -19,7 +19,7 @@ from solver.rules.limit import Limit
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding import least_model
 from solver.sliding.tipping import Supports, Tipping, tipping
-from solver.sliding.uplift import Uplift, least_normal_mps2, uplift
+from solver.sliding.uplift import Uplift, minimum_normal_mps2, uplift
 
 NOT_PERMITTED = "not permitted"
 """In place of a design displacement by a route that is not permitted, or beside it."""
@@ -269,7 +269,7 @@ def limits_of(
         is_reviewed=data.options.peer_reviewed,
     )
     prescriptive = provisions.prescriptive_checks(
-        rules, slope_rad=array.slope_rad, mu=array.least_mu
+        rules, slope_rad=array.slope_rad, mu=array.minimum_mu
     )
     return RouteLimits(
         both=provisions.array_checks(
@@ -344,7 +344,7 @@ def assess_array(
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),
-        uplift=uplift(min((run.scene for run in each), key=least_normal_mps2)),
+        uplift=uplift(min((run.scene for run in each), key=minimum_normal_mps2)),
         checks=limits.both,
         analysis_checks=limits.analysis,
         prescriptive_checks=limits.prescriptive,

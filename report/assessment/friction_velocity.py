@@ -67,7 +67,7 @@ class VelocityCheck:
     @property
     def is_satisfied(self) -> bool:
         """Whether friction beyond the tests is at most the smallest tested, within rounding."""
-        return not self.is_beyond or self.mu_beyond <= self.tests.least_mu + MU_TOLERANCE
+        return not self.is_beyond or self.mu_beyond <= self.tests.minimum_mu + MU_TOLERANCE
 
     @property
     def verdict(self) -> Verdict:
@@ -165,7 +165,7 @@ def velocity_rows(
 
 
 def _row(array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool) -> Row:
-    least = number(check.tests.least_mu, 3)
+    least = number(check.tests.minimum_mu, 3)
     remedy = (
         f"Obtain friction tests at the sliding velocities, or enter at most {least} at every "
         "velocity."

@@ -16,7 +16,7 @@ from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
-from report.assessment.clearances import ClearanceCheck, check_clearance, least_gap_m
+from report.assessment.clearances import ClearanceCheck, check_clearance, minimum_gap_m
 from report.assessment.conditions import (
     MOTIONS_ID,
     array_rows,
@@ -305,7 +305,7 @@ def _assess(
         qualify = acceptance.qualifies
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    required = partial(least_gap_m, data, rules, arrays)
+    required = partial(minimum_gap_m, data, rules, arrays)
     nearby = neighbors(data, arrays, sheet.addresses, required)
     return Assessment(
         sheet=sheet,

@@ -91,7 +91,7 @@ class Margin:
     ----------
     number : int
         Of the clearance in the workbook, from 1.
-    least_mu : float
+    minimum_mu : float
         Smallest coefficient at which all runs satisfy; NaN if the one given does not.
     required_m : float
         Required separation at it, for this array alone [m].
@@ -102,14 +102,14 @@ class Margin:
     number: int
     gap: ClearanceCheck
     array: ArrayAssessment
-    least_mu: float
+    minimum_mu: float
     required_m: float
     lowest_tried: float
 
     @property
     def is_beyond(self) -> bool:
         """Whether the search ended before the clearance failed."""
-        return self.least_mu == self.lowest_tried
+        return self.minimum_mu == self.lowest_tried
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -263,7 +263,7 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
         number=number,
         gap=gap,
         array=array,
-        least_mu=least,
+        minimum_mu=least,
         required_m=required,
         lowest_tried=lowest / 100,
     )

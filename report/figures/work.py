@@ -115,7 +115,7 @@ def _log_axes(axes: Axes) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     decades(axes.xaxis)
-    decades(axes.yaxis, most=12)
+    decades(axes.yaxis, maximum=12)
     axes.grid(True)
     axes.set_axisbelow(True)
     bare(axes)
@@ -177,6 +177,6 @@ def _panel(axes: Axes, curve: WorkCurve, shown: Sequence[WorkCurve]) -> None:
     if curve.seconds.size == 1:
         axes.vlines(curve.seconds, curve.low, curve.high, color=INK, linewidth=0.8, zorder=2.5)
     _log_axes(axes)
-    decades(axes.xaxis, most=5)
-    decades(axes.yaxis, most=6)
+    decades(axes.xaxis, maximum=5)
+    decades(axes.yaxis, maximum=6)
     axes.set_title(look.label, loc="left")

@@ -51,7 +51,7 @@ _CHANGE = (
     (plain("Largest"), lambda change: change.at(100.0)),
     (plain("Above 1", 0, "%"), lambda change: 100.0 * change.share_above_one),
     (text("Excluded", share=1.1), lambda change: change.n_small),
-    (plain("Largest change", 0, "mm", 1.3), lambda change: 1e3 * change.most_m),
+    (plain("Largest change", 0, "mm", 1.3), lambda change: 1e3 * change.maximum_m),
 )
 
 _TIME = (

@@ -95,7 +95,7 @@ def _nearest(values: Sequence[float], wanted: float) -> int:
 
 def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
     """Return the smallest margin of a satisfied clearance, and the clearances without one."""
-    have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.least_mu)]
+    have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.minimum_mu)]
     without = {margin.number for margin in margins} - {margin.number for margin in have}
     unknown = {margin.number for margin in margins if not margin.gap.is_permitted}
     smallest = max(have, key=_share, default=None)
@@ -112,16 +112,16 @@ def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
 
 def _share(margin: Margin) -> float:
     mu = margin.array.array.mu
-    return margin.least_mu / mu if mu > 0.0 else 1.0
+    return margin.minimum_mu / mu if mu > 0.0 else 1.0
 
 
 def _least(margin: Margin) -> str:
-    return mu_words(with_mu(margin.array.array, margin.least_mu).friction)
+    return mu_words(with_mu(margin.array.array, margin.minimum_mu).friction)
 
 
 def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
     def least(margin: Margin) -> str:
-        if math.isnan(margin.least_mu):
+        if math.isnan(margin.minimum_mu):
             return "none"
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
 
@@ -135,7 +135,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (
             length("Required there", 0.9),
-            lambda margin: "—" if math.isnan(margin.least_mu) else margin.required_m,
+            lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
     )

@@ -227,8 +227,8 @@ def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:
             yield row, Concealment.FILTERED if is_filtered else Concealment.HIDDEN
 
 
-def _is_less(size: float | None, least: float) -> bool:
-    return size is not None and size < least
+def _is_less(size: float | None, minimum: float) -> bool:
+    return size is not None and size < minimum
 
 
 def _hides_column(sheet: Worksheet, column: int) -> bool:

@@ -21,7 +21,7 @@ from report.study.schema import NoValue
 from report.study.spread import SpectralSpread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
-from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
+from solver.studies.curves import Statistics, largest_slope, minimum_friction, statistics
 from solver.studies.fit import Fit, fit_prd
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner
@@ -135,7 +135,7 @@ class StudyResults:
         rule = self.plan.design_rule
         return rule.name if rule.has_value else MEAN
 
-    def least_frictions(self, building: int, name: str, allowed_m: float) -> Floats:
+    def minimum_frictions(self, building: int, name: str, allowed_m: float) -> Floats:
         """Return the least friction by slope and intensity, rounded up; NaN for none of the study.
 
         From it on, no friction of the study has a displacement above the allowed one.
@@ -144,7 +144,7 @@ class StudyResults:
         slopes, _, levels = values.shape
         return np.array(
             [
-                [_up(least_friction(mus, values[s, :, x], allowed_m), mus) for x in range(levels)]
+                [_up(minimum_friction(mus, values[s, :, x], allowed_m), mus) for x in range(levels)]
                 for s in range(slopes)
             ]
         )

@@ -72,7 +72,7 @@ def study_xlsx(results: StudyResults) -> bytes:
         (
             "Least friction",
             ("Building", "Displacement", "Slope [deg]", measure, "Least friction"),
-            _answers(results, given.slopes_deg, results.least_frictions),
+            _answers(results, given.slopes_deg, results.minimum_frictions),
         ),
         (
             "Largest slope",
@@ -211,8 +211,8 @@ def _formula(results: StudyResults) -> Iterator[Row]:
             yield building, f"b{number}", value
         yield building, "p [g]", fit.ppa_g
         yield building, "standard deviation of ln(computed / formula)", fit.sigma_ln
-        yield building, "least computed / formula", fit.least_ratio
-        yield building, "greatest computed / formula", fit.greatest_ratio
+        yield building, "least computed / formula", fit.minimum_ratio
+        yield building, "greatest computed / formula", fit.maximum_ratio
         yield building, "cases", fit.cases
         for name, (low, high) in fit.domain.items():
             yield building, f"{name}, from", low

@@ -56,7 +56,7 @@ class SuiteComponent:
     def is_within_limits(self) -> bool:
         """Whether the ratios to the target satisfy the limits."""
         fit = self.fit
-        in_range = fit.least >= LEAST and fit.greatest <= GREATEST
+        in_range = fit.minimum >= LEAST and fit.maximum <= GREATEST
         return in_range and abs(fit.mean - 1.0) <= MEAN_OFF
 
     @property
@@ -184,8 +184,8 @@ def _component(part: SuiteComponent, files: Mapping[str, bytes]) -> dict[str, An
         "grew_from": part.grew_from,
         "npts": len(part.record.a_mps2),
         "from_hz": float(part.fit.freq_hz[0]),
-        "least_ratio": part.fit.least,
-        "greatest_ratio": part.fit.greatest,
+        "least_ratio": part.fit.minimum,
+        "greatest_ratio": part.fit.maximum,
         "mean_ratio": part.fit.mean,
         "pga_g": values.pga_mps2 / G_MPS2,
         "pgv_mps": values.pgv_mps,
@@ -253,8 +253,8 @@ def _cells(part: SuiteComponent, pair: str) -> tuple[str, ...]:
     return (
         part.motion if part.component == "x" else "",
         part.component,
-        f"{part.fit.least:.3f}",
-        f"{part.fit.greatest:.3f}",
+        f"{part.fit.minimum:.3f}",
+        f"{part.fit.maximum:.3f}",
         f"{part.fit.mean:.3f}",
         f"{values.pga_mps2 / G_MPS2:.3f}",
         f"{100.0 * values.pgv_mps:.1f}",

@@ -34,14 +34,14 @@ class ModelChange:
         `LEAST_M` or more.
     n_small : int
         Number of the other runs.
-    most_m : float
+    maximum_m : float
         Largest change of the PRD, of either sign, over all runs [m].
     """
 
     name: str
     ratios: Floats
     n_small: int
-    most_m: float
+    maximum_m: float
 
     def at(self, percent: float) -> float:
         """Return a percentile of the ratios; NaN where there are none."""

@@ -42,7 +42,7 @@ from solver.verification.study import (
     MODEL_CASES,
     faded,
     grid,
-    least_seconds,
+    minimum_seconds,
     plane_prds,
     scenes_of,
 )
@@ -166,7 +166,7 @@ def _change(name: str, lesser_m: Floats, fuller_m: Floats) -> ModelChange:
         name=name,
         ratios=np.sort(fuller[counted] / lesser[counted]),
         n_small=int((~counted).sum()),
-        most_m=float(np.abs(fuller - lesser).max(initial=0.0)),
+        maximum_m=float(np.abs(fuller - lesser).max(initial=0.0)),
     )
 
 
@@ -210,7 +210,7 @@ def times(triple: Triple) -> tuple[ModelTime, ...]:
             triple.scene(case, law(case.mu), second=second, vertical=vertical)
             for case in MODEL_CASES
         ]
-        each = [least_seconds(partial(run, scene)) for scene in scenes]
+        each = [minimum_seconds(partial(run, scene)) for scene in scenes]
         medians.append((title, statistics.median(each)))
     return tuple(
         ModelTime(title=title, seconds=seconds, ratio=seconds / medians[0][1])

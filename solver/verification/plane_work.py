@@ -17,7 +17,7 @@ from solver.verification import plane_scipy
 from solver.verification.model_checks import stopped_scene
 from solver.verification.model_evidence import PlaneWork, StopPoint
 from solver.verification.plane_scipy import Solver, samples_of
-from solver.verification.study import MODEL_CASES, TIGHT, clocked, least_seconds
+from solver.verification.study import MODEL_CASES, TIGHT, clocked, minimum_seconds
 from solver.verification.triples import Triple
 
 OURS = "Power series, event by event"
@@ -64,7 +64,7 @@ def _ours(scene: Scene) -> Iterator[PlaneWork]:
         yield PlaneWork(
             method=OURS,
             setting=f"tol. {tolerance:g}",
-            seconds=least_seconds(partial(two_axes.follow, scene, tolerance)),
+            seconds=minimum_seconds(partial(two_axes.follow, scene, tolerance)),
             steps=outcome.n_steps,
             error_percent=100.0 * off / truth.result.prd_m,
         )
@@ -79,7 +79,7 @@ def _fixed(scene: Scene, prd_m: float) -> Iterator[PlaneWork]:
             yield PlaneWork(
                 method=method,
                 setting=f"P = {substeps}",
-                seconds=least_seconds(run),
+                seconds=minimum_seconds(run),
                 steps=substeps * (len(rows) - 1),
                 error_percent=100.0 * abs(end_prd_m - prd_m) / prd_m,
             )

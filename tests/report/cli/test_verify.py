@@ -182,7 +182,7 @@ def test_the_papers_own_figures_stand_beside_those_found(words, verification):
     for comparison in verification.links:
         assert formats.percent(comparison.worst_percent) in words
         assert formats.percent(comparison.mean_percent) in words
-    assert f"{verification.curves[0].least_mu(2.0, 1.5, 0.5):.3f}" in words
+    assert f"{verification.curves[0].minimum_mu(2.0, 1.5, 0.5):.3f}" in words
 
 
 def test_every_method_is_in_the_table_with_when_it_is_not_valid(words):

@@ -78,7 +78,7 @@ def test_lifted_runs_are_counted_and_not_compared():
 
 
 def test_percentiles_and_the_share_above_one():
-    change = ModelChange(name="x", ratios=np.array([0.5, 1.5, 2.0]), n_small=0, most_m=0.0)
+    change = ModelChange(name="x", ratios=np.array([0.5, 1.5, 2.0]), n_small=0, maximum_m=0.0)
     assert (change.median, change.at(0.0), change.at(100.0)) == (1.5, 0.5, 2.0)
     assert change.share_above_one == pytest.approx(2.0 / 3.0)
 

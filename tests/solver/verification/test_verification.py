@@ -181,9 +181,9 @@ def test_the_least_friction_is_read_off_between_the_runs():
     )  # fmt: skip
     assert curves.prd(1.0, 0.5) == pytest.approx([4.0, 1.0, 2.0, 0.0])
     # From 0.4 to 0.5 it is within 1.5 too, but not from there on.
-    assert curves.least_mu(0.0, 1.0, 1.5) == pytest.approx(0.65)
-    assert curves.least_mu(0.0, 1.0, 5.0) == 0.2
-    assert math.isnan(curves.least_mu(0.0, 1.0, -1.0))
+    assert curves.minimum_mu(0.0, 1.0, 1.5) == pytest.approx(0.65)
+    assert curves.minimum_mu(0.0, 1.0, 5.0) == 0.2
+    assert math.isnan(curves.minimum_mu(0.0, 1.0, -1.0))
 
 
 def test_studies_of_the_paper_give_the_same_every_time(pulse):
