@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from report.entities.results import Compared
     from report.motions.prepare import Shaking
     from report.package.html import PendingPictures
-    from report.provenance.files import Source
+    from report.provenance.files import SourceFile
     from report.sheet.read import Sheet
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
@@ -100,7 +100,7 @@ class Prepared:
     """The motions at the roof, the files that all is computed from, and how long it will take."""
 
     shaking: Shaking
-    sources: Sequence[Source]
+    sources: Sequence[SourceFile]
     notice: str
 
 
@@ -145,7 +145,7 @@ def lay_out(
     html: str,
     assessment: Assessment,
     evidence: Evidence,
-    found: Sequence[Source],
+    found: Sequence[SourceFile],
     worker: Executor,
 ) -> Mapping[str, bytes]:
     """Return the files of the package; the worker writes tables while the pages are laid out."""

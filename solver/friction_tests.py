@@ -106,7 +106,7 @@ class Series:
         return tuple(replace(self, runs=tuple(group)) for group in groups)
 
     @property
-    def least_mu(self) -> float:
+    def minimum_mu(self) -> float:
         """Smallest mean of the kinetic coefficients at one velocity."""
         return min(one.mean for one in self.repeats)
 

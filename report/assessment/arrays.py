@@ -12,14 +12,14 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
-from report.assessment.runs import RUNGS, MotionRun, OrientedRun, nan_is_worst
+from report.assessment.runs import REQUESTED_MODELS, MotionRun, OrientedRun, nan_is_worst
 from report.sheet.schema import Array, Direction, ProjectInput, Statistic
 from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding import least_model
 from solver.sliding.tipping import Supports, Tipping, tipping
-from solver.sliding.uplift import Uplift, least_normal_mps2, uplift
+from solver.sliding.uplift import Uplift, minimum_normal_mps2, uplift
 
 NOT_PERMITTED = "not permitted"
 """In place of a design displacement by a route that is not permitted, or beside it."""
@@ -189,7 +189,7 @@ class ArrayAssessment:
     @property
     def is_model_requested(self) -> bool:
         """Whether the workbook requests a model."""
-        return self.array.model in RUNGS
+        return self.array.model in REQUESTED_MODELS
 
     @property
     def is_model_enough(self) -> bool:
@@ -269,7 +269,7 @@ def limits_of(
         is_reviewed=data.options.peer_reviewed,
     )
     prescriptive = provisions.prescriptive_checks(
-        rules, slope_rad=array.slope_rad, mu=array.least_mu
+        rules, slope_rad=array.slope_rad, mu=array.minimum_mu
     )
     return RouteLimits(
         both=provisions.array_checks(
@@ -344,7 +344,7 @@ def assess_array(
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),
-        uplift=uplift(min((run.scene for run in each), key=least_normal_mps2)),
+        uplift=uplift(min((run.scene for run in each), key=minimum_normal_mps2)),
         checks=limits.both,
         analysis_checks=limits.analysis,
         prescriptive_checks=limits.prescriptive,

@@ -53,7 +53,7 @@ class ClearanceCheck:
         I_e or I_p, as the rule set takes it; 1 where the displacement includes it.
     factor : float
         Separation / design displacement, with the importance factor.
-    least_m : float
+    minimum_m : float
         Minimum separation of the rule set for this neighbor [m]; 0 for none.
     design_mark, mark : str
         Marks of the displacement and of the required separation, where an override or a departure
@@ -71,7 +71,7 @@ class ClearanceCheck:
     governing_direction: Direction
     design_m: float
     factor: float
-    least_m: float
+    minimum_m: float
     required_m: float
     is_permitted: bool
     design_mark: str
@@ -100,9 +100,9 @@ class ClearanceCheck:
         return self.clearance.array if seen_from_object else self.clearance.object
 
     @property
-    def is_least_value(self) -> bool:
+    def is_minimum_value(self) -> bool:
         """Whether the minimum separation governs over factor x displacement."""
-        return self.least_m > self.factor * self.design_m
+        return self.minimum_m > self.factor * self.design_m
 
     @property
     def ok(self) -> bool:
@@ -148,7 +148,7 @@ def check_clearance(
         governing_direction=direction,
         design_m=design_m,
         factor=rules[provisions.SEPARATION_KEYS[neighbor]] * importance,
-        least_m=provisions.least_separation_m(rules, neighbor),
+        minimum_m=provisions.minimum_separation_m(rules, neighbor),
         required_m=provisions.required_separation(
             rules, neighbor, design_m=design_m, importance=importance
         ),
@@ -177,7 +177,7 @@ def _marked(
     )
 
 
-def least_gap_m(
+def minimum_gap_m(
     data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment], near: PlanNeighbor
 ) -> float:
     """Return the separation that the rule set requires between neighbors of the plan [m].

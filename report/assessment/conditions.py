@@ -232,28 +232,28 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     )
 
 
-def friction_row(given: ClearanceCheck, less: ClearanceCheck, share: float) -> Row:
+def friction_row(given: ClearanceCheck, reduced: ClearanceCheck, share: float) -> Row:
     """Return whether a clearance that is satisfied stays so with less friction.
 
     Parameters
     ----------
     share : float
-        Fraction by which the friction coefficients are smaller in `less`.
+        Fraction by which the friction coefficients are smaller in `reduced`.
     """
     row = given.clearance
-    return _softer_row(
+    return _reduced_friction_row(
         row.array,
         f"Clearance {row.array} to {row.object}",
-        (given.verdict, less.verdict),
+        (given.verdict, reduced.verdict),
         share,
         "this clearance is NG: confirm the friction coefficient, or provide more clearance",
     )
 
 
-def route_row(given: ArrayAssessment, less: ArrayAssessment, share: float) -> Row:
+def route_row(given: ArrayAssessment, reduced: ArrayAssessment, share: float) -> Row:
     """Return whether the route of an array that is permitted stays so with less friction."""
-    before, after = (Verdict.OK if item.is_permitted else Verdict.NG for item in (given, less))
-    return _softer_row(
+    before, after = (Verdict.OK if item.is_permitted else Verdict.NG for item in (given, reduced))
+    return _reduced_friction_row(
         given.id,
         f"The {given.route} route",
         (before, after),
@@ -262,19 +262,19 @@ def route_row(given: ArrayAssessment, less: ArrayAssessment, share: float) -> Ro
     )
 
 
-def _softer_row(
+def _reduced_friction_row(
     subject: str, title: str, verdicts: tuple[Verdict, Verdict], share: float, effect: str
 ) -> Row:
-    given, less = verdicts
+    given, reduced = verdicts
     friction = f"{number(100.0 * share, 0)} % less friction"
     return Row(
         id="less_friction",
         title=f"{title} with {friction}",
         subject=subject,
-        found=less.value,
+        found=reduced.value,
         limit=given.value,
         basis="sensitivity",
-        is_satisfied=not (given.is_permitted and not less.is_permitted),
+        is_satisfied=not (given.is_permitted and not reduced.is_permitted),
         consequence=Consequence.CONDITION,
         remedy=f"With {friction} {effect}.",
     )

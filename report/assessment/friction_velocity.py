@@ -67,7 +67,7 @@ class VelocityCheck:
     @property
     def is_satisfied(self) -> bool:
         """Whether friction beyond the tests is at most the smallest tested, within rounding."""
-        return not self.is_beyond or self.mu_beyond <= self.tests.least_mu + MU_TOLERANCE
+        return not self.is_beyond or self.mu_beyond <= self.tests.minimum_mu + MU_TOLERANCE
 
     @property
     def verdict(self) -> Verdict:
@@ -88,7 +88,7 @@ def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityChe
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LowVelocity:
+class LowVelocityAssessment:
     """The arrays whose friction depends on velocity, with the low-velocity coefficient alone.
 
     Attributes
@@ -111,7 +111,7 @@ class LowVelocity:
         return [gap for gap in self.clearances.values() if gap.involves(array_id)]
 
 
-NOT_BY_VELOCITY = LowVelocity(arrays=(), clearances={})
+NOT_BY_VELOCITY = LowVelocityAssessment(arrays=(), clearances={})
 
 
 def with_low_velocity(data: ProjectInput) -> ProjectInput:
@@ -127,7 +127,7 @@ def low_velocity(
     begun: PendingRuns,
     *,
     motions_qualify: bool,
-) -> LowVelocity:
+) -> LowVelocityAssessment:
     """Assess the arrays of `with_low_velocity` beside the others as given.
 
     Parameters
@@ -140,7 +140,7 @@ def low_velocity(
         for array, wait in zip(with_low_velocity(data).arrays, begun, strict=True)
     }
     every = [changed.get(item.id, item) for item in arrays]
-    return LowVelocity(
+    return LowVelocityAssessment(
         arrays=tuple(changed.values()),
         clearances={
             count: check_clearance(data, rules, every, row)
@@ -151,7 +151,7 @@ def low_velocity(
 
 
 def velocity_rows(
-    data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocity
+    data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocityAssessment
 ) -> Iterator[Row]:
     """Yield for each array whether friction beyond the velocities tested is shown by tests.
 
@@ -164,8 +164,8 @@ def velocity_rows(
             yield _row(item.id, check, slow, us_first)
 
 
-def _row(array_id: str, check: VelocityCheck, slow: LowVelocity, us_first: bool) -> Row:
-    least = number(check.tests.least_mu, 3)
+def _row(array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool) -> Row:
+    least = number(check.tests.minimum_mu, 3)
     remedy = (
         f"Obtain friction tests at the sliding velocities, or enter at most {least} at every "
         "velocity."
@@ -207,7 +207,7 @@ def _slides(fastest_mps: float, us_first: bool) -> str:
     return f"slides at {pair(fastest_mps, Quantity.VELOCITY, us_first)}"
 
 
-def _outcome(alone: ArrayAssessment, slow: LowVelocity, us_first: bool) -> Iterator[str]:
+def _outcome(alone: ArrayAssessment, slow: LowVelocityAssessment, us_first: bool) -> Iterator[str]:
     """Yield the design displacement and the verdicts on the clearances of an array."""
     design_m = alone.design_m
     yield (

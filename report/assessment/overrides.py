@@ -70,7 +70,7 @@ def _lowers(rules: RuleSet, row: Override) -> bool:
 def _override(rules: RuleSet, row: Override) -> Row:
     given, unit = rules.values[row.provision], provision_unit(row.provision)
     value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, given.value))
-    sign = "≤" if ALLOWED[row.provision].is_most else "≥"
+    sign = "≤" if ALLOWED[row.provision].is_maximum else "≥"
     return _row(
         title=override_title(row),
         id=OVERRIDE_ID,

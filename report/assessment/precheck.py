@@ -182,7 +182,7 @@ def _prescriptive(
 def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
     """Return which statistic the motions are too few for."""
     asked = Basis.LARGEST_FACTORED if basis is None else basis
-    least = provisions.least_motions(rules, asked)
+    least = provisions.minimum_motions(rules, asked)
     return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
 
 

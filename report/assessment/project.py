@@ -16,7 +16,7 @@ from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
-from report.assessment.clearances import ClearanceCheck, check_clearance, least_gap_m
+from report.assessment.clearances import ClearanceCheck, check_clearance, minimum_gap_m
 from report.assessment.conditions import (
     MOTIONS_ID,
     array_rows,
@@ -30,7 +30,7 @@ from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_velocity import (
     NOT_BY_VELOCITY,
-    LowVelocity,
+    LowVelocityAssessment,
     low_velocity,
     velocity_rows,
     with_low_velocity,
@@ -79,12 +79,12 @@ class Assessment:
         Limits on the motions as run, at the roof.
     rows : tuple of Row
         Requirements beside the numeric limits, of the project, its motions and its arrays.
-    less : Assessment or None
+    at_reduced_friction : Assessment or None
         The same with less friction, from runs that tell whether clearances are satisfied
         (`report.assessment.rough`); None in that one itself.
-    low_velocity : LowVelocity
-        Arrays with their low-velocity coefficient alone; without any in `less`, and in what
-        `reassess` and `anticipate` give.
+    low_velocity : LowVelocityAssessment
+        Arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`,
+        and in what `reassess` and `anticipate` give.
     """
 
     sheet: Sheet
@@ -101,8 +101,8 @@ class Assessment:
     neighbors: tuple[PlanNeighbor, ...]
     acceptance: Acceptance
     rows: tuple[Row, ...]
-    less: Assessment | None
-    low_velocity: LowVelocity
+    at_reduced_friction: Assessment | None
+    low_velocity: LowVelocityAssessment
     solver_seconds: float
 
     @property
@@ -210,7 +210,7 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
         begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())
         # The runs with less friction follow without a pause, while motions and arrays are checked.
         reduced = with_friction(data, 1.0 - SHIFT)
-        known = former.less.arrays if former and former.less else ()
+        known = former.at_reduced_friction.arrays if former and former.at_reduced_friction else ()
         rough = begin(run_roughly, reduced, check_models=False, former=known)
         known = former.low_velocity.arrays if former else ()
         slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
@@ -227,7 +227,7 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
             exact = begin(run_motion, reduced, check_models=False, former=decided)
             return whole(reduced, begun=exact)
 
-        return whole(data, begun=begun, slow=slow, less=reduced_friction)
+        return whole(data, begun=begun, slow=slow, reduced_friction=reduced_friction)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:
@@ -277,15 +277,15 @@ def _assess(
     pool: Executor,
     begun: PendingRuns,
     slow: PendingRuns = (),
-    less: Callable[[], Assessment] | None = None,
+    reduced_friction: Callable[[], Assessment] | None = None,
 ) -> Assessment:
     """Assess an input from its runs.
 
     Parameters
     ----------
     slow : Begun, optional
-        Runs of the arrays of `with_low_velocity`; given with `less`.
-    less : callable, optional
+        Runs of the arrays of `with_low_velocity`; given with `reduced_friction`.
+    reduced_friction : callable, optional
         Assesses the same with less friction. With it, one rigid block is compared with a row of
         linked blocks, and the verdicts with those for less friction.
     """
@@ -298,14 +298,14 @@ def _assess(
         assess_array(data, rules, array, *pair, motions_qualify=acceptance.qualifies)
         for array, pair in zip(data.arrays, runs, strict=True)
     )
-    links = data.links if less else ()
+    links = data.links if reduced_friction else ()
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
-    softer, slower = less() if less else None, NOT_BY_VELOCITY
+    reduced, slower = reduced_friction() if reduced_friction else None, NOT_BY_VELOCITY
     if slow:
         qualify = acceptance.qualifies
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    required = partial(least_gap_m, data, rules, arrays)
+    required = partial(minimum_gap_m, data, rules, arrays)
     nearby = neighbors(data, arrays, sheet.addresses, required)
     return Assessment(
         sheet=sheet,
@@ -330,22 +330,22 @@ def _assess(
             *friction_rows(data),
             *motion_rows(acceptance, arrays),
             *(row for item in arrays for row in array_rows(data, item)),
-            *(velocity_rows(data, arrays, slower) if less else ()),
+            *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
             *plan_rows(data, nearby),
-            *(_friction_rows(arrays, clearances, softer) if softer else ()),
+            *(_friction_rows(arrays, clearances, reduced) if reduced else ()),
         ),
-        less=softer,
+        at_reduced_friction=reduced,
         low_velocity=slower,
         solver_seconds=seconds,
     )
 
 
 def _friction_rows(
-    arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], less: Assessment
+    arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], reduced: Assessment
 ) -> Sequence[Row]:
     """Return the routes and clearances whose verdict less friction changes."""
-    routes = zip(arrays, less.arrays, strict=True)
-    gaps = zip(clearances, less.clearances, strict=True)
+    routes = zip(arrays, reduced.arrays, strict=True)
+    gaps = zip(clearances, reduced.clearances, strict=True)
     rows = (
         *(route_row(before, after, SHIFT) for before, after in routes),
         *(friction_row(before, after, SHIFT) for before, after in gaps),

@@ -17,7 +17,7 @@ from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
 from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
 
-RUNGS: Mapping[ModelChoice, Model] = {
+REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
     ModelChoice.ONE_AXIS: Model.ONE_AXIS,
     ModelChoice.ONE_AXIS_VERTICAL: Model.ONE_AXIS_VERTICAL,
     ModelChoice.TWO_AXES: Model.TWO_AXES,
@@ -157,7 +157,7 @@ def run_oriented(
     tolerance: float = DEFAULT.tolerance,
 ) -> OrientedRun:
     """Run one array under one motion at one orientation; the rest as in `run_motion`."""
-    forced = RUNGS.get(array.model if model is None else model)
+    forced = REQUESTED_MODELS.get(array.model if model is None else model)
     settings = Settings(forced=forced, tolerance=tolerance)
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
     return OrientedRun(orientation=orientation, scene=scene, solution=_solved(scene, settings))

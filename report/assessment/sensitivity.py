@@ -101,25 +101,25 @@ class Accuracy:
     Attributes
     ----------
     rivals : Rivals
-    less, given, more : Assessment
+    at_reduced_friction, given, at_increased_friction : Assessment
         With the friction coefficients decreased, as given, and increased.
     """
 
     rivals: Rivals
-    less: Assessment
+    at_reduced_friction: Assessment
     given: Assessment
-    more: Assessment
+    at_increased_friction: Assessment
 
     @property
     def newly_short(self) -> tuple[ClearanceCheck, ...]:
         """Clearances that are satisfied as given but not with less friction."""
-        pairs = zip(self.given.clearances, self.less.clearances, strict=True)
+        pairs = zip(self.given.clearances, self.at_reduced_friction.clearances, strict=True)
         return tuple(after for before, after in pairs if before.ok and not after.ok)
 
     @property
     def newly_limited(self) -> tuple[tuple[ArrayAssessment, Limit], ...]:
         """Limits of the routes taken that are satisfied as given but not with less friction."""
-        pairs = zip(self.given.arrays, self.less.arrays, strict=True)
+        pairs = zip(self.given.arrays, self.at_reduced_friction.arrays, strict=True)
         return tuple(
             (after, check)
             for before, after in pairs
@@ -150,9 +150,9 @@ def accuracy(given: Assessment) -> Accuracy:
     """Run the governing motion by every method, and all arrays with changed friction."""
     return Accuracy(
         rivals=rivals(given.governing),
-        less=reassess(given, with_friction(given.project, 1.0 - SHIFT)),
+        at_reduced_friction=reassess(given, with_friction(given.project, 1.0 - SHIFT)),
         given=given,
-        more=reassess(given, with_friction(given.project, 1.0 + SHIFT)),
+        at_increased_friction=reassess(given, with_friction(given.project, 1.0 + SHIFT)),
     )
 
 

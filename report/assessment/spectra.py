@@ -103,7 +103,7 @@ class Departure:
     from_s: float
     to_s: float
     is_short: bool
-    most_excess: ClassVar[float] = MOST_EXCESS
+    maximum_excess: ClassVar[float] = MOST_EXCESS
 
 
 def departures(spectra: Sequence[Spectra]) -> tuple[Departure, ...]:

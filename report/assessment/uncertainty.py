@@ -55,7 +55,7 @@ ANGLES_DEG = tuple(k * 22.5 for k in range(16) if k % 4)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Surface:
+class ResponseSurface:
     """Mean PRD of the motions over friction and slope, each in its governing orientation.
 
     Attributes
@@ -91,7 +91,7 @@ class Margin:
     ----------
     number : int
         Of the clearance in the workbook, from 1.
-    least_mu : float
+    minimum_mu : float
         Smallest coefficient at which all runs satisfy; NaN if the one given does not.
     required_m : float
         Required separation at it, for this array alone [m].
@@ -102,14 +102,14 @@ class Margin:
     number: int
     gap: ClearanceCheck
     array: ArrayAssessment
-    least_mu: float
+    minimum_mu: float
     required_m: float
     lowest_tried: float
 
     @property
     def is_beyond(self) -> bool:
         """Whether the search ended before the clearance failed."""
-        return self.least_mu == self.lowest_tried
+        return self.minimum_mu == self.lowest_tried
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,7 +137,7 @@ class Uncertainty:
         For each clearance, one for each array that it involves.
     """
 
-    surface: Surface
+    surface: ResponseSurface
     margins: tuple[Margin, ...]
     motion: MotionRun
     turned: tuple[RotatedRun, ...]
@@ -168,7 +168,7 @@ def uncertainty(given: Assessment) -> Uncertainty:
         )
 
 
-def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> Surface:
+def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> ResponseSurface:
     """Return the mean PRD of an array over a grid of friction and slope around all arrays."""
     arrays = [array.array for array in given.arrays]
     mus = _axis([array.mu for array in arrays], item.array.mu, N_MUS, unit=0.01, room=0.05)
@@ -184,7 +184,7 @@ def surface(given: Assessment, item: ArrayAssessment, pool: Executor) -> Surface
     results = list(pool.map(partial(_cell, item), cells))
     means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
     statuses = [run.status for cell in results for run in cell]
-    return Surface(
+    return ResponseSurface(
         array=item,
         mus=mus,
         slopes_rad=slopes,
@@ -263,7 +263,7 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
         number=number,
         gap=gap,
         array=array,
-        least_mu=least,
+        minimum_mu=least,
         required_m=required,
         lowest_tried=lowest / 100,
     )

@@ -37,7 +37,7 @@ INTERNAL_ERROR = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class BatchOutcome:
     """What became of one project, as finished text.
 
     Attributes
@@ -105,7 +105,7 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
     sys.exit(exit_code(outcomes, fail_on_ng=fail_on_ng))
 
 
-def exit_code(outcomes: Sequence[Outcome], *, fail_on_ng: bool) -> int:
+def exit_code(outcomes: Sequence[BatchOutcome], *, fail_on_ng: bool) -> int:
     """Return the code of the worst outcome."""
     if any(outcome.internal for outcome in outcomes):
         return INTERNAL_ERROR
@@ -115,7 +115,7 @@ def exit_code(outcomes: Sequence[Outcome], *, fail_on_ng: bool) -> int:
     return NOT_OK if fail_on_ng and is_not_ok else 0
 
 
-def document(outcomes: Sequence[Outcome]) -> Mapping[str, Any]:
+def document(outcomes: Sequence[BatchOutcome]) -> Mapping[str, Any]:
     """Return the outcomes for JSON, with null for no value."""
     return {
         "schema_version": SCHEMA_VERSION,
@@ -134,7 +134,7 @@ def document(outcomes: Sequence[Outcome]) -> Mapping[str, Any]:
     }
 
 
-def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[Outcome]:
+def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
     """Make each package once, and return the outcomes in the order given."""
     distinct = list({source.resolve(): source for source in sources}.values())
     count = min(len(distinct), os.cpu_count() or 1)
@@ -150,30 +150,30 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[Outcome]:
         return [_outcome(future, source) for future, source in started.items()]
 
 
-def _outcome(future: Future[Outcome], source: Path) -> Outcome:
+def _outcome(future: Future[BatchOutcome], source: Path) -> BatchOutcome:
     try:
         return future.result()
     except BrokenProcessPool as error:
-        return Outcome(source=source, internal=f"its process ended: {error}")
+        return BatchOutcome(source=source, internal=f"its process ended: {error}")
 
 
-def package(source: Path, make: Callable[[Path], Outcome] | None = None) -> Outcome:
+def package(source: Path, make: Callable[[Path], BatchOutcome] | None = None) -> BatchOutcome:
     """Make the package of one project; every error is part of the outcome."""
     started = time.monotonic()
     try:
         done = (make or _package)(source)
     except OSError as error:
-        done = Outcome(source=source, problems=(system_problem(error),))
+        done = BatchOutcome(source=source, problems=(system_problem(error),))
     except Exception as error:
         from solver.model import InputError
 
         is_input = isinstance(error, InputError)
-        done = Outcome(
+        done = BatchOutcome(
             source=source,
             problems=error.problems if isinstance(error, InputError) else (),
             internal="" if is_input else traceback.format_exc(),
         )
-    return Outcome(
+    return BatchOutcome(
         source=source,
         verdict=done.verdict,
         ratios=done.ratios,
@@ -184,13 +184,13 @@ def package(source: Path, make: Callable[[Path], Outcome] | None = None) -> Outc
     )
 
 
-def _package(source: Path) -> Outcome:
+def _package(source: Path) -> BatchOutcome:
     from report.making import make
     from report.workers import SameProcess
 
     with no_collections(), SameProcess() as worker:
         assessment, folder, _, _ = make(source, None, None, lambda _: None, worker)
-    return Outcome(
+    return BatchOutcome(
         source=source,
         verdict=assessment.verdict.value,
         ratios=tuple(gap.demand_capacity for gap in assessment.clearances),
@@ -201,7 +201,7 @@ def _package(source: Path) -> Outcome:
 _COLUMNS = ("project", "verdict", "D/C", "time", "package")
 
 
-def table(outcomes: Sequence[Outcome]) -> Iterator[str]:
+def table(outcomes: Sequence[BatchOutcome]) -> Iterator[str]:
     """Yield a line for each project."""
     from report.words.units import ratio
 

@@ -33,7 +33,7 @@ LEAST_PYTHON = (3, 11)
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class InstallationCheck:
     """What one check found: a name, what it is, and what to do where it is not as needed."""
 
     name: str
@@ -51,7 +51,7 @@ def doctor() -> None:
         sys.exit(1)
 
 
-def say(looks: list[Look]) -> bool:
+def say(looks: list[InstallationCheck]) -> bool:
     """Print what was found, then what to do; return whether everything is here."""
     width = max(len(look.name) for look in looks)
     for look in looks:
@@ -64,53 +64,59 @@ def say(looks: list[Look]) -> bool:
     return not wrong
 
 
-def _python() -> Iterator[Look]:
+def _python() -> Iterator[InstallationCheck]:
     remedy = "" if sys.version_info >= LEAST_PYTHON else "install Python 3.11 or later"
-    yield Look("Python", f"{platform.python_version()}, {platform.platform()}", remedy)
+    yield InstallationCheck("Python", f"{platform.python_version()}, {platform.platform()}", remedy)
 
 
-def packages(names: Iterable[str] = PACKAGES) -> Iterator[Look]:
+def packages(names: Iterable[str] = PACKAGES) -> Iterator[InstallationCheck]:
     """Look for Python packages."""
     for name in ("roofslip", *names):
         try:
-            yield Look(name, version(name))
+            yield InstallationCheck(name, version(name))
         except PackageNotFoundError:
-            yield Look(name, "missing", "install it: ./roofslip does so from requirements.lock")
+            yield InstallationCheck(
+                name, "missing", "install it: ./roofslip does so from requirements.lock"
+            )
 
 
-def native(find: Callable[[str], str | None] = find_library) -> Iterator[Look]:
+def native(find: Callable[[str], str | None] = find_library) -> Iterator[InstallationCheck]:
     """Look for the native libraries as the renderer does, by the names that it loads."""
     for name, package in NATIVE.items():
         path = find(name)
         remedy = "" if path else f"install it: sudo apt-get install {package}"
-        yield Look(name, path or "missing", remedy)
+        yield InstallationCheck(name, path or "missing", remedy)
 
 
-def _fonts() -> Iterator[Look]:
+def _fonts() -> Iterator[InstallationCheck]:
     from report.typeset.pdf import TEMPLATES
 
     fonts = sorted(path.stem for path in (TEMPLATES / "fonts").glob("*.[ot]tf"))
     remedy = "" if fonts else f"restore {TEMPLATES / 'fonts'} from the distribution"
-    yield Look("fonts", f"{len(fonts)} with the program" if fonts else "missing", remedy)
+    yield InstallationCheck(
+        "fonts", f"{len(fonts)} with the program" if fonts else "missing", remedy
+    )
 
 
-def _cores() -> Iterator[Look]:
+def _cores() -> Iterator[InstallationCheck]:
     count = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    yield Look("cores", str(count))
+    yield InstallationCheck("cores", str(count))
 
 
-def solver_run(pushed_m: Callable[[], float] | None = None) -> Iterator[Look]:
+def solver_run(pushed_m: Callable[[], float] | None = None) -> Iterator[InstallationCheck]:
     """Run one block for which the displacement is known in closed form."""
     started = time.perf_counter()
     try:
         displacement_m = (pushed_m or _pushed_m)()
     except Exception as error:  # whatever is wrong here is the finding
-        yield Look("test run", _said(error), "reinstall: remove .venv and run ./roofslip again")
+        yield InstallationCheck(
+            "test run", _said(error), "reinstall: remove .venv and run ./roofslip again"
+        )
         return
     seconds = time.perf_counter() - started
     is_right = abs(displacement_m - _PUSHED_M) < 1e-9
     remedy = "" if is_right else "the solver is wrong on this computer; report it"
-    yield Look("test run", f"{displacement_m:.9f} m in {seconds:.1f} s", remedy)
+    yield InstallationCheck("test run", f"{displacement_m:.9f} m in {seconds:.1f} s", remedy)
 
 
 _MU, _G_MPS2, _END_S = 0.1, 9.80665, 1.0
@@ -128,7 +134,7 @@ def _pushed_m() -> float:
     return solve(scene(accelerations, _END_S, slope_rad=0.0, mu=_MU)).result.prd_m
 
 
-def page(render: Callable[[str], bytes] | None = None) -> Iterator[Look]:
+def page(render: Callable[[str], bytes] | None = None) -> Iterator[InstallationCheck]:
     """Lay out a page in the style of a package."""
     started = time.perf_counter()
     try:
@@ -137,9 +143,11 @@ def page(render: Callable[[str], bytes] | None = None) -> Iterator[Look]:
         style = (TEMPLATES / "package.css").read_text(encoding="utf-8")
         size = len((render or lay_out)(_PAGE.format(style=style)))
     except Exception as error:  # the renderer fails with whatever the system gives
-        yield Look("test page", _said(error), "install what is missing above, then try again")
+        yield InstallationCheck(
+            "test page", _said(error), "install what is missing above, then try again"
+        )
         return
-    yield Look("test page", f"{size:,} bytes in {time.perf_counter() - started:.1f} s")
+    yield InstallationCheck("test page", f"{size:,} bytes in {time.perf_counter() - started:.1f} s")
 
 
 _PAGE = (
@@ -152,6 +160,6 @@ def _said(error: Exception) -> str:
     return f"fails: {'; '.join(str(error).strip().splitlines()[:3]) or repr(error)}"
 
 
-CHECKS: tuple[Callable[[], Iterator[Look]], ...] = (
+CHECKS: tuple[Callable[[], Iterator[InstallationCheck]], ...] = (
     _python, packages, native, _fonts, _cores, solver_run, page,
 )  # fmt: skip

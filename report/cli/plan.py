@@ -15,7 +15,7 @@ import click
 from report.cli.terminal import input_errors, plain
 
 if TYPE_CHECKING:
-    from report.drawing.plan_read import Place, RoofPlan
+    from report.drawing.plan_read import DrawnOutline, RoofPlan
 
 SOURCE = click.Path(path_type=Path)
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
@@ -94,7 +94,7 @@ def _filled(project: Path, found: RoofPlan, replace: bool) -> tuple[Path, bool]:
     return book.path, any(scan.formulas for scan in book.scans.values())
 
 
-def _line(place: Place) -> str:
+def _line(place: DrawnOutline) -> str:
     from report.words.units import Quantity, pair
 
     box = place.shape.bounds

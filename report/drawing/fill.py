@@ -9,10 +9,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from report.drawing.plan_read import Place, RoofPlan
+from report.drawing.plan_read import DrawnOutline, RoofPlan
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found, plain
-from report.sheet.fields import Entry, Section, entries
+from report.sheet.fields import Entry, SheetSection, entries
 from report.sheet.legacy_notes import MOVE
 from report.sheet.locate import find_cell, find_unit_cell, is_absent
 from report.sheet.locate_tables import MAX_ROWS, TableFound, find_table, table_area
@@ -31,7 +31,7 @@ class _Table:
     """A table of the workbook while rows are added to it."""
 
     book: OpenBook
-    section: Section
+    section: SheetSection
     found: TableFound
     next_row: int = 0
     last: int = 0
@@ -135,7 +135,9 @@ def changes(book: OpenBook, plan: RoofPlan, *, replace: bool) -> dict[CellPositi
     return fill.cells
 
 
-def _fill_rows(fill: _Fill, key: str, places: Sequence[Place], outlines: _Table | None) -> None:
+def _fill_rows(
+    fill: _Fill, key: str, places: Sequence[DrawnOutline], outlines: _Table | None
+) -> None:
     if not places:
         return
     table = _Table.of(fill.book, key)
@@ -165,7 +167,7 @@ def _sides(shape: Shape) -> tuple[float | None, ...]:
     return (None,) * len(SIDES)
 
 
-def _fill_roof(fill: _Fill, place: Place, outlines: _Table | None) -> None:
+def _fill_roof(fill: _Fill, place: DrawnOutline, outlines: _Table | None) -> None:
     section = _BY_KEY["roof"]
     by_name = {entry.name: entry for entry in entries(section.model)}
     _note_outline(fill, place, outlines)
@@ -180,7 +182,7 @@ def _fill_roof(fill: _Fill, place: Place, outlines: _Table | None) -> None:
             fill.cells[position] = None if value is None else round(value / si, _DIGITS)
 
 
-def _block_cell(book: OpenBook, section: Section, entry: Entry) -> tuple[CellPosition, float]:
+def _block_cell(book: OpenBook, section: SheetSection, entry: Entry) -> tuple[CellPosition, float]:
     """Return the cell of a field of a block, and the size of its unit."""
     position = find_cell(book, section, entry)
     unit = found_at(book, find_unit_cell(book, section, entry, position))
@@ -188,7 +190,7 @@ def _block_cell(book: OpenBook, section: Section, entry: Entry) -> tuple[CellPos
     return position, si
 
 
-def _note_outline(fill: _Fill, place: Place, outlines: _Table | None) -> None:
+def _note_outline(fill: _Fill, place: DrawnOutline, outlines: _Table | None) -> None:
     """Note the outline of a place, and the rows of a former one."""
     name = ROOF if place.kind.value == ROOF else place.name
     rows = outlines.rows("name", name) if outlines is not None else []

@@ -43,7 +43,7 @@ _STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Place:
+class DrawnOutline:
     """An array, an object, an edge or the roof as drawn.
 
     Attributes
@@ -69,9 +69,9 @@ class Place:
 class RoofPlan:
     """The plan as drawn, and what was not understood; `roof` has one place or none."""
 
-    roof: tuple[Place, ...]
-    arrays: tuple[Place, ...]
-    objects: tuple[Place, ...]
+    roof: tuple[DrawnOutline, ...]
+    arrays: tuple[DrawnOutline, ...]
+    objects: tuple[DrawnOutline, ...]
     unread: tuple[Unread, ...]
 
 
@@ -164,7 +164,7 @@ def _named(
     texts: Sequence[Words],
     unit_m: float,
     unread: list[Unread],
-) -> list[Place]:
+) -> list[DrawnOutline]:
     """Return the places with their names: written by `report`, of their block, or inside of them.
 
     A name that is taken leaves its line unread; a line without a name gets one.
@@ -191,8 +191,8 @@ def _named(
         if kind is not LayerKind.ROOF:
             taken[name.casefold()] = line.handle
         places.append(
-            Place(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
-                  height_m=height_m, note=note)
+            DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
+                         height_m=height_m, note=note)
         )  # fmt: skip
     return places
 
@@ -232,7 +232,7 @@ def _texts_inside(
     return inside
 
 
-def _edges(roof: Shape, objects: Sequence[Place]) -> Iterator[Place]:
+def _edges(roof: Shape, objects: Sequence[DrawnOutline]) -> Iterator[DrawnOutline]:
     """Yield the sides of the roof along which no edge is drawn, as strips outside of it."""
     edges = (LayerKind.EDGE_WITH_PARAPET, LayerKind.EDGE_WITHOUT_PARAPET)
     strips = [item.shape for item in objects if item.kind in edges]
@@ -242,8 +242,9 @@ def _edges(roof: Shape, objects: Sequence[Place]) -> Iterator[Place]:
     kind = LayerKind.EDGE_WITHOUT_PARAPET
     for edge in bare_sides(Polygon(roof.points), strips, 90.0):
         name = _free_name(kind, counts, taken)
-        yield Place(name=name, kind=kind, shape=_strip(*edge.ends), handle="", layer="",
-                    height_m=math.nan, note=f"{edge.name}, taken as without parapet")  # fmt: skip
+        yield DrawnOutline(name=name, kind=kind, shape=_strip(*edge.ends), handle="", layer="",
+                           height_m=math.nan,
+                           note=f"{edge.name}, taken as without parapet")  # fmt: skip
 
 
 def _strip(start: Point, end: Point) -> Shape:

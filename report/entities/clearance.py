@@ -57,7 +57,7 @@ def clearance_results(
     """Yield clearances, by their number in the workbook, with their marks."""
     for count, gap in gaps.items():
         key = SEPARATION_KEYS[gap.neighbor]
-        least = marked.mark("separation_edge_min_in") if gap.is_least_value else ""
+        least = marked.mark("separation_edge_min_in") if gap.is_minimum_value else ""
         required, provided = compared(gap.required_m, gap.clearance.provided_m)
         yield ClearanceResult.of(
             gap,

@@ -73,7 +73,7 @@ class MarginResult(Entity):
     clearance: Annotated[str, at("number")]
     array: Annotated[str, at("array.id")]
     mu: Annotated[float, at("array.array.mu")]
-    least_mu: Number
+    least_mu: Annotated[Number, at("minimum_mu")]
     lowest_mu_tried: Annotated[Number, at("lowest_tried")]
     is_beyond: bool
     required_m: Number

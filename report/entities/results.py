@@ -32,7 +32,7 @@ from report.entities.requirement import (
     finding_results,
     limit,
 )
-from report.entities.shown import Entity, Written
+from report.entities.shown import Entity, WrittenSchema
 from report.sheet.schema import ProjectInput
 
 SCHEMA_VERSION = 2
@@ -93,7 +93,7 @@ class Results(Compared):
 
 def schema() -> dict[str, Any]:
     """Return the JSON schema of results.json."""
-    return Results.model_json_schema(by_alias=False, schema_generator=Written)
+    return Results.model_json_schema(by_alias=False, schema_generator=WrittenSchema)
 
 
 def compared(assessment: Assessment) -> Compared:

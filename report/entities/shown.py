@@ -176,7 +176,7 @@ class Entity(BaseModel):
         return self.marks.get(name, "")
 
 
-class Written(GenerateJsonSchema):
+class WrittenSchema(GenerateJsonSchema):
     """The JSON schema of what is written: without fields that are only printed."""
 
     def field_is_present(self, field: Any) -> bool:

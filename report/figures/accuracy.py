@@ -66,12 +66,12 @@ def _draw(axes: Axes, runs: Sequence[MethodRun]) -> None:
     axes.plot([run.steps for run in ordered], errors, **look.all)
 
 
-def _axes(axes: Axes, most: float) -> None:
+def _axes(axes: Axes, maximum: float) -> None:
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
-    axes.set_xlim(0.82, 1.25 * most)
+    axes.set_xlim(0.82, 1.25 * maximum)
     axes.set_ylim(1e-15, 300.0)
-    axes.xaxis.set_major_locator(FixedLocator([n for n in _STEPS if n <= 1.2 * most]))
+    axes.xaxis.set_major_locator(FixedLocator([n for n in _STEPS if n <= 1.2 * maximum]))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_locator(NullLocator())
     decades(axes.yaxis)

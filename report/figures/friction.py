@@ -102,13 +102,13 @@ def _mu_axis(axes: Axes, runs: Sequence[float], laws: Sequence[float]) -> None:
     axes.set_ylim(max(low - pad, 0.0), high + pad)
 
 
-def _label_laws(axes: Axes, laws: Mapping[Friction, str], most: float) -> None:
+def _label_laws(axes: Axes, laws: Mapping[Friction, str], maximum: float) -> None:
     """Label each law at its end, moving labels apart upward."""
     low, high = axes.get_ylim()
     wide_in = axes.get_position().width * WIDTH_IN
     last = -math.inf
-    for law in sorted(laws, key=lambda one: one.at(most)):
-        end = (law.at(most) - low) / (high - low)
+    for law in sorted(laws, key=lambda one: one.at(maximum)):
+        end = (law.at(maximum) - low) / (high - low)
         last = max(end, last + _LABEL_GAP)
         axes.annotate(
             _law_words(law, laws[law]),

@@ -189,11 +189,11 @@ def _prd_text(run: MotionRun, us_first: bool) -> str:
     return pair(prd_m, Quantity.DISPLACEMENT, us_first)
 
 
-def envelope(t: Floats, u: Floats, most: int = MAX_POINTS) -> tuple[Floats, Floats]:
-    """Return at most `most` points: minimum and maximum of each segment, in order."""
-    if len(u) <= most:
+def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, Floats]:
+    """Return at most `maximum` points: minimum and maximum of each segment, in order."""
+    if len(u) <= maximum:
         return t, u
-    edges = np.linspace(0, len(u), most // 2, dtype=int)[:-1]
+    edges = np.linspace(0, len(u), maximum // 2, dtype=int)[:-1]
     parts = [*edges.tolist(), len(u)]
     kept: list[int] = [0]
     for start, stop in pairwise(parts):

@@ -35,7 +35,7 @@ def hodographs(
     `followed` are the histories of these runs.
     """
     paths = [path_of(history) for history in followed]
-    panel = Panel.around(paths)
+    panel = PanelScale.around(paths)
     columns = min(COLUMNS, len(paths))
     rows = math.ceil(len(paths) / columns)
     tall = rows * (panel.tall_in + TITLE_IN) + FOOT_IN
@@ -77,7 +77,7 @@ def path_of(history: SlideHistory) -> Path:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Panel:
+class PanelScale:
     """Size and scale common to all panels; `start` is the origin from the upper left corner."""
 
     wide_in: float
@@ -86,7 +86,7 @@ class Panel:
     start: tuple[float, float]
 
     @classmethod
-    def around(cls, paths: Sequence[Path]) -> Panel:
+    def around(cls, paths: Sequence[Path]) -> PanelScale:
         """Return the panel that holds every path at the largest scale."""
         x = np.concatenate([[0.0], *(path.x_m for path in paths)])
         y = np.concatenate([[0.0], *(path.y_m for path in paths)])
@@ -104,7 +104,7 @@ class Panel:
         )
 
 
-def _draw(axes: Axes, panel: Panel, path: Path, corner: tuple[float, float]) -> None:
+def _draw(axes: Axes, panel: PanelScale, path: Path, corner: tuple[float, float]) -> None:
     x0, y0 = corner[0] + panel.start[0], corner[1] + panel.start[1]
     if not path.x_m.size:
         axes.text(x0, y0, "none", va="top")

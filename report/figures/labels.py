@@ -106,7 +106,12 @@ class Placer:
             self._threads.append(centered(float(x), float(y), 0.02, 0.02))
 
     def place(
-        self, wide: float, tall: float, near: Point, within: Frame | None = None, most: float = 4.0
+        self,
+        wide: float,
+        tall: float,
+        near: Point,
+        within: Frame | None = None,
+        maximum: float = 4.0,
     ) -> Frame | None:
         """Reserve and return the frame of a label nearest to a point; None if there is no room.
 
@@ -116,12 +121,12 @@ class Placer:
         ----------
         within : Frame, optional
             Where it must lie; the page if not given.
-        most : float
+        maximum : float
             Largest distance of its center from the point [in].
         """
         page = self._page if within is None else within
         size = np.array((wide, tall))
-        low = _OFFSETS[np.hypot(*_OFFSETS.T) <= most] + near - size / 2
+        low = _OFFSETS[np.hypot(*_OFFSETS.T) <= maximum] + near - size / 2
         low = low[np.all(low >= (page.x0, page.y0), axis=1)]
         low = low[np.all(low + size <= (page.x1, page.y1), axis=1)]
         everything = [*self._taken, *self._threads]

@@ -79,7 +79,7 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
     for axis, log in ((axes.xaxis, sweep.x_log), (axes.yaxis, sweep.y_log)):
         if log:
             axis.axes.set_xscale("log") if axis is axes.xaxis else axis.axes.set_yscale("log")
-            decades(axis, most=7)
+            decades(axis, maximum=7)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     axes.set_xlabel(sweep.x_label)
@@ -157,7 +157,7 @@ def _spread(axes: Axes, values: Floats) -> None:
     seen = values[values > 0.0]
     if seen.size and seen.max() > 100.0 * seen.min():
         axes.set_yscale("log")
-        decades(axes.yaxis, most=6)
+        decades(axes.yaxis, maximum=6)
     else:
         axes.set_ylim(0.0, None)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))

@@ -15,7 +15,7 @@ from solver.rivals.methods import METHODS
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class MethodStyle:
     """Legend label, marker, line style, color, and whether the marker is filled."""
 
     label: str
@@ -55,8 +55,8 @@ _STYLES = (
     ("P", "none", GRAY, True),
 )
 
-LOOKS: Mapping[str, Look] = {
-    method.name: Look(method.label, *style)
+LOOKS: Mapping[str, MethodStyle] = {
+    method.name: MethodStyle(method.label, *style)
     for method, style in zip(METHODS.values(), cycle(_STYLES), strict=False)
 }
 """Keyed by the name of the method, styles in the order of the methods."""

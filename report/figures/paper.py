@@ -37,7 +37,7 @@ def convergence(studies: Sequence[Convergence]) -> str:
             _errors(left, study)
             right.plot(study.substeps, 1e3 * study.longest_seconds, "o-", color=INK, markersize=4)
             right.set_yscale("log")
-            decades(right.yaxis, most=7)
+            decades(right.yaxis, maximum=7)
             right.set_ylabel("Longest time per run [ms]")
             left.set_title(study.record, loc="left", weight="semibold")
             for axes in (left, right):
@@ -73,7 +73,7 @@ def _errors(axes: Axes, study: Convergence) -> None:
     axes.set_yscale("log")
     low, high = axes.get_ylim()
     axes.set_ylim(low, 8.0 * high)  # room for the legend
-    decades(axes.yaxis, most=7)
+    decades(axes.yaxis, maximum=7)
     axes.set_ylabel("Largest error in residual [%]")
     axes.legend(loc="upper right", handlelength=2.8)
 
@@ -258,7 +258,7 @@ def contours(study: DesignCurves) -> str:
             linestyles=["-" if v in (500.0, 1000.0) else _DASHED for v in levels],
         )
         axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", inline_spacing=2)
-        least = study.least_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)
+        least = study.minimum_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)
         if not math.isnan(least):
             _read_off(axes, least, slope_deg, wanted_m)
         axes.set_xlim(study.mus[0], study.mus[-1])

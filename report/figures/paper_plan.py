@@ -171,10 +171,10 @@ def wrapped(words: str, wide: float) -> list[str]:
     return lines
 
 
-def nice_length(most: float) -> float:
+def nice_length(maximum: float) -> float:
     """Return 1, 2 or 5 times a power of ten, the largest up to a length."""
-    power = 10.0 ** math.floor(math.log10(most))
-    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= most * (1 + 1e-9))
+    power = 10.0 ** math.floor(math.log10(maximum))
+    return max(step * power for step in (1.0, 2.0, 5.0) if step * power <= maximum * (1 + 1e-9))
 
 
 def around(frame: Frame) -> tuple[Frame, ...]:

@@ -45,7 +45,7 @@ def draw_callout(plan: PlanSheet, gap: Gap) -> None:
             wide + _circle(gap) + mark,
             max(tall, 2 * RADIUS_IN),
             gap.middle,
-            most=4.0 if gap.of.is_ng and not shown else plan.leader_in,
+            maximum=4.0 if gap.of.is_ng and not shown else plan.leader_in,
         )
         if label is not None:
             _draw_callout(plan, gap, label, shown, mark)

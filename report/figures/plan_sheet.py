@@ -146,7 +146,7 @@ class PlanSheet:
     def beside(self, frame: Frame, words: str) -> None:
         """Name something outside of it, with a leader."""
         size = text_size([words])
-        label = self.paper.placer.place(*size, frame.middle, most=self.leader_in)
+        label = self.paper.placer.place(*size, frame.middle, maximum=self.leader_in)
         if label is None:
             self.unnamed.append(words)
             return

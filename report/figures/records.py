@@ -136,5 +136,5 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
     bare(axes)
 
 
-def _cut(name: str, most: int) -> str:
-    return name if len(name) <= most else f"{name[: most - 1]}…"
+def _cut(name: str, maximum: int) -> str:
+    return name if len(name) <= maximum else f"{name[: maximum - 1]}…"

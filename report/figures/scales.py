@@ -26,8 +26,8 @@ def plain(value: float) -> str:
     return f"{value / 10.0**exponent:.3g} × {letters.power_of_ten(exponent)}"
 
 
-def decades(axis: Axis, most: int = 9) -> None:
-    """Label powers of ten on a logarithmic axis, at most `most` of them."""
-    axis.set_major_locator(LogLocator(numticks=most))
+def decades(axis: Axis, maximum: int = 9) -> None:
+    """Label powers of ten on a logarithmic axis, at most `maximum` of them."""
+    axis.set_major_locator(LogLocator(numticks=maximum))
     axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
     axis.set_minor_locator(NullLocator())

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.uncertainty import Surface
+from report.assessment.uncertainty import ResponseSurface
 from report.figures.base import GRAY, INK, bare, framed, style, svg_text, tick_text
 from report.figures.levels import LEAST_M, is_decade, levels
 from report.memoized import memoized
@@ -24,7 +24,7 @@ TYPE_PT = 9.0  # at smaller sizes the renderer clips the first letter of a label
 
 
 @memoized
-def contours(surface: Surface, arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
+def contours(surface: ResponseSurface, arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     """Return the contours in the primary unit, with a dot for each array of that friction law."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     degrees = np.degrees(surface.slopes_rad)
@@ -56,7 +56,7 @@ def _edges(limit: Callable[[float, float], object], values: Floats, share: float
     limit(values[0] - room, values[-1] + room)
 
 
-def _lines(axes: Axes, surface: Surface, mean: Floats) -> None:
+def _lines(axes: Axes, surface: ResponseSurface, mean: Floats) -> None:
     seen = mean[~np.isnan(mean)]
     if not seen.size:
         return

@@ -21,7 +21,7 @@ UNITS = {"percent": "%", "m": "m"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Curve:
+class WorkCurve:
     """One method from coarse to fine: median time [s], and error over the scenes.
 
     `each` has one row per run: time, error.
@@ -35,7 +35,7 @@ class Curve:
     each: Floats
 
 
-def curves(points: Sequence[WorkPoint], measure: str, floor: float) -> tuple[Curve, ...]:
+def curves(points: Sequence[WorkPoint], measure: str, floor: float) -> tuple[WorkCurve, ...]:
     """Return a curve for each method, in the order of the points; failed runs are omitted.
 
     Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
@@ -47,7 +47,7 @@ def curves(points: Sequence[WorkPoint], measure: str, floor: float) -> tuple[Cur
     return tuple(curve for curve in drawn if curve.median.size)
 
 
-def _curve(name: str, points: Sequence[WorkPoint], measure: str, floor: float) -> Curve:
+def _curve(name: str, points: Sequence[WorkPoint], measure: str, floor: float) -> WorkCurve:
     rows = [
         (p.setting, p.seconds, max(getattr(p, measure), floor))
         for p in points
@@ -58,8 +58,10 @@ def _curve(name: str, points: Sequence[WorkPoint], measure: str, floor: float) -
     groups = [np.array(group)[:, 1:] for group in by_setting if group]
     if not groups:
         empty = np.empty(0)
-        return Curve(method=name, seconds=empty, low=empty, median=empty, high=empty, each=empty)
-    return Curve(
+        return WorkCurve(
+            method=name, seconds=empty, low=empty, median=empty, high=empty, each=empty
+        )
+    return WorkCurve(
         method=name,
         seconds=np.array([np.median(group[:, 0]) for group in groups]),
         low=np.array([group[:, 1].min() for group in groups]),
@@ -99,7 +101,7 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
         return svg_text(figure)
 
 
-def _name_floor(axes: Axes, curve: Curve) -> None:
+def _name_floor(axes: Axes, curve: WorkCurve) -> None:
     axes.annotate(
         "exact: rounding error",
         (curve.seconds[0], curve.median[0]),
@@ -113,7 +115,7 @@ def _log_axes(axes: Axes) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     decades(axes.xaxis)
-    decades(axes.yaxis, most=12)
+    decades(axes.yaxis, maximum=12)
     axes.grid(True)
     axes.set_axisbelow(True)
     bare(axes)
@@ -153,7 +155,7 @@ def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
         return svg_text(figure)
 
 
-def _panel(axes: Axes, curve: Curve, shown: Sequence[Curve]) -> None:
+def _panel(axes: Axes, curve: WorkCurve, shown: Sequence[WorkCurve]) -> None:
     others = Broken()
     for other in shown:
         others.add(other.seconds, other.median)
@@ -175,6 +177,6 @@ def _panel(axes: Axes, curve: Curve, shown: Sequence[Curve]) -> None:
     if curve.seconds.size == 1:
         axes.vlines(curve.seconds, curve.low, curve.high, color=INK, linewidth=0.8, zorder=2.5)
     _log_axes(axes)
-    decades(axes.xaxis, most=5)
-    decades(axes.yaxis, most=6)
+    decades(axes.xaxis, maximum=5)
+    decades(axes.yaxis, maximum=6)
     axes.set_title(look.label, loc="left")

@@ -6,9 +6,9 @@ from report.document.sections import Section
 from report.manual.building import building
 from report.manual.features import features, known_errors
 from report.manual.machine import Machine
+from report.manual.models import models
 from report.manual.precision import work
 from report.manual.robustness import conditioning, stability
-from report.manual.rungs import rungs
 from report.manual.shake_table import shake_table
 from report.manual.studies import convergence, curves, links
 from report.manual.summary import summary
@@ -32,7 +32,7 @@ def sections(verification: Verification, machine: Machine) -> tuple[Section, ...
         curves(verification),
         conditioning(verification),
         building(verification),
-        *((rungs(verification),) if verification.rungs else ()),
+        *((models(verification),) if verification.models else ()),
         shake_table(verification),
         features(verification),
         known_errors(),

@@ -131,7 +131,7 @@ def curves(verification: Verification) -> Section:
 
 def _least_mu(study: DesignCurves) -> float:
     slope_deg, wanted_m = paper.READ_OFF
-    return study.least_mu(slope_deg, paper.FIG_12_PPA_G, wanted_m)
+    return study.minimum_mu(slope_deg, paper.FIG_12_PPA_G, wanted_m)
 
 
 def _read_off(studies: Sequence[DesignCurves]) -> Table:

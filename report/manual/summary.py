@@ -19,7 +19,7 @@ from report.words.validation import validation
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import CheckRow, Verification, WorkPoint
 from solver.verification.features import statuses
-from solver.verification.rung_evidence import SECOND, WORST
+from solver.verification.model_evidence import SECOND, WORST
 
 _KEY_RESULTS = (
     (words("Quantity", 2.6), str),
@@ -69,7 +69,7 @@ def summary(verification: Verification) -> Section:
             "BY_HEIGHT": BY_HEIGHT,
             "two_axes": [
                 (evidence.study.named(SECOND), evidence.study.named(WORST))
-                for evidence in verification.rungs
+                for evidence in verification.models
             ],
             "validation": validation(verification.tables),
             "features": statuses(verification.checks, verification.tables),

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import pandas as pd
 
 from solver.verification.evidence import CheckRow, Verification, WorkPoint
-from solver.verification.rung_evidence import PlaneWork
+from solver.verification.model_evidence import PlaneWork
 
 _OF_CHECK = ("id", "section", "problem", "source", "quantity", "unit", "expected", "computed")
 _OF_RUN = {
@@ -32,7 +32,7 @@ def verification_csv(verification: Verification) -> bytes:
     rows = [*map(_check, verification.checks), *map(_run, verification.work)]
     rows += [
         _run_in_two_axes(evidence.work_scene, point)
-        for evidence in verification.rungs
+        for evidence in verification.models
         for point in evidence.work
     ]
     text: str = pd.DataFrame(rows, columns=list(_COLUMNS)).to_csv(index=False, lineterminator="\n")

@@ -11,7 +11,7 @@ from report.sheet.fields import Finding, Place
 from report.sheet.schema import Links, ProjectInput
 from report.words.units import G_MPS2, Quantity
 from solver.model import Motion
-from solver.sliding.row import MOST_STEPS, BlockRow, least_steps
+from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps
 
 
 def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Finding]:
@@ -34,7 +34,7 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
 def _stiffest(links: Links, weight_n: float, seconds: float) -> float:
     """Return the stiffness [N/m] that needs `MOST_STEPS`; steps grow with its square root."""
     soft = BlockRow(mus=links.mus, stiffness_per_s2=1.0, damping_per_s=2.0 * links.damping_ratio)
-    per_s2 = (MOST_STEPS / least_steps(soft, seconds)) ** 2
+    per_s2 = (MOST_STEPS / minimum_steps(soft, seconds)) ** 2
     return per_s2 * weight_n / (len(links.mus) * G_MPS2)
 
 

@@ -22,7 +22,7 @@ from report.pages.parts import PackageData
 from report.pages.pictures import Pictures, draw_assessment, draw_plotted, draw_uncertainty
 from report.pages.registry import Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
-from report.typeset.equations import Formula, formulas
+from report.typeset.equations import FormulaPicture, formulas
 from report.typeset.pdf import TEMPLATES
 from report.workers import SameProcess
 
@@ -34,7 +34,7 @@ class PendingPictures:
     package: PackageData
     worker: Executor
     pictures: tuple[Future[Pictures], ...]
-    equations: Future[dict[str, Formula]]
+    equations: Future[dict[str, FormulaPicture]]
 
     def plot(self, shown: Plotted) -> PendingPictures:
         """Begin with most figures."""
@@ -118,7 +118,7 @@ def _html(
     package: PackageData,
     content: Mapping[str, Content],
     pictures: Pictures,
-    ready: Mapping[str, Formula],
+    ready: Mapping[str, FormulaPicture],
 ) -> str:
     listed = {part.id: part for part in parts(package)}
     equations = {**ready, **formulas(set(_latex(content)) - ready.keys())}

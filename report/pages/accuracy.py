@@ -42,7 +42,8 @@ def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
             (array.id, check, *_value_and_limit(package, check))
             for array, check in accuracy.newly_limited
         ],
-        "n_more_unfinished": _unfinished(accuracy.less) - _unfinished(accuracy.given),
+        "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
+        - _unfinished(accuracy.given),
     }
 
 
@@ -112,18 +113,18 @@ class _Varied:
     """
 
     given: ArrayAssessment
-    less: ArrayAssessment
-    more: ArrayAssessment
+    at_reduced_friction: ArrayAssessment
+    at_increased_friction: ArrayAssessment
 
     @property
     def is_on_floor(self) -> bool:
         """Whether the floor always governs."""
-        arrays = (self.given, self.less, self.more)
+        arrays = (self.given, self.at_reduced_friction, self.at_increased_friction)
         return all(array.governs is DesignBasis.FLOOR for array in arrays)
 
 
 def _by_array(accuracy: Accuracy) -> Iterator[_Varied]:
-    assessments = (accuracy.given, accuracy.less, accuracy.more)
+    assessments = (accuracy.given, accuracy.at_reduced_friction, accuracy.at_increased_friction)
     for arrays in zip(*(assessment.arrays for assessment in assessments), strict=True):
         yield _Varied(*(replace(array, design_m=array.permitted_m) for array in arrays))
 
@@ -132,16 +133,16 @@ def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
     columns = (
         (words("Array", 1.2), lambda row: row.given.id),
         (text("μ", share=1.1), lambda row: mu_words(row.given.array.friction)),
-        _design(package, f"{_PERCENT} less", lambda row: row.less),
+        _design(package, f"{_PERCENT} less", lambda row: row.at_reduced_friction),
         _design(package, "As given", lambda row: row.given),
-        _design(package, f"{_PERCENT} more", lambda row: row.more),
+        _design(package, f"{_PERCENT} more", lambda row: row.at_increased_friction),
         (
             text("Change", f"{_PERCENT} less"),
-            lambda row: _change(row.less.design_m, row.given.design_m),
+            lambda row: _change(row.at_reduced_friction.design_m, row.given.design_m),
         ),
         (
             text("Change", f"{_PERCENT} more"),
-            lambda row: _change(row.more.design_m, row.given.design_m),
+            lambda row: _change(row.at_increased_friction.design_m, row.given.design_m),
         ),
     )
     caption = "Design displacement with changed friction, all motions rerun"

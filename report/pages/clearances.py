@@ -27,6 +27,6 @@ def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str,
             for gap in gaps
             if gap[1].kind is ObjectKind.EDGE_WITH_PARAPET and gap[1].height_m is not None
         ],
-        "is_least": any(gap.is_least_value for gap in package.assessment.clearances),
+        "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),
         "remedies": answers(package, remedies),
     }

@@ -95,8 +95,8 @@ def _force(package: PackageData) -> Iterator[Line]:
         steps=(
             *steps,
             (substituted, number(force.formula, 3)),
-            (f"At most 1.6 × {s_ds} × {i_p}", number(force.largest, 3)),
-            (f"At least 0.3 × {s_ds} × {i_p}", number(force.least, 3)),
+            (f"At most 1.6 × {s_ds} × {i_p}", number(force.maximum, 3)),
+            (f"At least 0.3 × {s_ds} × {i_p}", number(force.minimum, 3)),
         ),
         note="For comparison: an unattached array slides, and no clearance here uses this force.",
     )

@@ -160,7 +160,7 @@ def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:
         *about,
         "not given" if math.isnan(tested_mps) else tested_mps,
         number(check.mu_beyond, 3),
-        number(check.tests.least_mu, 3),
+        number(check.tests.minimum_mu, 3),
         stamp(check.verdict),
     )
 

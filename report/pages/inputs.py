@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from report.assessment.friction import mu_words
-from report.assessment.runs import RUNGS
+from report.assessment.runs import REQUESTED_MODELS
 from report.assessment.verdict import NOT_GIVEN
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
@@ -41,7 +41,7 @@ def inputs(package: PackageData) -> Mapping[str, object]:
             for array in data.arrays
             if not array.friction.is_constant
         },
-        "asked": [array.id for array in data.arrays if array.model in RUNGS],
+        "asked": [array.id for array in data.arrays if array.model in REQUESTED_MODELS],
         "takes_base": package.assessment.rules.low_profile_length is LowProfileLength.BASE,
         "sizes": _sizes(package),
         "outlined": {"arrays": _outlined(data.arrays), "objects": _outlined(data.objects)},

@@ -334,7 +334,7 @@ def _separation(package: PackageData, gap: ClearanceCheck) -> tuple[str, str]:
     least = (
         f", not less than {fmt.both(rules.length_m('separation_edge_min_in'))}"
         f"{package.mark('separation_edge_min_in')}"
-        if gap.is_least_value
+        if gap.is_minimum_value
         else ""
     )
     feet = "" if math.isnan(gap.required_m) else f" = {fmt.both(gap.required_m, Quantity.PLAN)}"

@@ -14,7 +14,7 @@ from operator import itemgetter
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words
-from report.assessment.runs import RUNGS, OrientedRun
+from report.assessment.runs import REQUESTED_MODELS, OrientedRun
 from report.document.tables import Table, Wide, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import centered, length, plain, text, words
@@ -38,7 +38,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
     arrays = package.data.arrays
     return {
-        "rungs": [rung for rung in Model if rung is not Model.ROW],
+        "models": [model for model in Model if model is not Model.ROW],
         "matters": DEFAULT,
         "matters_in": DEFAULT.matters_m / INCH_M,
         "friction": {array.id: friction(package, array) for array in arrays},
@@ -112,10 +112,10 @@ class _Group:
     @property
     def model(self) -> str:
         """The name of the model, and how many runs have no vertical component to model."""
-        rung, names = self.runs[0].solution.model, {run.model for run in self.runs}
-        lacking = sum(run.model != rung.title for run in self.runs)
-        name = self.runs[0].model if len(names) == 1 else f"{rung.title} ({lacking} runs without)"
-        return f"{int(rung)}, {name}"
+        model, names = self.runs[0].solution.model, {run.model for run in self.runs}
+        lacking = sum(run.model != model.title for run in self.runs)
+        name = self.runs[0].model if len(names) == 1 else f"{model.title} ({lacking} runs without)"
+        return f"{int(model)}, {name}"
 
     @property
     def demand(self) -> float:
@@ -187,12 +187,12 @@ def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
     neglected = sorted(
         {solution.next_model for solution in solutions if solution.next_model > solution.model}
     )
-    for rung in neglected:
+    for model in neglected:
         # A run that already has this model has nothing to tell of it.
         without = [
-            solution for solution in solutions if solution.next_model is rung > solution.model
+            solution for solution in solutions if solution.next_model is model > solution.model
         ]
-        yield _effect(array, rung, without)
+        yield _effect(array, model, without)
     if neglected:
         return
     if all(solution.model is Model.NO_SLIP for solution in solutions):
@@ -204,23 +204,23 @@ def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
         yield array.id, "None of the given inputs", "—", "—", "the most complete model is used"
 
 
-def _effect(array: ArrayAssessment, rung: Model, group: Sequence[Solution]) -> _Neglected:
+def _effect(array: ArrayAssessment, model: Model, group: Sequence[Solution]) -> _Neglected:
     effect = max((solution.next_effect_m for solution in group), key=nan_is_worst)
     basis = (
-        "both models run; error included" if rung is Model.TWO_AXES else "exact: both models run"
+        "both models run; error included" if model is Model.TWO_AXES else "exact: both models run"
     )
     if not math.isfinite(effect):
         no_result = "no result with the more complete model"
-        return array.id, _NEGLECTED[rung], *_NOT_KNOWN, no_result
+        return array.id, _NEGLECTED[model], *_NOT_KNOWN, no_result
     raised = max(array.analysis.value_m + array.analysis.factor * effect, array.floor_m)
-    return array.id, _NEGLECTED[rung], effect, raised - array.design_m, basis
+    return array.id, _NEGLECTED[model], effect, raised - array.design_m, basis
 
 
 def _requested(array: ArrayAssessment) -> _Neglected:
     """Return the change that the adequate models make to the requested one."""
     other = array.chosen[Direction.ANY]
-    rung = max(run.solution.model for motion in array.needed for run in motion.runs)
-    name = f"Effects of {rung.title}" if rung > RUNGS[array.array.model] else "None"
+    model = max(run.solution.model for motion in array.needed for run in motion.runs)
+    name = f"Effects of {model.title}" if model > REQUESTED_MODELS[array.array.model] else "None"
     if math.isnan(array.design_m) or math.isnan(other.value_m):
         return array.id, name, Wide(NO_VALUE, 4), "", "no value from analysis"
     effect = max(

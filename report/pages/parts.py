@@ -128,7 +128,7 @@ class PackageData(Marked):
         return self.assessment.governing
 
 
-def shortened(text: str, most: int) -> str:
+def shortened(text: str, maximum: int) -> str:
     """Return a text truncated to a length, for places of fixed size."""
     text = " ".join(text.split())
-    return text if len(text) <= most else text[: most - 1].rstrip() + "…"
+    return text if len(text) <= maximum else text[: maximum - 1].rstrip() + "…"

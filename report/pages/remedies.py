@@ -19,7 +19,7 @@ from report.words.units import Quantity, compared, no_less, number, pair
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Answer:
+class PrintedRemedy:
     """A remedy with the value given and the one that would do, for print; the latter if any."""
 
     remedy: Remedy
@@ -48,7 +48,7 @@ def _of_array(remedy: Remedy) -> str:
     return "" if remedy.clearance else remedy.array
 
 
-def _answer(package: PackageData, remedy: Remedy) -> Answer:
+def _answer(package: PackageData, remedy: Remedy) -> PrintedRemedy:
     given, value = remedy.given, remedy.value
     if remedy.kind is RemedyKind.SEPARATION:
         # As the clearances print them.
@@ -61,10 +61,10 @@ def _answer(package: PackageData, remedy: Remedy) -> Answer:
         array = next(array for array in package.data.arrays if array.id == remedy.array)
         mus = (given, value) if remedy.exists else (given, given)
         texts = [mu_words(with_mu(array, mu).friction) for mu in mus]
-    return Answer(remedy=remedy, given=texts[0], value=texts[1] if remedy.exists else "")
+    return PrintedRemedy(remedy=remedy, given=texts[0], value=texts[1] if remedy.exists else "")
 
 
-def _group(package: PackageData, group: Sequence[Answer]) -> Mapping[str, object]:
+def _group(package: PackageData, group: Sequence[PrintedRemedy]) -> Mapping[str, object]:
     """Return the ways to satisfy a clearance, or to give an array final values, each by itself."""
     first = group[0].remedy
     frictions = [one for one in group if one.remedy.kind is RemedyKind.FRICTION]
@@ -80,23 +80,23 @@ def _group(package: PackageData, group: Sequence[Answer]) -> Mapping[str, object
     }
 
 
-def _table(package: PackageData, found: Sequence[Answer]) -> Table:
+def _table(package: PackageData, found: Sequence[PrintedRemedy]) -> Table:
     """Return what would do, with the resolution and what was verified."""
 
-    def quantity(one: Answer) -> str:
+    def quantity(one: PrintedRemedy) -> str:
         if one.remedy.kind is RemedyKind.FRICTION:
             return f"μ of {one.remedy.array}"
         return with_symbols(capitalized(one.remedy.kind.value))
 
-    def value(one: Answer) -> str | Wide:
+    def value(one: PrintedRemedy) -> str | Wide:
         if not one.value:
             return Wide(with_symbols(f"none: {one.remedy.basis}"), 3)
         return f"{'≤' if one.remedy.kind is RemedyKind.S_DS else '≥'} {one.value}"
 
-    def resolution(one: Answer) -> str:
+    def resolution(one: PrintedRemedy) -> str:
         return f"{one.remedy.resolution:g}" if one.remedy.resolution else "exact"
 
-    def verified(one: Answer) -> str:
+    def verified(one: PrintedRemedy) -> str:
         if one.remedy.kind is RemedyKind.SEPARATION:
             return "the runs of this package"
         low, high = one.remedy.verified

@@ -174,7 +174,7 @@ def _force(package: PackageData) -> Iterator[Parameter]:
         yield Parameter("Component force / weight", "F_p/W_p", NOT_GIVEN, clause)
         return
     yield Parameter("Component force / weight", "F_p/W_p", number(force.value, 3), clause, COMPUTED)
-    for bound, value in (("at most", force.largest), ("at least", force.least)):
+    for bound, value in (("at most", force.maximum), ("at least", force.minimum)):
         name = f"Component force / weight, {bound}"
         yield Parameter(name, "F_p/W_p", number(value, 3), clause, COMPUTED)
 

@@ -42,7 +42,7 @@ _WHAT_WOULD_DO = {
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class Concern:
     """Something that needs attention: its weight (NG, condition, warning) and what it is."""
 
     level: str
@@ -105,48 +105,48 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
     )
 
 
-def attention(assessment: Assessment) -> Iterator[Line]:
+def attention(assessment: Assessment) -> Iterator[Concern]:
     """Yield what is not satisfied, each with array, value, limit, and what would do."""
     us_first = assessment.project.project.units_first.is_us
     for text in assessment.warnings:
         wanted = next(do for status, do in _WHAT_WOULD_DO.items() if status.sentence in text)
-        yield Line("NG", f"{_lowered(text.rstrip('.'))}; {wanted}")
+        yield Concern("NG", f"{_lowered(text.rstrip('.'))}; {wanted}")
     yield from _models(assessment)
     for check in (check for check in assessment.building_checks if not check.ok):
-        yield Line("NG", f"building, {limit_words(check, us_first)}")
+        yield Concern("NG", f"building, {limit_words(check, us_first)}")
     for item in assessment.arrays:
         for check in (check for check in item.limits if not check.ok):
-            yield Line("NG", f"array {item.id}, {limit_words(check, us_first)}")
+            yield Concern("NG", f"array {item.id}, {limit_words(check, us_first)}")
     for gap in (gap for gap in assessment.clearances if gap.verdict is Verdict.NG):
-        yield Line("NG", _short(gap, us_first))
+        yield Concern("NG", _short(gap, us_first))
     for row in assessment.conditions:
         where = f"{row.subject}, " if row.subject else ""
         text = f"{where}{_lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
-        yield Line(row.consequence.value, text)
+        yield Concern(row.consequence.value, text)
     for finding in what_is_new(assessment.sheet.book):
-        yield Line(finding.level.value, finding.text)
+        yield Concern(finding.level.value, finding.text)
     found = findings(assessment.sheet, assessment.shaking)
     for line in lines(found, assessment.sheet.addresses):
         if line.finding.level is Level.WARNING:
             reason = line.finding.reason
             answer = f" Acknowledged: {reason}" if reason else ""
-            yield Line("warning", f"{line.cells}: {line.finding.text} [{line.names}]{answer}")
+            yield Concern("warning", f"{line.cells}: {line.finding.text} [{line.names}]{answer}")
 
 
-def _models(assessment: Assessment) -> Iterator[Line]:
+def _models(assessment: Assessment) -> Iterator[Concern]:
     """Yield arrays that tip, and whose model is not adequate."""
     see = f"see {package_data(assessment).part('model')} of the package"
     for item in assessment.arrays:
         if not item.tipping.is_ok:
             tipping = f"{ratio(item.tipping.ratio)} of the ratio at which it tips; 1.00 or less is"
             text = f"array {item.id} starts to tip: {tipping} required, with a lower center of"
-            yield Line("NG", f"{text} gravity or wider supports; {see}")
+            yield Concern("NG", f"{text} gravity or wider supports; {see}")
         if not item.is_model_enough:
             text = f"array {item.id}, requested model '{item.array.model}' is not adequate; select"
-            yield Line("NG", f"{text} '{ModelChoice.CHOOSE}' on the sheet Arrays; {see}")
+            yield Concern("NG", f"{text} '{ModelChoice.CHOOSE}' on the sheet Arrays; {see}")
     for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
         text = f"one rigid block has not been shown to be adequate for array {name}"
-        yield Line("NG", f"{text}; {see}")
+        yield Concern("NG", f"{text}; {see}")
 
 
 def _short(gap: ClearanceCheck, us_first: bool) -> str:

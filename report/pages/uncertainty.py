@@ -9,7 +9,7 @@ import numpy as np
 
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
-from report.assessment.uncertainty import TOLERANCE, Margin, Surface, Uncertainty
+from report.assessment.uncertainty import TOLERANCE, Margin, ResponseSurface, Uncertainty
 from report.document.blocks import Picture
 from report.document.tables import Column, Table, listed
 from report.entities.shown import length, text, words
@@ -30,7 +30,7 @@ def page(package: PackageData, uncertainty: Uncertainty) -> dict[str, object]:
     }
 
 
-def pictures(package: PackageData, surface: Surface) -> Sequence[Picture]:
+def pictures(package: PackageData, surface: ResponseSurface) -> Sequence[Picture]:
     """Return the contours; none where nothing slides on the whole grid."""
     from report.figures.uncertainty import contours
 
@@ -59,7 +59,7 @@ def _listed(values: Sequence[float], decimals: int) -> str:
     return ", ".join(number(value, decimals) for value in values)
 
 
-def dots(surface: Surface) -> str:
+def dots(surface: ResponseSurface) -> str:
     """Return which arrays are dots of the contours."""
     if not surface.others:
         return "Dots: the arrays."
@@ -70,16 +70,16 @@ def dots(surface: Surface) -> str:
     )
 
 
-def _at_governing(surface: Surface) -> Mapping[str, object]:
+def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:
     """Return the grid at the governing array, and one step beside it as a ratio to that."""
     array, means, mus, slopes = surface.array.array, surface.mean_m, surface.mus, surface.slopes_rad
     row = _nearest(slopes.tolist(), array.slope_rad)
     column = _nearest(mus.tolist(), array.mu)
     here = float(means[row, column])
-    beside: dict[str, object] = {"less": None, "steeper": None}
+    beside: dict[str, object] = {"reduced_friction": None, "steeper": None}
     if here > 0.0 and column > 0:
         law = with_mu(array, float(mus[column - 1])).friction
-        beside["less"] = (law, float(means[row, column - 1]) / here)
+        beside["reduced_friction"] = (law, float(means[row, column - 1]) / here)
     if here > 0.0 and row + 1 < slopes.size:
         beside["steeper"] = (float(slopes[row + 1]), float(means[row + 1, column]) / here)
     return beside | {
@@ -95,7 +95,7 @@ def _nearest(values: Sequence[float], wanted: float) -> int:
 
 def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
     """Return the smallest margin of a satisfied clearance, and the clearances without one."""
-    have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.least_mu)]
+    have = [margin for margin in margins if margin.gap.ok and not math.isnan(margin.minimum_mu)]
     without = {margin.number for margin in margins} - {margin.number for margin in have}
     unknown = {margin.number for margin in margins if not margin.gap.is_permitted}
     smallest = max(have, key=_share, default=None)
@@ -112,16 +112,16 @@ def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
 
 def _share(margin: Margin) -> float:
     mu = margin.array.array.mu
-    return margin.least_mu / mu if mu > 0.0 else 1.0
+    return margin.minimum_mu / mu if mu > 0.0 else 1.0
 
 
 def _least(margin: Margin) -> str:
-    return mu_words(with_mu(margin.array.array, margin.least_mu).friction)
+    return mu_words(with_mu(margin.array.array, margin.minimum_mu).friction)
 
 
 def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
     def least(margin: Margin) -> str:
-        if math.isnan(margin.least_mu):
+        if math.isnan(margin.minimum_mu):
             return "none"
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
 
@@ -135,7 +135,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (
             length("Required there", 0.9),
-            lambda margin: "—" if math.isnan(margin.least_mu) else margin.required_m,
+            lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
     )

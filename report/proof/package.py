@@ -60,7 +60,7 @@ class Manifest(_Part):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Package:
+class ReadPackage:
     """A package as read.
 
     Attributes
@@ -95,7 +95,7 @@ class Package:
         return parsed(self.files.get(RESULTS, b"{}"), RESULTS)
 
 
-def open_package(path: Path) -> Package:
+def open_package(path: Path) -> ReadPackage:
     """Read a package and the files that it holds.
 
     Raises
@@ -118,7 +118,7 @@ def open_package(path: Path) -> Package:
     for name in {MANIFEST, RESULTS} & files.keys():
         parsed(files[name], name)
     manifest = _manifest(files[MANIFEST])
-    return Package(path=path, data=data, first=first, manifest=manifest, files=files, pdf=pdf)
+    return ReadPackage(path=path, data=data, first=first, manifest=manifest, files=files, pdf=pdf)
 
 
 def reader(data: bytes) -> PdfReader:
@@ -188,7 +188,7 @@ def _manifest(content: bytes) -> Manifest:
 
 
 def take_out(
-    package: Package, folder: Path, records: Path | None = None
+    package: ReadPackage, folder: Path, records: Path | None = None
 ) -> tuple[Path, list[Path]]:
     """Write the input of a package to a folder of its own; return workbook and former results.
 
@@ -229,7 +229,7 @@ def _inside(path: str) -> PurePosixPath:
     return PurePosixPath(path)
 
 
-def _content(package: Package, file: Listed, records: Path | None) -> bytes:
+def _content(package: ReadPackage, file: Listed, records: Path | None) -> bytes:
     if file.kind == "record" and not package.manifest.has_records:
         return _left_out(file, records)
     if file.name not in package.files:
@@ -253,7 +253,7 @@ def _left_out(file: Listed, records: Path | None) -> bytes:
     return content
 
 
-def mismatched(package: Package) -> Sequence[str]:
+def mismatched(package: ReadPackage) -> Sequence[str]:
     """Return attachments that are not those of the manifest: changed, missing or added."""
     listed = {file.name: file.sha256 for file in package.manifest.files}
     if not package.manifest.has_records:

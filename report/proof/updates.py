@@ -15,7 +15,7 @@ from pypdf.generic import ArrayObject, DictionaryObject, IndirectObject
 
 from report.proof.metadata import PRODUCER, facts
 from report.proof.objects import MISSING, differences, resolved
-from report.proof.package import Package, guarded, reader
+from report.proof.package import ReadPackage, guarded, reader
 from report.proof.signatures import Signature, checked
 
 _SIGNED = {"/V", "/AP", "/F", "/Lock"}
@@ -37,7 +37,7 @@ class Appended:
     others: Sequence[str]
 
 
-def appended(package: Package) -> Appended:
+def appended(package: ReadPackage) -> Appended:
     """Return what was appended to the first revision of a package.
 
     Raises
@@ -68,7 +68,7 @@ def _signatures(pdf: PdfReader) -> Iterator[tuple[str, Any]]:
             yield str(field.get("/T", "")), field["/V"]
 
 
-def _is_covered(package: Package, signatures: dict[str, Any]) -> bool:
+def _is_covered(package: ReadPackage, signatures: dict[str, Any]) -> bool:
     """Whether each signature covers all that was there, and the last one the whole file."""
     ends = [_covered_to(package.data, value) for value in signatures.values()]
     return bool(ends) and min(ends) > len(package.first) and max(ends) == len(package.data)

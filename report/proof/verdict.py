@@ -12,12 +12,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 
 from report.proof.numbers import listed, number_differences, parsed
-from report.proof.package import Manifest, Package, guarded, mismatched, reader
+from report.proof.package import Manifest, ReadPackage, guarded, mismatched, reader
 from report.proof.shape import parts
 from report.proof.sheets import Restated, changes
 from report.proof.signatures import Signature
 from report.proof.updates import Appended
-from report.provenance.files import MANIFEST, RESULTS, Source
+from report.provenance.files import MANIFEST, RESULTS, SourceFile
 from report.provenance.software import NEVER_DRAWS, ROOT, distributions
 
 SAME_VERSION, OTHER_VERSION = 1e-12, 1e-9
@@ -70,7 +70,7 @@ class Written:
         self.results = parsed(files[RESULTS], RESULTS)
 
 
-def compared(package: Package, ours: Written, later: Appended, short: str) -> Proof:
+def compared(package: ReadPackage, ours: Written, later: Appended, short: str) -> Proof:
     """Compare a package with what `roofslip report` writes from its input.
 
     Parameters
@@ -162,11 +162,11 @@ def _last(version: str) -> str:
 
 
 def _listing(
-    package: Package, ours: Written, short: str, others: Mapping[str, str]
+    package: ReadPackage, ours: Written, short: str, others: Mapping[str, str]
 ) -> Iterator[str]:
     """Yield where the manifest is not what the versions that it names write from this input."""
     theirs, held = package.manifest, package.files.get(RESULTS, b"")
-    own = Source(path=RESULTS, name=RESULTS, content=held, kind="results").entry
+    own = SourceFile(path=RESULTS, name=RESULTS, content=held, kind="results").entry
     here = ours.listing
     expected = here | {
         "roofslip_version": theirs.environment.get(ROOT),
@@ -184,7 +184,7 @@ def _listing(
         yield f"{MANIFEST}: sbom_sha256 is that of the versions here, not of those that it names"
 
 
-def _results(package: Package, ours: Written, tolerance: float) -> list[str]:
+def _results(package: ReadPackage, ours: Written, tolerance: float) -> list[str]:
     # The version is told apart, and here it is that of the manifest.
     expected = ours.results | {"roofslip_version": package.manifest.roofslip_version}
     found = number_differences(package.results, expected, tolerance)

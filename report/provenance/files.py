@@ -39,7 +39,7 @@ _JSON = "application/json"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
+class SourceFile:
     """A file that was read: where it belongs, its name as an attachment, and what it holds."""
 
     path: str
@@ -89,7 +89,7 @@ def holds_records(records: Sequence[RecordFile]) -> bool:
     return record_bytes(records) <= MOST_RECORDS
 
 
-def sources(sheet: Sheet, shaking: Shaking, former: Path | None = None) -> tuple[Source, ...]:
+def sources(sheet: Sheet, shaking: Shaking, former: Path | None = None) -> tuple[SourceFile, ...]:
     """Read what a package is computed from: the workbook, each record file, a former results.json.
 
     Raises
@@ -111,14 +111,14 @@ def _path(row: RecordFile) -> str:
     return posixpath.normpath(row.name.partition(BAR)[0].strip().replace("\\", "/"))
 
 
-def _source(path: str, file: Path, sha256: str, kind: str) -> Source:
+def _source(path: str, file: Path, sha256: str, kind: str) -> SourceFile:
     content = file.read_bytes()
     if sha256 and hashlib.sha256(content).hexdigest() != sha256:
         raise InputError(f"{file}: changed while the report ran; run it again")
-    return Source(path=path, name=path, content=content, kind=kind)
+    return SourceFile(path=path, name=path, content=content, kind=kind)
 
 
-def _unlike(found: Sequence[Source]) -> Iterator[Source]:
+def _unlike(found: Sequence[SourceFile]) -> Iterator[SourceFile]:
     """Yield the files under names that differ in more than capitals, own names reserved."""
     taken = {MANIFEST, RESULTS}
     for count, source in enumerate(found):
@@ -126,15 +126,15 @@ def _unlike(found: Sequence[Source]) -> Iterator[Source]:
         if name.casefold() in taken:
             name = f"renamed/{count}/{posixpath.basename(source.path)}"
         taken.add(name.casefold())
-        yield Source(path=source.path, name=name, content=source.content, kind=source.kind)
+        yield SourceFile(path=source.path, name=name, content=source.content, kind=source.kind)
 
 
-def attachments(found: Sequence[Source], results: bytes, short: str) -> tuple[Attached, ...]:
+def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:
     """Return the attachments of a package.
 
     Parameters
     ----------
-    found : sequence of Source
+    found : sequence of SourceFile
     results : bytes
         results.json.
     short : str
@@ -142,16 +142,16 @@ def attachments(found: Sequence[Source], results: bytes, short: str) -> tuple[At
     """
     size = sum(len(source.content) for source in found if source.kind == "record")
     has_records = size <= MOST_RECORDS
-    own = Source(path=RESULTS, name=RESULTS, content=results, kind="results")
+    own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
     listed = manifest([*found, own], short, has_records=has_records)
     return (
         *(_attached(source) for source in found if has_records or source.kind != "record"),
         _attached(own),
-        _attached(Source(path=MANIFEST, name=MANIFEST, content=listed, kind="manifest")),
+        _attached(SourceFile(path=MANIFEST, name=MANIFEST, content=listed, kind="manifest")),
     )
 
 
-def manifest(found: Sequence[Source], short: str, *, has_records: bool) -> bytes:
+def manifest(found: Sequence[SourceFile], short: str, *, has_records: bool) -> bytes:
     """Return what the package is computed from, and by which software, as JSON."""
     document = {
         "schema_version": SCHEMA_VERSION,
@@ -174,7 +174,7 @@ _KINDS = {
 }
 
 
-def _attached(source: Source) -> Attached:
+def _attached(source: SourceFile) -> Attached:
     relationship, description = _KINDS[source.kind]
     return Attached(
         name=source.name,

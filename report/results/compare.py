@@ -16,7 +16,7 @@ from report.entities.array import ArrayResult
 from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
 from report.entities.results import Compared, compared
-from report.sheet.fields import Entry, Frozen, Place, Section, YesNo, entries
+from report.sheet.fields import Entry, Frozen, Place, SheetSection, YesNo, entries
 from report.sheet.schema import SECTIONS
 
 ALIKE = 1e-6
@@ -115,20 +115,20 @@ def _row_key(row: Any) -> tuple[str, ...]:
     return (next(filter(None, names), ""),)
 
 
-def _name(section: Section, key: tuple[str, ...]) -> str:
+def _name(section: SheetSection, key: tuple[str, ...]) -> str:
     *parts, count = (part for part in key if part)
     number = f"row {count}" if not parts or count != "1" else ""
     return f"{section.title}, {' '.join([*parts, number]).rstrip()}"
 
 
-def _first_cell(section: Section, index: int, assessment: Assessment) -> str:
+def _first_cell(section: SheetSection, index: int, assessment: Assessment) -> str:
     addresses = assessment.sheet.addresses
     places = (Place(section.key, index, entry.name) for entry in entries(section.model))
     return next((addresses[place] for place in places if place in addresses), "")
 
 
 def _fields(
-    section: Section,
+    section: SheetSection,
     index: int,
     name: str,
     old: Frozen,

@@ -86,7 +86,7 @@ def _write_row(
     else:  # which route is permitted is no formula
         largest = '"none"'
         sheet.write_string(row, 4, governing)
-    sheet.write_number(row, 7, typed(item.least_m / INCH_M), pages.typed[1])
+    sheet.write_number(row, 7, typed(item.minimum_m / INCH_M), pages.typed[1])
     sheet.write_number(row, 10, typed(clearance.provided_m / INCH_M), pages.typed[1])
     inch = INCH_M
     required = f'=IF(ISTEXT(F{r}),"none",MAX(F{r}*G{r},H{r}))'

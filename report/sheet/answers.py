@@ -30,7 +30,7 @@ ONE_VALUE, BY_FORMULA = "one value", "the formula"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Answer:
+class FormulaColumn:
     """A column of formulas in a table.
 
     Attributes
@@ -55,7 +55,7 @@ class Answer:
     is_helper: bool = False
 
 
-def table_answers(section: str, *, is_us: bool) -> tuple[Answer, ...]:
+def table_answers(section: str, *, is_us: bool) -> tuple[FormulaColumn, ...]:
     """Return the answers of a table, in the order of its columns."""
     if section == "arrays":
         return _of_arrays(is_us)
@@ -72,24 +72,24 @@ def _blank_on_error(formula: str) -> str:
     return f'IFERROR({formula},"")'
 
 
-def _of_arrays(is_us: bool) -> tuple[Answer, ...]:
+def _of_arrays(is_us: bool) -> tuple[FormulaColumn, ...]:
     unit = Quantity.PRESSURE.us if is_us else Quantity.PRESSURE.si
     return (
-        Answer(
+        FormulaColumn(
             name="slope_deg",
             heading="Slope in degrees",
             note="from slope and its unit",
             write=_slope_deg,
             number_format="0.00",
         ),
-        Answer(
+        FormulaColumn(
             name="weight_per_area",
             heading=f"Weight per area [{unit.symbol}]",
             note="over the rectangle or outline in plan",
             write=lambda layout: _weight_per_area(layout, unit.symbol),
             number_format=_decimals(unit.decimals),
         ),
-        Answer(
+        FormulaColumn(
             name="kind_of_array",
             heading="Kind of array",
             note="construction | friction: low, high, rate, static",
@@ -158,7 +158,7 @@ def _double_area(layout: Layout) -> str:
     )
 
 
-_DOUBLE_AREA = Answer(
+_DOUBLE_AREA = FormulaColumn(
     name="double_area",
     heading="Twice the area",
     note="of the triangle to the next vertex",
@@ -179,24 +179,24 @@ def _kind_of_array(layout: Layout) -> str:
     )
 
 
-def _of_clearances(is_us: bool) -> tuple[Answer, ...]:
+def _of_clearances(is_us: bool) -> tuple[FormulaColumn, ...]:
     unit = Quantity.SIZE.us if is_us else Quantity.SIZE.si
     return (
-        Answer(
+        FormulaColumn(
             name="neighbor",
             heading="Neighbor",
             note="as the rule set counts it",
             write=_neighbor,
             width=29,
         ),
-        Answer(
+        FormulaColumn(
             name="importance",
             heading="I",
             note="importance factor in the separation",
             write=_importance,
             number_format="0.00",
         ),
-        Answer(
+        FormulaColumn(
             name="required",
             heading=f"Required, prescriptive [{unit.symbol}]",
             note="separation for the prescriptive displacement",
@@ -204,7 +204,7 @@ def _of_clearances(is_us: bool) -> tuple[Answer, ...]:
             number_format=_decimals(unit.decimals),
             width=13,
         ),
-        Answer(
+        FormulaColumn(
             name="demand_capacity",
             heading="D/C, prescriptive",
             note="required / provided, rounded up",
@@ -212,21 +212,21 @@ def _of_clearances(is_us: bool) -> tuple[Answer, ...]:
             number_format="0.00",
             width=13,
         ),
-        Answer(
+        FormulaColumn(
             name="array_row",
             heading="Row of array",
             note="in the table on Arrays",
             write=lambda layout: _row_of(layout, "array", "arrays"),
             is_helper=True,
         ),
-        Answer(
+        FormulaColumn(
             name="other_row",
             heading="Row of other array",
             note="in the table on Arrays",
             write=lambda layout: _row_of(layout, "object", "arrays"),
             is_helper=True,
         ),
-        Answer(
+        FormulaColumn(
             name="object_row",
             heading="Row of object",
             note="in the table on Objects",

@@ -224,10 +224,10 @@ def _quoted(value: object) -> str:
     return f"'{text}'" if isinstance(value, str) else text
 
 
-def cut(text: str, most: int = SHOWN) -> str:
+def cut(text: str, maximum: int = SHOWN) -> str:
     """Return a text on one line, shortened."""
     text = UNPRINTABLE.sub("?", text).replace("\n", " ")
-    return text if len(text) <= most else f"{text[: most - 1]}…"
+    return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
 
 
 def _converted(cell: Found, entry: Entry, wanted: str, unit: str) -> Any:

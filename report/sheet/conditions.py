@@ -88,7 +88,7 @@ class NoPeriod:
 
 
 @dataclass(frozen=True, slots=True)
-class Stated:
+class SheetCondition:
     """A condition of the sheet alone, of which other modules tell: `Required.wish` is empty."""
 
     text: str
@@ -122,11 +122,11 @@ class Required:
 _OR_NONE = "give all four sides of the rectangle, or none"
 _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet Outlines"
 _LAW = "give high-velocity friction and friction rate, or neither"
-_PASTED = Stated('ISNUMBER(FIND("!",{record}))')  # a pasted column does not state them
+_PASTED = SheetCondition('ISNUMBER(FIND("!",{record}))')  # a pasted column does not state them
 _REVIEWED, _BY_DIRECTION = Chosen("peer_reviewed"), Chosen("directional")
 
 REQUIRED: Mapping[tuple[str, str], Required] = {
-    ("site", "s_ds_g"): Required(Stated('live_s_ds=""')),
+    ("site", "s_ds_g"): Required(SheetCondition('live_s_ds=""')),
     **{("roof", side): Required(Filled(SIDES), _OR_NONE) for side in SIDES},
     **{("arrays", side): Required(NoOutline(), _OR_OUTLINE) for side in SIDES},
     **{("objects", side): Required(Filled(SIDES), _OR_NONE) for side in SIDES},

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Set
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.archive import OpenBook
-from report.sheet.fields import Finding, Place, Section, entries
+from report.sheet.fields import Finding, Place, SheetSection, entries
 from report.sheet.findings import warning
 from report.sheet.positions import label_key, labels_of, scanned, sheets_of
 from report.sheet.schema import SECTIONS
@@ -50,13 +50,13 @@ def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
     return tuple(map(frozenset, rows.values()))
 
 
-def _sheet_of(section: Section, addresses: Mapping[Place, str]) -> str:
+def _sheet_of(section: SheetSection, addresses: Mapping[Place, str]) -> str:
     """Return the sheet from which a section is read; empty if it was not found."""
     found = (address for place, address in addresses.items() if place.section == section.key)
     return next(found, "").rpartition("!")[0]
 
 
-def _labels(section: Section, rows: Rows) -> Set[str]:
+def _labels(section: SheetSection, rows: Rows) -> Set[str]:
     """Return the labels of a section on a sheet: of a table, those in one row."""
     wanted = {
         label: entry.name for entry in entries(section.model) for label in labels_of(section, entry)

@@ -129,7 +129,7 @@ class Frozen(BaseModel):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Section:
+class SheetSection:
     """A part of the workbook: a block of single cells, or a table.
 
     Attributes

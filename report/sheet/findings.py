@@ -59,7 +59,7 @@ def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iter
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Line:
+class FindingGroup:
     """Findings that differ only in their cells and ids, printed as one.
 
     Attributes
@@ -76,7 +76,7 @@ class Line:
     names: str
 
 
-def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[Line]:
+def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[FindingGroup]:
     """Yield findings with their cells, in order; equal ones once, at the place of the first."""
     found = tuple(findings)
     alike: dict[tuple[str, ...], list[tuple[Finding, str]]] = {}
@@ -86,7 +86,7 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
         alike.setdefault(key, []).append((finding, cell))
     for group in alike.values():
         cells, names = listed(cell for _, cell in group), listed(one.id for one, _ in group)
-        yield Line(finding=group[0][0], cells=cells, names=names if group[0][0].id else "")
+        yield FindingGroup(finding=group[0][0], cells=cells, names=names if group[0][0].id else "")
 
 
 _SHEETS = {section.key: section.sheet for section in SECTIONS}

@@ -22,11 +22,11 @@ from report.sheet.answers import (
     STATUS,
     STATUS_FORMAT,
     STATUS_HEADING,
-    Answer,
+    FormulaColumn,
     site_answers,
     table_answers,
 )
-from report.sheet.fields import Bounds, Entry, Frozen, Section, entries
+from report.sheet.fields import Bounds, Entry, Frozen, SheetSection, entries
 from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.needs import row_status
 from report.sheet.schema import UnitsFirst, provision_name
@@ -47,7 +47,7 @@ DATA_LINES = 2
 """Lines of text that a row of a table shows."""
 
 
-def _put_section_title(sheet: Worksheet, section: Section) -> tuple[int, bool]:
+def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bool]:
     """Write heading and hint of a section; return the next free row and whether it is the first."""
     if sheet.max_row == 1:
         style.put_title(sheet, section.title, section.hint)
@@ -60,7 +60,7 @@ def _put_section_title(sheet: Worksheet, section: Section) -> tuple[int, bool]:
 
 
 def write_block(
-    book: Workbook, section: Section, units: UnitsFirst, rows: Sequence[Frozen]
+    book: Workbook, section: SheetSection, units: UnitsFirst, rows: Sequence[Frozen]
 ) -> BlockPlace:
     """Write a block, and return where its fields are."""
     sheet = book[section.sheet]
@@ -97,7 +97,7 @@ def _preset(entry: Entry, units: UnitsFirst) -> object:
 
 
 def _write_block_row(
-    book: Workbook, row: int, section: Section, entry: Entry, unit: Unit | None
+    book: Workbook, row: int, section: SheetSection, entry: Entry, unit: Unit | None
 ) -> None:
     sheet, needed = book[section.sheet], entry.is_required
     style.put(sheet, row, 1, f"{entry.cell.label}{' *' if needed else ''}", bold=needed)
@@ -129,7 +129,7 @@ class Column:
     heading: str
     width: int
     entry: Entry | None = None
-    answer: Answer | None = None
+    answer: FormulaColumn | None = None
 
     @property
     def is_folded(self) -> bool:
@@ -139,7 +139,7 @@ class Column:
         return self.answer is not None and self.answer.is_helper
 
 
-def columns_of(section: Section, units: UnitsFirst) -> list[Column]:
+def columns_of(section: SheetSection, units: UnitsFirst) -> list[Column]:
     """Return the columns of a table: what is always needed, the answers, what is rarely needed."""
     fields = [
         Column(entry.name, heading_of(entry, units), _width(entry), entry=entry)
@@ -158,7 +158,7 @@ def _rank(column: Column) -> int:
 
 
 def write_table(
-    book: Workbook, section: Section, units: UnitsFirst, rows: Sequence[Frozen]
+    book: Workbook, section: SheetSection, units: UnitsFirst, rows: Sequence[Frozen]
 ) -> TablePlace:
     """Write a table, and return where its columns are; `write_answers` adds the formulas."""
     sheet = book[section.sheet]
@@ -281,7 +281,7 @@ def _write_help(sheet: Worksheet, place: TablePlace, entry: Entry, unit: Unit | 
         style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
 
 
-def _source(section: Section, entry: Entry) -> str:
+def _source(section: SheetSection, entry: Entry) -> str:
     """Return the name of the range that supplies the dropdown of a column; empty for none."""
     return {
         ("overrides", "provision"): "rule_names",

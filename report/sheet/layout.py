@@ -14,7 +14,7 @@ from openpyxl.utils import get_column_letter, quote_sheetname
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.fields import Section
+from report.sheet.fields import SheetSection
 
 LAST_ROW = 500
 """Last row that dropdowns and conditional formats reach."""
@@ -28,7 +28,7 @@ class TablePlace:
 
     Attributes
     ----------
-    section : Section
+    section : SheetSection
     sheet : str
         Title of its sheet in the workbook.
     header, size : int
@@ -37,7 +37,7 @@ class TablePlace:
         Heading and column.
     """
 
-    section: Section
+    section: SheetSection
     sheet: str
     header: int
     size: int
@@ -83,7 +83,7 @@ class TablePlace:
 class BlockPlace:
     """A block as written: the row of each field; values are in column B."""
 
-    section: Section
+    section: SheetSection
     rows: Mapping[str, int]
 
     def cell(self, name: str) -> str:

@@ -17,7 +17,7 @@ from report.sheet.answers import site_answers
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found, cut, plain
 from report.sheet.counts import START, write_counts
-from report.sheet.fields import Finding, Place, Section
+from report.sheet.fields import Finding, Place, SheetSection
 from report.sheet.findings import unanswered
 from report.sheet.formula_text import canonical, moved
 from report.sheet.grids import Column, columns_of, table_formulas
@@ -181,7 +181,7 @@ def live_formulas(book: OpenBook) -> Mapping[CellPosition, str]:
 
 
 def _place(
-    book: OpenBook, section: Section, area: TableArea | None, units: UnitsFirst
+    book: OpenBook, section: SheetSection, area: TableArea | None, units: UnitsFirst
 ) -> TablePlace:
     headings, letters = {}, {}
     for column in columns_of(section, units):
@@ -198,7 +198,7 @@ def _place(
     )
 
 
-def _heading(section: Section, column: Column, area: TableArea) -> CellPosition | None:
+def _heading(section: SheetSection, column: Column, area: TableArea) -> CellPosition | None:
     labels = labels_of(section, column.entry) if column.entry else {label_key(column.heading)}
     return next((area.headings[label] for label in labels if label in area.headings), None)
 

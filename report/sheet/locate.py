@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from report.sheet import legacy_labels
 from report.sheet.archive import OpenBook
-from report.sheet.fields import Entry, Section, entries
+from report.sheet.fields import Entry, SheetSection, entries
 from report.sheet.locate_tables import table_area
 from report.sheet.positions import (
     FRESH,
@@ -23,7 +23,7 @@ from report.sheet.positions import (
 from solver.model import InputError
 
 
-def find_cell(book: OpenBook, section: Section, entry: Entry) -> CellPosition:
+def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
     """Return the cell of a single field, by its defined name, or else beside its label.
 
     Raises
@@ -40,7 +40,7 @@ def find_cell(book: OpenBook, section: Section, entry: Entry) -> CellPosition:
 
 
 def find_unit_cell(
-    book: OpenBook, section: Section, entry: Entry, value: CellPosition
+    book: OpenBook, section: SheetSection, entry: Entry, value: CellPosition
 ) -> CellPosition:
     """Return the cell that holds the unit of a single field, by name, or else next to the value."""
     names = _fields(section, entry)
@@ -49,7 +49,7 @@ def find_unit_cell(
     return position or CellPosition(value.sheet, value.row, value.column + 1)
 
 
-def added_later(book: OpenBook, section: Section) -> tuple[Entry, ...]:
+def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
     """Return the fields that a block lacks because its workbook is of a version before them.
 
     A workbook that has some of those that came together has lost the others.
@@ -61,26 +61,26 @@ def added_later(book: OpenBook, section: Section) -> tuple[Entry, ...]:
     return tuple(entry for group in groups if not _has_any(book, section, group) for entry in group)
 
 
-def _has_any(book: OpenBook, section: Section, fields: Sequence[Entry]) -> bool:
+def _has_any(book: OpenBook, section: SheetSection, fields: Sequence[Entry]) -> bool:
     return any(
         _field_named(book, section, entry) or _beside_label(book, section, entry)
         for entry in fields
     )
 
 
-def is_absent(book: OpenBook, section: Section) -> bool:
+def is_absent(book: OpenBook, section: SheetSection) -> bool:
     """Whether a workbook has neither names nor labels of a section."""
     if section.is_table:
         return sheet_titled(book, section.sheet) is None and table_area(book, section) is None
     return not _has_any(book, section, entries(section.model))
 
 
-def _fields(section: Section, entry: Entry) -> tuple[str, ...]:
+def _fields(section: SheetSection, entry: Entry) -> tuple[str, ...]:
     """Return the name of a field and its earlier names."""
     return entry.name, *legacy_labels.FIELDS.get((section.key, entry.name), ())
 
 
-def _field_named(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:
+def _field_named(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
     spots = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
     return next((spot for spot in spots if spot is not None), None)
 
@@ -91,7 +91,7 @@ def _named(book: OpenBook, name: str) -> CellPosition | None:
     return CellPosition(title, top, left) if is_cell else None
 
 
-def _beside_label(book: OpenBook, section: Section, entry: Entry) -> CellPosition | None:
+def _beside_label(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
     sheet = sheet_titled(book, section.sheet)
     if sheet is None:
         return None

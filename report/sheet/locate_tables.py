@@ -13,7 +13,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.answers import ANSWER_HEADINGS, STATUS_HEADING
 from report.sheet.archive import OpenBook
-from report.sheet.fields import Entry, Section, entries
+from report.sheet.fields import Entry, SheetSection, entries
 from report.sheet.positions import (
     FRESH,
     MAX_COLUMNS,
@@ -84,7 +84,7 @@ class TableFound:
     problems: tuple[str, ...]
 
 
-def find_table(book: OpenBook, section: Section) -> TableFound:
+def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     """Return a table of inputs, by its name, or else by a row of its headings.
 
     Raises
@@ -113,12 +113,12 @@ def find_table(book: OpenBook, section: Section) -> TableFound:
     )
 
 
-def _is_answer(section: Section, heading: object) -> bool:
+def _is_answer(section: SheetSection, heading: object) -> bool:
     """Whether a heading is that of a column of formulas, which is not read."""
     return label_key(heading) in ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
 
 
-def _table_named(book: OpenBook, section: Section) -> _Place | None:
+def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
     """Return sheet, left, heading row, right and rows of totals of a section's table."""
     for sheet in sheets_of(book):
         for table in sheet.tables.values():
@@ -132,7 +132,7 @@ def _table_named(book: OpenBook, section: Section) -> _Place | None:
     return None
 
 
-def _headings(book: OpenBook, section: Section) -> _Place:
+def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
     own = sheet_titled(book, section.sheet)
     fields = entries(section.model)
@@ -153,7 +153,7 @@ def _headings(book: OpenBook, section: Section) -> _Place:
     raise InputError(f"{section.sheet}: {missing}{what}; {FRESH}")
 
 
-def _rows_of_others(sheet: Worksheet, section: Section) -> set[int]:
+def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
     """Return the rows of headings of tables that bear the name of another section.
 
     Sections have headings in common, and one without a table must not read that of another.
@@ -185,7 +185,7 @@ def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
 
 
 def _columns(
-    book: OpenBook, section: Section, headings: Sequence[CellPosition]
+    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
 ) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[str]]:
     fields = {
         label: entry for entry in entries(section.model) for label in labels_of(section, entry)
@@ -214,7 +214,7 @@ def _columns(
 
 def _unseen(
     book: OpenBook,
-    section: Section,
+    section: SheetSection,
     headings: Sequence[CellPosition],
     seen: set[str],
     others: Sequence[CellPosition],
@@ -238,7 +238,7 @@ def _unseen(
 
 
 def _heading_places(
-    book: OpenBook, section: Section, headings: Sequence[CellPosition]
+    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
 ) -> Mapping[str, CellPosition]:
     """Return where each heading is, or where it belongs: after that of the field before it."""
     fields = entries(section.model)
@@ -303,7 +303,7 @@ class TableArea:
     headings: Mapping[str, CellPosition]
 
 
-def table_area(book: OpenBook, section: Section) -> TableArea | None:
+def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
     """Return the table of a section, found by its name; None without one."""
     found = _table_named(book, section)
     if found is None:

@@ -162,10 +162,10 @@ def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
 
 def _friction(index: int, array: Array) -> Iterator[Finding]:
     steepness = math.tan(array.slope_rad)
-    if array.least_mu > steepness:
+    if array.minimum_mu > steepness:
         return
     text = (
-        f"friction coefficient is {array.least_mu:g}, not more than the tangent of the slope,"
+        f"friction coefficient is {array.minimum_mu:g}, not more than the tangent of the slope,"
         f" {steepness:.3f}: the array slides under its own weight; correct one of them"
     )
     yield warning(f"friction {array.id}", Place("arrays", index, "mu"), text)

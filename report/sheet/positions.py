@@ -17,7 +17,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet import legacy_labels
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found
-from report.sheet.fields import Entry, Section
+from report.sheet.fields import Entry, SheetSection
 from solver.model import InputError
 
 MAX_COLUMNS = 200
@@ -151,7 +151,7 @@ def heading_parts(text: object) -> tuple[str, str]:
     return (match[1], (match[2] or "").strip()) if match else (str(text), "")
 
 
-def labels_of(section: Section, entry: Entry) -> set[str]:
+def labels_of(section: SheetSection, entry: Entry) -> set[str]:
     """Return the label of a field and its earlier labels, in the form that is compared."""
     earlier = legacy_labels.LABELS.get((section.key, entry.name), ())
     return {label_key(label) for label in (entry.cell.label, *earlier)}

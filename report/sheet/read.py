@@ -25,7 +25,7 @@ from report.sheet.cells import (
 )
 from report.sheet.checks import faults
 from report.sheet.duplicate_sheets import copies
-from report.sheet.fields import Entry, Finding, Place, Section, entries
+from report.sheet.fields import Entry, Finding, Place, SheetSection, entries
 from report.sheet.locate import (
     added_later,
     find_cell,
@@ -131,7 +131,7 @@ class Sheet:
         self.refuse(())
         return ProjectInput(**{section.key: self._made(section) for section in SECTIONS})
 
-    def _made(self, section: Section) -> Any:
+    def _made(self, section: SheetSection) -> Any:
         rows = tuple(section.model(**row) for row in self.draft[section.key])
         return rows if section.is_table else rows[0]
 
@@ -181,7 +181,7 @@ def read(path: Path) -> Sheet:
     )
 
 
-def gather(book: OpenBook, sections: Sequence[Section]) -> Gathered:
+def gather(book: OpenBook, sections: Sequence[SheetSection]) -> Gathered:
     """Read every field of sections, with the errors of single cells."""
     gathered = Gathered()
     for section in sections:
@@ -206,7 +206,7 @@ def _lines(
             yield place, f"{_where(place, addresses)}: {text}"
 
 
-def ordered(problems: Sequence[tuple[Place, str]], sections: Sequence[Section]) -> list[str]:
+def ordered(problems: Sequence[tuple[Place, str]], sections: Sequence[SheetSection]) -> list[str]:
     """Return the lines in the order of the template."""
     order = {section.key: i for i, section in enumerate(sections)}
     fields = {
@@ -251,7 +251,7 @@ class Gathered:
         self.problems += _lines(faults, self.addresses, self.unfound)
 
 
-def _read_section(book: OpenBook, section: Section, gathered: Gathered) -> None:
+def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     gathered.draft[section.key] = []
     if section.may_be_absent and is_absent(book, section):
         defaults = {entry.name: entry.default for entry in entries(section.model)}
@@ -271,7 +271,7 @@ def _read_section(book: OpenBook, section: Section, gathered: Gathered) -> None:
         gathered.add(Place(section.key), error.problems)
 
 
-def _read_block(book: OpenBook, section: Section, gathered: Gathered) -> None:
+def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     row: dict[str, Any] = {}
     gathered.draft[section.key].append(row)
     absent = added_later(book, section)
@@ -294,7 +294,7 @@ def _read_block(book: OpenBook, section: Section, gathered: Gathered) -> None:
 
 
 def _block_column(
-    book: OpenBook, section: Section, entry: Entry, position: CellPosition
+    book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
 ) -> FieldColumn:
     if entry.kind not in (int, float):
         check_uncovered(book, position)
@@ -310,7 +310,9 @@ def _block_column(
     return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
 
 
-def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: Gathered) -> None:
+def _read_table(
+    book: OpenBook, section: SheetSection, table: TableFound, gathered: Gathered
+) -> None:
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
     gathered.echo += [_ignored(book, position) for position in table.others]
@@ -329,7 +331,7 @@ def _read_table(book: OpenBook, section: Section, table: TableFound, gathered: G
 
 
 def _read_row(
-    section: Section, table: TableFound, cells: dict[str, Found], gathered: Gathered
+    section: SheetSection, table: TableFound, cells: dict[str, Found], gathered: Gathered
 ) -> None:
     row: dict[str, Any] = {}
     rows = gathered.draft[section.key]
@@ -345,7 +347,7 @@ def _read_row(
 
 
 def _read_field(
-    section: Section,
+    section: SheetSection,
     entry: Entry,
     place: Place,
     cell: Found,
@@ -363,7 +365,9 @@ def _read_field(
     gathered.echo.append(_echoed(entry, cell, column, row[entry.name]))
 
 
-def _value(section: Section, entry: Entry, cell: Found, column: FieldColumn, stated: str) -> Any:
+def _value(
+    section: SheetSection, entry: Entry, cell: Found, column: FieldColumn, stated: str
+) -> Any:
     if not cell.is_blank:
         return read_cell(cell, entry, section.model, column.unit, column.si, stated)
     if entry.is_required:

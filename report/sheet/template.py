@@ -15,7 +15,7 @@ from openpyxl import Workbook
 
 from report.sheet import style
 from report.sheet.counts import START, write_counts
-from report.sheet.fields import Frozen, Section
+from report.sheet.fields import Frozen, SheetSection
 from report.sheet.grids import write_answers, write_block, write_table
 from report.sheet.layout import Layout
 from report.sheet.lookups import write_lookups
@@ -67,7 +67,7 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
     write_whole(path, buffer.getvalue())
 
 
-def _rows(section: Section, example: ProjectInput | None) -> Sequence[Frozen]:
+def _rows(section: SheetSection, example: ProjectInput | None) -> Sequence[Frozen]:
     if example is None:
         return ()
     value = getattr(example, section.key)
@@ -77,7 +77,7 @@ def _rows(section: Section, example: ProjectInput | None) -> Sequence[Frozen]:
 def _write_section(
     book: Workbook,
     layout: Layout,
-    section: Section,
+    section: SheetSection,
     units: UnitsFirst,
     rows: Sequence[Frozen],
 ) -> None:

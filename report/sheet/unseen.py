@@ -38,7 +38,7 @@ _MOST_FILTERS = 50
 """Filters of a sheet that are told from other ways to hide a row."""
 
 
-class Kind(StrEnum):
+class Concealment(StrEnum):
     """How a cell is kept from sight, as the echo prints it."""
 
     SHEET = "hidden sheet"
@@ -48,17 +48,17 @@ class Kind(StrEnum):
     INVISIBLE = "invisible"
 
 
-_SENTENCES: Mapping[Kind, str] = {
-    Kind.SHEET: "the sheet is {state}, and {cells} on it {are} read: show it, or clear what is not"
-    " meant",
-    Kind.HIDDEN: "{cells} {are} in hidden rows or columns, and {are} read: show them, or clear what"
+_SENTENCES: Mapping[Concealment, str] = {
+    Concealment.SHEET: "the sheet is {state}, and {cells} on it {are} read: show it, or clear what"
     " is not meant",
-    Kind.FILTERED: "{cells} {are} in rows that a filter hides, and {are} read: clear the filter,"
-    " and delete the rows that are not meant",
-    Kind.STRUCK: "{cells} {are} struck through, and {are} read: clear what is not meant, and remove"
-    " the strikethrough from the rest",
-    Kind.INVISIBLE: "{cells} cannot be seen for the color of the text or the number format, and"
-    " {are} read: change it, or clear what is not meant",
+    Concealment.HIDDEN: "{cells} {are} in hidden rows or columns, and {are} read: show them, or"
+    " clear what is not meant",
+    Concealment.FILTERED: "{cells} {are} in rows that a filter hides, and {are} read: clear the"
+    " filter, and delete the rows that are not meant",
+    Concealment.STRUCK: "{cells} {are} struck through, and {are} read: clear what is not meant,"
+    " and remove the strikethrough from the rest",
+    Concealment.INVISIBLE: "{cells} cannot be seen for the color of the text or the number format,"
+    " and {are} read: change it, or clear what is not meant",
 }
 _STATES = {"hidden": "hidden", "veryHidden": "hidden so that Excel's menu does not list it"}
 
@@ -69,7 +69,7 @@ class Unseen:
 
     Attributes
     ----------
-    kind : Kind
+    kind : Concealment
     sheet, state : str
         Title of the sheet, and whether it is visible, hidden or very hidden.
     place : Place
@@ -78,7 +78,7 @@ class Unseen:
         Rows and columns.
     """
 
-    kind: Kind
+    kind: Concealment
     sheet: str
     state: str
     place: Place
@@ -103,8 +103,8 @@ class Unseen:
 def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
     """Return what is read and kept from sight, one for each sheet and kind."""
     sights: dict[str, _Sight] = {}
-    places: dict[tuple[str, Kind], Place] = {}
-    cells: dict[tuple[str, Kind], list[tuple[int, int]]] = {}
+    places: dict[tuple[str, Concealment], Place] = {}
+    cells: dict[tuple[str, Concealment], list[tuple[int, int]]] = {}
     for place, cell in used:
         if cell.sheet not in sights:
             sights[cell.sheet] = _Sight(book.book[cell.sheet])
@@ -193,9 +193,9 @@ class _Sight:
         self._is_hidden = sheet.sheet_state != "visible"
         self._rows = dict(_hidden_rows(sheet))
         self._columns: dict[int, bool] = {}
-        self._styles: dict[int, Sequence[Kind]] = {}
+        self._styles: dict[int, Sequence[Concealment]] = {}
 
-    def kinds(self, row: int, column: int, found: Found) -> Sequence[Kind]:
+    def kinds(self, row: int, column: int, found: Found) -> Sequence[Concealment]:
         """Return how a cell is kept from sight."""
         of_place = self._of_place(row, column)
         cell = self._sheet.cell(row, column)
@@ -204,29 +204,31 @@ class _Sight:
         style = cell.style_id
         if style not in self._styles:
             self._styles[style] = tuple(_of_style(cell))
-        blanked = (Kind.INVISIBLE,) if shows_nothing(found.number_format, found.value) else ()
+        blanked = (
+            (Concealment.INVISIBLE,) if shows_nothing(found.number_format, found.value) else ()
+        )
         return tuple(dict.fromkeys((*of_place, *self._styles[style], *blanked)))
 
-    def _of_place(self, row: int, column: int) -> Sequence[Kind]:
+    def _of_place(self, row: int, column: int) -> Sequence[Concealment]:
         if self._is_hidden:
-            return (Kind.SHEET,)
+            return (Concealment.SHEET,)
         if row in self._rows:
             return (self._rows[row],)
         if column not in self._columns:
             self._columns[column] = _hides_column(self._sheet, column)
-        return (Kind.HIDDEN,) if self._columns[column] else ()
+        return (Concealment.HIDDEN,) if self._columns[column] else ()
 
 
-def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Kind]]:
+def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:
     filtered = tuple(islice(_filtered(sheet), _MOST_FILTERS))
     for row, said in sheet.row_dimensions.items():
         if said.hidden or _is_less(said.height, LEAST_HEIGHT):
             is_filtered = any(row in rows for rows in filtered)
-            yield row, Kind.FILTERED if is_filtered else Kind.HIDDEN
+            yield row, Concealment.FILTERED if is_filtered else Concealment.HIDDEN
 
 
-def _is_less(size: float | None, least: float) -> bool:
-    return size is not None and size < least
+def _is_less(size: float | None, minimum: float) -> bool:
+    return size is not None and size < minimum
 
 
 def _hides_column(sheet: Worksheet, column: int) -> bool:
@@ -246,14 +248,14 @@ def _filtered(sheet: Worksheet) -> Iterator[range]:
             yield range(bounds[1] + 1, bounds[3] + 1)
 
 
-def _of_style(cell: Any) -> Iterator[Kind]:
+def _of_style(cell: Any) -> Iterator[Concealment]:
     if cell.font.strike:
-        yield Kind.STRUCK
+        yield Concealment.STRUCK
     fill = cell.fill
     behind = _rgb(fill.fgColor, _WHITE) if getattr(fill, "fill_type", None) == "solid" else _WHITE
     color = _rgb(cell.font.color, _BLACK)
     if color and behind and all(abs(a - b) < _LIKE for a, b in zip(color, behind, strict=True)):
-        yield Kind.INVISIBLE
+        yield Concealment.INVISIBLE
 
 
 _WHITE, _BLACK = (255, 255, 255), (0, 0, 0)

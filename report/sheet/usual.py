@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from report.sheet.fields import Entry, Finding, Frozen, Place, Section, entries
+from report.sheet.fields import Entry, Finding, Frozen, Place, SheetSection, entries
 from report.sheet.findings import warning
 from report.sheet.schema import (
     SECTIONS,
@@ -42,7 +42,7 @@ def _is_unusual(entry: Entry, value: float | None) -> bool:
     return not low * (1.0 - ROUNDING) <= value <= high * (1.0 + ROUNDING)
 
 
-def _warning(section: Section, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
+def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
     symbol, si = str(entry.cell.unit), 1.0
     if entry.quantity:
         unit = entry.quantity.us if is_us else entry.quantity.si

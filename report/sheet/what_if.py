@@ -14,7 +14,7 @@ from openpyxl.utils import coordinate_to_tuple
 
 from report.sheet.cells import CellError, Found, read_cell
 from report.sheet.checks import faults
-from report.sheet.fields import Entry, Place, Section, entries
+from report.sheet.fields import Entry, Place, SheetSection, entries
 from report.sheet.positions import CellPosition
 from report.sheet.read import Gathered, Sheet
 from report.sheet.schema import SECTIONS
@@ -65,7 +65,7 @@ def _read(place: Place, value: Typed, unit: str) -> Any:
     return read_cell(Found(sheet="", cell="", value=value), entry, section.model, unit, si)
 
 
-def _field(place: Place) -> tuple[Section, Entry]:
+def _field(place: Place) -> tuple[SheetSection, Entry]:
     section = _BY_KEY[place.section]
     return section, next(e for e in entries(section.model) if e.name == place.field)
 

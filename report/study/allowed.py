@@ -42,7 +42,7 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
                     _table(results, text("μ"), given.mus, slopes_deg, largest),
                 )
                 for name in dict.fromkeys((results.leading, MEAN))
-                for mus in [results.least_frictions(building, name, allowed_m)]
+                for mus in [results.minimum_frictions(building, name, allowed_m)]
                 for slopes_deg in [results.largest_slopes(building, name, allowed_m)]
             ],
         },

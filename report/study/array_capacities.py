@@ -20,7 +20,7 @@ from solver.studies.capacity import (
     Capacities,
     Curve,
     capacities,
-    most_searched,
+    maximum_searches,
 )
 from solver.studies.fragility import first_order_beta, fit_lognormal
 from solver.studies.runs import Runner
@@ -68,11 +68,11 @@ def array_capacities(plan: StudyPlan, array: ArrayPlan, runner: Runner) -> Array
     return ArrayCapacities(found=found, effects=tuple(effects), runs=runs)
 
 
-def most_runs(plan: StudyPlan, array: ArrayPlan) -> int:
+def maximum_runs(plan: StudyPlan, array: ArrayPlan) -> int:
     """Return how many runs the capacities of an array take at most."""
     levels = np.array(plan.input.intensities)
-    searched = most_searched(SHARES, levels)
-    searched += 2 * len(array.shifts) * most_searched(SHARES, levels[-1:], COARSE_SCAN)
+    searched = maximum_searches(SHARES, levels)
+    searched += 2 * len(array.shifts) * maximum_searches(SHARES, levels[-1:], COARSE_SCAN)
     return searched * len(plan.campaign.columns)
 
 

@@ -22,7 +22,7 @@ from report.study.dispersion import (
 from report.study.exports import has_probabilities
 from report.study.page_parts import axis
 from report.study.plan import SLOPE
-from report.study.results import ArrayResult, LimitState, StudyResults
+from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.tables import length_unit
 from report.study.words import both, on_building
 from report.words.formats import slug
@@ -32,7 +32,7 @@ from solver.studies.fragility import CONFIDENCE, LEVEL, LILLIEFORS_REPEATS, REPE
 from solver.studies.uncertainty import HIGH, LOW
 
 
-def fragility(results: StudyResults, one: ArrayResult) -> Section:
+def fragility(results: StudyResults, one: ArrayStudyResult) -> Section:
     """Return the section on an array: its fragilities, and the probabilities where asked for."""
     name = f"{one.plan.array.id}{on_building(results, one.plan.building, ', building ')}"
     known = [state for state in one.states if state.fragility.fitted.is_known]
@@ -63,7 +63,7 @@ def fragility(results: StudyResults, one: ArrayResult) -> Section:
     )
 
 
-def _charts(results: StudyResults, one: ArrayResult) -> Iterator[tuple[str, str]]:
+def _charts(results: StudyResults, one: ArrayStudyResult) -> Iterator[tuple[str, str]]:
     yield "fragility", figures.fragilities(one.states, axis(results))
     tested = [state for state in one.states if not math.isnan(state.fragility.p_value)]
     if tested:
@@ -72,7 +72,7 @@ def _charts(results: StudyResults, one: ArrayResult) -> Iterator[tuple[str, str]
         yield "tornado", figures.tornado(one.bars, one.center_m, length_unit(results))
 
 
-def _states(results: StudyResults, one: ArrayResult) -> Table:
+def _states(results: StudyResults, one: ArrayStudyResult) -> Table:
     interval = f"{50 * (1 - CONFIDENCE):g} to {50 * (1 + CONFIDENCE):g} %"
 
     def limit(state: LimitState) -> str:
@@ -105,7 +105,7 @@ def _p_value(value: float) -> str:
 
 
 def _exported(
-    results: StudyResults, one: ArrayResult, states: Sequence[LimitState]
+    results: StudyResults, one: ArrayStudyResult, states: Sequence[LimitState]
 ) -> Mapping[str, Any]:
     """Return the dispersions of the exported fragilities by name; empty if there are none."""
     by_state = {state.name: dispersions(results, one, state) for state in states}
@@ -144,7 +144,7 @@ def _beta(part: Dispersion) -> str:
     return number(round_up(part.beta, 3), 3) if part.beta else part.source
 
 
-def _total(results: StudyResults, one: ArrayResult, state: LimitState) -> str:
+def _total(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> str:
     if is_refused(results):
         return "not exported"
     return number(round_up(exported(results, one, state).beta, 3), 3)

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
-from report.study.results import ArrayResult, LimitState, StudyResults
+from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from solver.studies.fragility import Lognormal
 
@@ -39,7 +39,7 @@ class Dispersion:
 
 
 def dispersions(
-    results: StudyResults, one: ArrayResult, state: LimitState
+    results: StudyResults, one: ArrayStudyResult, state: LimitState
 ) -> tuple[Dispersion, ...]:
     """Return the dispersions of a limit state that has a lognormal; mass is none (`MASS`)."""
     study, plan = results.plan.input.study, one.plan
@@ -79,7 +79,7 @@ def _tolerance(plan: ArrayPlan) -> str:
     return f"tolerance, standard deviation {plan.spreads[SLOPE].deviation:.2g} deg"
 
 
-def exported(results: StudyResults, one: ArrayResult, state: LimitState) -> Lognormal:
+def exported(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> Lognormal:
     """Return the lognormal of a limit state with all its dispersions; unknown if it has none."""
     fitted = state.fragility.fitted
     if not fitted.is_known:

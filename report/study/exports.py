@@ -18,7 +18,7 @@ import numpy as np
 from report.document.templates import said
 from report.sheet.schema import RecordedAt
 from report.study.dispersion import MASS, dispersions, exported, is_refused
-from report.study.results import ArrayResult, LimitState, StudyResults
+from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.words import NO_NUMBER, context, warning
 from report.typeset.pdf import TEMPLATES
@@ -86,12 +86,12 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
     return files
 
 
-def known_states(one: ArrayResult) -> tuple[LimitState, ...]:
+def known_states(one: ArrayStudyResult) -> tuple[LimitState, ...]:
     """Return the limit states that have a lognormal; each has the same name in every file."""
     return tuple(state for state in one.states if state.fragility.fitted.is_known)
 
 
-def has_probabilities(one: ArrayResult) -> bool:
+def has_probabilities(one: ArrayStudyResult) -> bool:
     """Whether the probability of each limit state is known at every level.
 
     A state without a lognormal has the fractions of the motions, if none of its runs is censored.
@@ -99,7 +99,7 @@ def has_probabilities(one: ArrayResult) -> bool:
     return not _lost_states(one)
 
 
-def _lost_states(one: ArrayResult) -> list[str]:
+def _lost_states(one: ArrayStudyResult) -> list[str]:
     return [
         state.name
         for state in one.states
@@ -107,7 +107,7 @@ def _lost_states(one: ArrayResult) -> list[str]:
     ]
 
 
-def component_id(results: StudyResults, one: ArrayResult) -> str:
+def component_id(results: StudyResults, one: ArrayStudyResult) -> str:
     """Return the ID of an array in a library: letters, digits, points and dashes."""
     building = results.plan.motions.buildings[one.plan.building]
     name = one.plan.array.id
@@ -116,7 +116,7 @@ def component_id(results: StudyResults, one: ArrayResult) -> str:
     return "BSA." + re.sub(r"[^A-Za-z0-9.-]+", "-", name).strip("-")
 
 
-def _library(results: StudyResults, known: list[ArrayResult]) -> str:
+def _library(results: StudyResults, known: list[ArrayStudyResult]) -> str:
     demand, unit = DEMANDS[results.plan.input.study.intensity]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -134,7 +134,7 @@ def _library(results: StudyResults, known: list[ArrayResult]) -> str:
     return text.getvalue()
 
 
-def _cells(results: StudyResults, one: ArrayResult, state: LimitState) -> list[str]:
+def _cells(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> list[str]:
     """Return the columns of a limit state; an undetermined one has its description alone."""
     f = exported(results, one, state)
     if not f.is_known:
@@ -155,7 +155,7 @@ def _sentence(words: str) -> str:
     return f"{capitalized(words)}."
 
 
-def _metadata(results: StudyResults, known: list[ArrayResult]) -> str:
+def _metadata(results: StudyResults, known: list[ArrayStudyResult]) -> str:
     study = results.plan.input.study
     about = {
         "ShortName": "Ballasted solar arrays",
@@ -172,7 +172,7 @@ def _metadata(results: StudyResults, known: list[ArrayResult]) -> str:
     )
 
 
-def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
+def _entry(results: StudyResults, one: ArrayStudyResult) -> dict[str, object]:
     kind = results.plan.input.study.intensity
     return {
         "Description": f"Ballasted solar array {one.plan.array.id}",
@@ -191,7 +191,7 @@ def _entry(results: StudyResults, one: ArrayResult) -> dict[str, object]:
     }
 
 
-def _placement(results: StudyResults, known: list[ArrayResult]) -> str:
+def _placement(results: StudyResults, known: list[ArrayStudyResult]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"])
@@ -262,7 +262,7 @@ def _said(results: StudyResults, name: str, of: tuple[str, str], **more: object)
     return said(TEMPLATES, "study/exports.html", name, context(results) | given | more)
 
 
-def probabilities_of(results: StudyResults, one: ArrayResult) -> Floats:
+def probabilities_of(results: StudyResults, one: ArrayStudyResult) -> Floats:
     """Return the probability of each limit state at each level, shape (states, levels).
 
     That of the lognormal, or the fractions of the motions where there is none; the array must have

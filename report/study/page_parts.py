@@ -17,9 +17,9 @@ MOST_FRICTIONS = 4
 MOST_CUTS = 3
 
 
-def some(values: Sequence[float], most: int) -> list[int]:
-    """Return indices of at most `most` values, evenly spaced, the last one included."""
-    step = max(1, math.ceil(len(values) / most))
+def some(values: Sequence[float], maximum: int) -> list[int]:
+    """Return indices of at most `maximum` values, evenly spaced, the last one included."""
+    step = max(1, math.ceil(len(values) / maximum))
     return list(range((len(values) - 1) % step, len(values), step))
 
 

@@ -78,7 +78,7 @@ def made_part(
     done = Done(
         number=number,
         sha256=hashlib.sha256(content).hexdigest(),
-        models={rung.title: int(counts[rung]) for rung in Model if counts[rung]},
+        models={model.title: int(counts[model]) for model in Model if counts[model]},
         seconds=time.thread_time() - started,
         machine=machine(),
     )
@@ -123,7 +123,7 @@ def parquet(
             for name, values in zip(LENGTHS, rows.lengths, strict=True)
         },
         "status": keys([status.value for status in STATUSES], rows.status.ravel()),
-        "model": keys([rung.title for rung in Model], rows.model.ravel()),
+        "model": keys([model.title for model in Model], rows.model.ravel()),
     }
     schema_of = pa.table(table).replace_schema_metadata({_IDENTITY: identity.encode()})
     sink = pa.BufferOutputStream()
@@ -315,7 +315,7 @@ def run_missing(
 def finished(folder: Path, manifest: Mapping[str, Any], done: Sequence[Done]) -> dict[str, Any]:
     """Return the manifest of a study that is done, and remove parts of other studies."""
     done = sorted(done, key=lambda part: part.number)
-    counts = {rung.title: sum(part.models.get(rung.title, 0) for part in done) for rung in Model}
+    counts = {model.title: sum(part.models.get(model.title, 0) for part in done) for model in Model}
     models = {title: count for title, count in counts.items() if count}
     ours = {part_name(part.number) for part in done}
     for path in folder.glob("part-?????.parquet"):

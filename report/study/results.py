@@ -18,10 +18,10 @@ from report.study.array_capacities import SHARES, array_capacities
 from report.study.parts import Done, peaks, read_part
 from report.study.plan import ArrayPlan, StudyPlan
 from report.study.schema import NoValue
-from report.study.spread import Spread, spectral_spread
+from report.study.spread import SpectralSpread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
-from solver.studies.curves import Statistics, largest_slope, least_friction, statistics
+from solver.studies.curves import Statistics, largest_slope, minimum_friction, statistics
 from solver.studies.fit import Fit, fit_prd
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner
@@ -58,7 +58,7 @@ class LimitState:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ArrayResult:
+class ArrayStudyResult:
     """The results of one array on one building.
 
     Attributes
@@ -95,13 +95,13 @@ class StudyResults:
         Of shape (buildings, slopes, frictions, intensities).
     analysis_m, design_m : array
         Value from analysis, and design displacement, of the same shape [m]; NaN for none.
-    spread : Spread
+    spread : SpectralSpread
         Of the motions' spectra.
     ppa_g : array, shape (buildings,)
         Mean peak horizontal acceleration at the roof for an intensity of 1 [g].
     fits : tuple of Fit or str
         By building; a text says why there is none.
-    arrays : tuple of ArrayResult
+    arrays : tuple of ArrayStudyResult
     allow_matched : bool
         Whether fragilities without a record-to-record dispersion are exported, with a warning.
     """
@@ -111,10 +111,10 @@ class StudyResults:
     curves: Statistics
     analysis_m: Floats
     design_m: Floats
-    spread: Spread
+    spread: SpectralSpread
     ppa_g: Floats
     fits: tuple[Fit | str, ...]
-    arrays: tuple[ArrayResult, ...]
+    arrays: tuple[ArrayStudyResult, ...]
     allow_matched: bool
 
     @property
@@ -135,7 +135,7 @@ class StudyResults:
         rule = self.plan.design_rule
         return rule.name if rule.has_value else MEAN
 
-    def least_frictions(self, building: int, name: str, allowed_m: float) -> Floats:
+    def minimum_frictions(self, building: int, name: str, allowed_m: float) -> Floats:
         """Return the least friction by slope and intensity, rounded up; NaN for none of the study.
 
         From it on, no friction of the study has a displacement above the allowed one.
@@ -144,7 +144,7 @@ class StudyResults:
         slopes, _, levels = values.shape
         return np.array(
             [
-                [_up(least_friction(mus, values[s, :, x], allowed_m), mus) for x in range(levels)]
+                [_up(minimum_friction(mus, values[s, :, x], allowed_m), mus) for x in range(levels)]
                 for s in range(slopes)
             ]
         )
@@ -250,7 +250,7 @@ def _array(
     slip: NDArray[np.bool_],
     offset: int,
     number: int,
-) -> ArrayResult:
+) -> ArrayStudyResult:
     def of(cases: slice) -> slice:
         return slice(cases.start - offset, cases.stop - offset)
 
@@ -285,7 +285,7 @@ def _array(
         exceedances = (exceedance(prd[of(array.samples)], clearance, seed=seed),)
         means = prd[of(array.bars)].mean(axis=1)
         bars, center = tornado(array.spreads, means), float(means[0])
-    return ArrayResult(
+    return ArrayStudyResult(
         plan=array,
         states=tuple(states),
         exceedances=exceedances,

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from report.study.array_capacities import most_runs
+from report.study.array_capacities import maximum_runs
 from report.study.extra import arrow
 from report.study.manifest import NAME, check_former, manifest_of
 from report.study.motions import study_motions
@@ -67,7 +67,7 @@ def planned(source: Path) -> tuple[StudyPlan, Path]:
 def estimate(plan: StudyPlan) -> Estimate:
     """Return what a study takes."""
     campaign = plan.campaign
-    most = [most_runs(plan, array) for array in plan.arrays]
+    most = [maximum_runs(plan, array) for array in plan.arrays]
     return Estimate(
         cases=len(campaign.cases),
         runs=campaign.rows,

@@ -14,7 +14,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.fields import Cell, Frozen, Section
+from report.sheet.fields import Cell, Frozen, SheetSection
 from report.sheet.schema.choices import (
     AccelUnit,
     Id,
@@ -326,8 +326,8 @@ class StudyBuilding(Frozen):
 
 def _section(
     key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, is_table: bool = True
-) -> Section:
-    return Section(
+) -> SheetSection:
+    return SheetSection(
         key=key,
         sheet=sheet,
         title=title,

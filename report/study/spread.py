@@ -17,7 +17,7 @@ FREQ_HZ = POINTS_HZ[:: len(POINTS_HZ) // 13]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Spread:
+class SpectralSpread:
     """Standard deviation of ln Sa between the motions, over frequencies, components and buildings.
 
     Attributes
@@ -45,12 +45,12 @@ class Spread:
         return self.is_known and not self.is_one_spectrum
 
 
-def spectral_spread(buildings: Sequence[Sequence[Motion]]) -> Spread:
+def spectral_spread(buildings: Sequence[Sequence[Motion]]) -> SpectralSpread:
     """Return the spread of the motions at the roof of each building, as they are scaled."""
     found = np.concatenate([_deviations(motions) for motions in buildings])
     if not np.isfinite(found).all():
-        return Spread(median=math.nan, largest=math.nan)
-    return Spread(median=float(np.median(found)), largest=float(found.max()))
+        return SpectralSpread(median=math.nan, largest=math.nan)
+    return SpectralSpread(median=float(np.median(found)), largest=float(found.max()))
 
 
 def _deviations(motions: Sequence[Motion]) -> Floats:

@@ -18,7 +18,7 @@ import xlsxwriter
 
 from report.entities.marks import UNVERIFIED
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
-from report.study.results import ArrayResult, LimitState, StudyResults
+from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
 from report.words.counts import capitalized
 from report.words.units import Quantity, Unit
@@ -72,7 +72,7 @@ def study_xlsx(results: StudyResults) -> bytes:
         (
             "Least friction",
             ("Building", "Displacement", "Slope [deg]", measure, "Least friction"),
-            _answers(results, given.slopes_deg, results.least_frictions),
+            _answers(results, given.slopes_deg, results.minimum_frictions),
         ),
         (
             "Largest slope",
@@ -171,7 +171,7 @@ def _fragilities(results: StudyResults, unit: Unit) -> Iterator[Row]:
             )
 
 
-def _dispersions(results: StudyResults, one: ArrayResult, state: LimitState) -> Row:
+def _dispersions(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> Row:
     """Return the dispersions of a limit state by name, and that exported; NaN for none."""
     if not (is_exportable(results) and state.fragility.fitted.is_known):
         return [math.nan] * (len(NAMES) + 1)
@@ -211,8 +211,8 @@ def _formula(results: StudyResults) -> Iterator[Row]:
             yield building, f"b{number}", value
         yield building, "p [g]", fit.ppa_g
         yield building, "standard deviation of ln(computed / formula)", fit.sigma_ln
-        yield building, "least computed / formula", fit.least_ratio
-        yield building, "greatest computed / formula", fit.greatest_ratio
+        yield building, "least computed / formula", fit.minimum_ratio
+        yield building, "greatest computed / formula", fit.maximum_ratio
         yield building, "cases", fit.cases
         for name, (low, high) in fit.domain.items():
             yield building, f"{name}, from", low

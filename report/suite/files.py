@@ -42,7 +42,7 @@ _NO_DRIFT = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Component:
+class SuiteComponent:
     """One component of a generated motion, as reported."""
 
     motion: str
@@ -56,7 +56,7 @@ class Component:
     def is_within_limits(self) -> bool:
         """Whether the ratios to the target satisfy the limits."""
         fit = self.fit
-        in_range = fit.least >= LEAST and fit.greatest <= GREATEST
+        in_range = fit.minimum >= LEAST and fit.maximum <= GREATEST
         return in_range and abs(fit.mean - 1.0) <= MEAN_OFF
 
     @property
@@ -74,10 +74,10 @@ def _cleared(value: float, peak: float) -> float:
     return 0.0 if abs(value) <= _NO_DRIFT * peak else value
 
 
-def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[Component, ...]:
+def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[SuiteComponent, ...]:
     """Return every component of a suite with its fit and measures."""
     return tuple(
-        Component(
+        SuiteComponent(
             motion=f"motion-{k:02d}",
             component=name,
             grew_from=grew_from,
@@ -123,7 +123,7 @@ def suite_files(
 def _document(
     suite: Sequence[SuiteMotion],
     targets: SuiteTargets,
-    parts: Sequence[Component],
+    parts: Sequence[SuiteComponent],
     seed: int,
     records: Mapping[str, str],
     files: Mapping[str, bytes],
@@ -163,7 +163,7 @@ def _corners(target: Target) -> dict[str, list[float]]:
 
 
 def _motion(
-    motion: SuiteMotion, parts: Sequence[Component], files: Mapping[str, bytes]
+    motion: SuiteMotion, parts: Sequence[SuiteComponent], files: Mapping[str, bytes]
 ) -> dict[str, Any]:
     xy, xz, yz = motion.correlations
     return {
@@ -175,7 +175,7 @@ def _motion(
     }
 
 
-def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
+def _component(part: SuiteComponent, files: Mapping[str, bytes]) -> dict[str, Any]:
     name, values = f"{part.record.name}.csv", part.measures
     return {
         "component": part.component,
@@ -184,8 +184,8 @@ def _component(part: Component, files: Mapping[str, bytes]) -> dict[str, Any]:
         "grew_from": part.grew_from,
         "npts": len(part.record.a_mps2),
         "from_hz": float(part.fit.freq_hz[0]),
-        "least_ratio": part.fit.least,
-        "greatest_ratio": part.fit.greatest,
+        "least_ratio": part.fit.minimum,
+        "greatest_ratio": part.fit.maximum,
         "mean_ratio": part.fit.mean,
         "pga_g": values.pga_mps2 / G_MPS2,
         "pgv_mps": values.pgv_mps,
@@ -248,13 +248,13 @@ def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str
     ]
 
 
-def _cells(part: Component, pair: str) -> tuple[str, ...]:
+def _cells(part: SuiteComponent, pair: str) -> tuple[str, ...]:
     values = part.measures
     return (
         part.motion if part.component == "x" else "",
         part.component,
-        f"{part.fit.least:.3f}",
-        f"{part.fit.greatest:.3f}",
+        f"{part.fit.minimum:.3f}",
+        f"{part.fit.maximum:.3f}",
         f"{part.fit.mean:.3f}",
         f"{values.pga_mps2 / G_MPS2:.3f}",
         f"{100.0 * values.pgv_mps:.1f}",

@@ -1,7 +1,8 @@
 """SVG pictures converted to PDF operators before the pages that show them are painted.
 
 The conversion of a picture does not depend on its page, so that another process can do it during
-layout. The only module beside `pdf` that knows the renderer. Read `convert`, then `Shown`.
+layout. The only module beside `pdf` that knows the renderer. Read `convert`, then
+`DeferredPicture`.
 """
 
 from __future__ import annotations
@@ -244,7 +245,7 @@ def _hatch(pattern: Any, strokes: bool) -> Hatch:
     )
 
 
-class Shown:
+class DeferredPicture:
     """A picture for the renderer: its size at once, its operators when the page is painted."""
 
     def __init__(self, source: str, converted: Future[dict[str, Converted]], fonts: Any) -> None:

@@ -24,7 +24,7 @@ _BAR = re.compile(r"<rect [^>]+>")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Formula:
+class FormulaPicture:
     """A formula as a picture: width and height [pt]."""
 
     svg: str
@@ -53,13 +53,13 @@ def data_uri(svg: str) -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
-def formulas(latex: Iterable[str]) -> dict[str, Formula]:
+def formulas(latex: Iterable[str]) -> dict[str, FormulaPicture]:
     """Return LaTeX formulas as pictures, by their text."""
     return {text: formula(text) for text in latex}
 
 
 @cache
-def formula(latex: str) -> Formula:
+def formula(latex: str) -> FormulaPicture:
     """Return a LaTeX formula as a picture."""
     svg = _typeset(latex)
     size = _SIZE.match(svg)
@@ -69,7 +69,7 @@ def formula(latex: str) -> Formula:
     if size is None or not outlines:
         raise DefectError(f"no outlines in the picture of {latex}")
     width, height, box = size.groups()
-    return Formula(
+    return FormulaPicture(
         svg=f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
         f'viewBox="{box}"><path d="{" ".join([*outlines, *bars])}"/></svg>',
         width_pt=float(width),

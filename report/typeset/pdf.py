@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from report.typeset.drawings import Converted, Shown, convert, discard
+from report.typeset.drawings import Converted, DeferredPicture, convert, discard
 from report.typeset.finish import Attached, finish
 from report.typeset.renderer import load
 from solver.model import DefectError
@@ -83,7 +83,11 @@ def lay_out(
         warnings.simplefilter("ignore", ResourceWarning)
         document = _document()(string=html, base_url=f"{_SCHEME}/", url_fetcher=shipped())
         fonts = FontConfiguration()
-        shown = {source: Shown(source, drawn, fonts) for source in pictures(html)} if drawn else {}
+        shown = (
+            {source: DeferredPicture(source, drawn, fonts) for source in pictures(html)}
+            if drawn
+            else {}
+        )
         try:
             pages = document.render(font_config=fonts, cache=shown)
             files = sorted(attached(), key=lambda file: file.name)
@@ -127,7 +131,7 @@ def _document() -> Any:
     ours = re.sub(r"^::(foot)?note-.*$", "", UA, flags=re.MULTILINE)
     sheet = CSS(string=re.sub(r"^::marker", "li::marker", ours, flags=re.MULTILINE))
 
-    class Document(HTML):  # type: ignore[misc]
+    class LeanHtml(HTML):  # type: ignore[misc]
         """A document with fewer styles to begin with, of well-formed markup."""
 
         def __init__(self, string: str, **where: Any) -> None:
@@ -139,7 +143,7 @@ def _document() -> Any:
         def _ua_stylesheets(self, forms: bool = False) -> list[Any]:
             return [sheet]
 
-    return Document
+    return LeanHtml
 
 
 def shipped() -> Any:

@@ -107,7 +107,7 @@ def _bar(run: MotionRun, fmt: UnitFormat) -> Mapping[str, Any]:
 def _whole(assessment: Assessment) -> str:
     """Return which models the values are of."""
     found = {run.solution.model for a in assessment.arrays for m in a.motions for run in m.runs}
-    names = ", ".join(f"{rung.title} ({int(rung)})" for rung in sorted(found))
+    names = ", ".join(f"{model.title} ({int(model)})" for model in sorted(found))
     return f"Full model, as in the package. Models of the runs: {names}."
 
 

@@ -13,7 +13,7 @@ from starlette.requests import Request
 
 from report.web.packages import Packages
 from report.web.sessions import EXAMPLE, Session, Sessions
-from report.web.workers import Place, Rank, Workers
+from report.web.workers import JobOrigin, Rank, Workers
 
 INTERNAL = "An internal error; see what roofslip serve printed."
 
@@ -71,7 +71,7 @@ class Desk:
         """
         self._asked += 1
         page, number = (asked["page"], asked["n"]) if asked else (str(self._asked), 0)
-        place = Place((session.id, str(job["do"]), page), number)
+        place = JobOrigin((session.id, str(job["do"]), page), number)
         found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, place)
         if "answer" in found:
             answer: Mapping[str, Any] = found["answer"]

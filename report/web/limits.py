@@ -12,19 +12,19 @@ import os
 FULL = "The disk of the server is full. Make room there, then try it again."
 
 
-def limit_memory(most_bytes: int) -> None:
+def limit_memory(maximum_bytes: int) -> None:
     """Limit the address space of this process and of those it starts."""
-    _limit("RLIMIT_AS", most_bytes)
+    _limit("RLIMIT_AS", maximum_bytes)
 
 
-def limit_files(most_bytes: int) -> None:
+def limit_files(maximum_bytes: int) -> None:
     """Limit the size of each file that is written."""
-    _limit("RLIMIT_FSIZE", most_bytes)
+    _limit("RLIMIT_FSIZE", maximum_bytes)
 
 
-def limit_processor(most_s: int) -> None:
+def limit_processor(maximum_s: int) -> None:
     """Limit the processor time of this process."""
-    _limit("RLIMIT_CPU", most_s)
+    _limit("RLIMIT_CPU", maximum_s)
 
 
 def give_way(nice: int) -> None:

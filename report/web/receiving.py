@@ -104,13 +104,13 @@ async def _form(request: Request) -> FormData:
         raise InputError("the files did not arrive whole; drop them again") from error
 
 
-def _capped(request: Request, most: int) -> Request:
+def _capped(request: Request, maximum: int) -> Request:
     """Return a request whose body ends in an error where it is too long."""
     length = request.headers.get("content-length", "0")
-    too_long = HTTPException(413, f"More than {most / MB:g} MB; drop fewer records")
-    if not length.isdecimal() or int(length) > most:
+    too_long = HTTPException(413, f"More than {maximum / MB:g} MB; drop fewer records")
+    if not length.isdecimal() or int(length) > maximum:
         raise too_long
-    left = most
+    left = maximum
 
     async def receive() -> Message:
         nonlocal left

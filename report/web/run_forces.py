@@ -79,9 +79,9 @@ def _demand_at(of: Forces, at: Floats) -> Floats:
 
 def _modeled(run: OrientedRun) -> Scene:
     """Return the scene of a run without the components that its model neglects."""
-    rung = run.solution.model
-    scene = least_model.as_run(run.scene, rung)
-    if rung in (Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL):
+    model = run.solution.model
+    scene = least_model.as_run(run.scene, model)
+    if model in (Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL):
         return replace(scene, ay_mps2=NO_RECORD)
     return scene
 

@@ -12,15 +12,15 @@ from solver.model import Floats
 Indices = NDArray[np.intp]
 
 
-def peaks_kept(values: Floats, most: int) -> Indices:
-    """Return the samples of at most `most` that have the smallest and largest value of their part.
+def peaks_kept(values: Floats, maximum: int) -> Indices:
+    """Return the samples of at most `maximum` that have the smallest and largest value of a part.
 
     The history is divided into equal parts; its ends stay. NaN is neither small nor large.
     """
     n = len(values)
-    if n <= most:
+    if n <= maximum:
         return np.arange(n)
-    size = math.ceil(n / (most // 2 - 1))
+    size = math.ceil(n / (maximum // 2 - 1))
     parts = -(-n // size)
     padded = np.full(parts * size, np.nan)
     padded[:n] = values

@@ -33,14 +33,14 @@ _ENCRYPTED = 0x1
 File = tuple[str, IO[bytes]]
 
 
-def store(files: Sequence[File], folder: Path, most_bytes: int = MOST_STORED) -> Path:
+def store(files: Sequence[File], folder: Path, maximum_bytes: int = MOST_STORED) -> Path:
     """Store what was sent in an empty folder, and return the workbook among it.
 
     Parameters
     ----------
     files : sequence of (str, binary file)
         Each with its relative path; one of them may be a zip, which is then the only one.
-    most_bytes : int
+    maximum_bytes : int
         Of all files as they are stored.
 
     Raises
@@ -53,7 +53,7 @@ def store(files: Sequence[File], folder: Path, most_bytes: int = MOST_STORED) ->
     zips = [item for item in files if item[0].lower().endswith(".zip")]
     if zips and len(files) > 1:
         raise InputError("a zip was sent with other files; drop the zip alone, or the files alone")
-    room = _Room(folder, most_bytes)
+    room = _Room(folder, maximum_bytes)
     if zips:
         with _opened(zips[0][1]) as archive:
             _unpack(archive, room)
@@ -65,10 +65,10 @@ def store(files: Sequence[File], folder: Path, most_bytes: int = MOST_STORED) ->
 class _Room:
     """A folder while it is filled: its names without regard to capitals, and its bytes."""
 
-    def __init__(self, folder: Path, most_bytes: int) -> None:
-        self._folder, self._most_bytes = folder, most_bytes
+    def __init__(self, folder: Path, maximum_bytes: int) -> None:
+        self._folder, self._maximum_bytes = folder, maximum_bytes
         self._spelled: dict[str, str] = {}
-        self._left = most_bytes
+        self._left = maximum_bytes
         self.paths: list[Path] = []
 
     def take(self, name: str, content: IO[bytes]) -> None:
@@ -87,7 +87,7 @@ class _Room:
                     self._left -= len(chunk)
                     if self._left < 0:
                         raise InputError(
-                            f"more than {self._most_bytes // MB} MB; drop fewer records"
+                            f"more than {self._maximum_bytes // MB} MB; drop fewer records"
                         )
                     out.write(chunk)
         except (FileExistsError, NotADirectoryError, IsADirectoryError) as error:

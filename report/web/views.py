@@ -15,7 +15,7 @@ import numpy as np
 
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, OrientedRun
-from report.assessment.uncertainty import Surface, surface
+from report.assessment.uncertainty import ResponseSurface, surface
 from report.figures.levels import LEAST_M, is_decade, levels
 from report.pages.uncertainty import dots
 from report.web.answers import finite
@@ -273,7 +273,7 @@ def _capitalized(sentence: str) -> str:
     return f"{sentence[0].upper()}{sentence[1:]}."
 
 
-def _levels(found: Surface, us_first: bool) -> Iterator[Json]:
+def _levels(found: ResponseSurface, us_first: bool) -> Iterator[Json]:
     """Yield the contours that the package draws."""
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     mean = np.maximum(found.mean_m, LEAST_M) / unit.si
@@ -285,7 +285,7 @@ def _levels(found: Surface, us_first: bool) -> Iterator[Json]:
         yield {"prd_m": level * unit.si, "text": text, "is_major": is_decade(level)}
 
 
-def _contour_texts(found: Surface, here_m: float, us_first: bool) -> Json:
+def _contour_texts(found: ResponseSurface, here_m: float, us_first: bool) -> Json:
     array, runs = found.array.array, len(found.array.motions)
     lost = int(np.isnan(found.mean_m).sum())
     notes = []

@@ -47,7 +47,7 @@ class LostError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class JobOrigin:
     """Where a job comes from: of two with one key, only the one with the larger number counts."""
 
     key: tuple[str, ...]
@@ -58,7 +58,7 @@ class Place:
 class _Waiting:
     job: Mapping[str, Any]
     rank: Rank
-    place: Place
+    place: JobOrigin
     order: int
     answer: asyncio.Future[Mapping[str, Any]] = field(repr=False)
     tries: int = 0
@@ -109,7 +109,7 @@ class Workers:
         for waiting in self._waiting:
             waiting.answer.cancel()
 
-    async def ask(self, job: Mapping[str, Any], rank: Rank, place: Place) -> Mapping[str, Any]:
+    async def ask(self, job: Mapping[str, Any], rank: Rank, place: JobOrigin) -> Mapping[str, Any]:
         """Return the answer to a job.
 
         Raises

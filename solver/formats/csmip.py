@@ -30,7 +30,7 @@ from solver.formats.channels import (
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import (
     Block,
-    Layout,
+    FieldFormat,
     each,
     fixed_values,
     header_values,
@@ -50,8 +50,8 @@ _END = re.compile(r"\s*/&")
 # Lines of text, then 16I5 on 7 lines, then 8F10.3.
 _TEXT_1, _TEXT_2, _WHOLE = 13, 25, 7
 _REALS_1, _REALS_2 = 50, 100
-_REAL = Layout(per_line=8, width=10)
-_PAIRS = Layout(per_line=10, width=7)
+_REAL = FieldFormat(per_line=8, width=10)
+_PAIRS = FieldFormat(per_line=10, width=7)
 
 # Positions of real numbers, from 1: length of the record [s], and its step [s].
 _LENGTH_1, _LENGTH_2, _STEP_2 = 3, 44, 45

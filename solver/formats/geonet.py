@@ -26,7 +26,7 @@ from solver.formats.channels import (
     peak_notes,
 )
 from solver.formats.motionfile import MotionFile
-from solver.formats.numbers import Block, Layout, each, fixed_values, header_values, printed
+from solver.formats.numbers import Block, FieldFormat, each, fixed_values, header_values, printed
 from solver.formats.source import Source, Stated
 from solver.model import InputError
 
@@ -41,7 +41,7 @@ _LENGTH = re.compile(r"\bDURATION\s+([\d.]+)\s*SEC", re.ASCII | re.IGNORECASE)
 
 _COMPONENTS = 3
 _TEXT = 16
-_WHOLE = Layout(per_line=10, width=8)
+_WHOLE = FieldFormat(per_line=10, width=8)
 _WHOLES, _REALS = 40, 60
 _HEADING = _TEXT + _WHOLE.lines(_WHOLES) + _WHOLE.lines(_REALS)
 

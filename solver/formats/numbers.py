@@ -40,7 +40,7 @@ _Result = TypeVar("_Result")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Layout:
+class FieldFormat:
     """Fields of fixed width: 8F10.3 has 8 per line, each 10 characters wide."""
 
     per_line: int
@@ -74,14 +74,14 @@ class Block:
     promised: int
 
 
-def layout_of(text: str) -> Layout | None:
+def layout_of(text: str) -> FieldFormat | None:
     """Layout of a Fortran format such as ``8f10.3`` or ``1E15.6``; None if it is not one."""
     match = _FORMAT.match(text)
     per_line, width = (int(match[1]), int(match[2])) if match else (0, 0)
-    return Layout(per_line=per_line, width=width) if per_line and width else None
+    return FieldFormat(per_line=per_line, width=width) if per_line and width else None
 
 
-def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
+def fixed_values(source: Source, block: Block, layout: FieldFormat) -> Floats:
     """Values of a block of fixed columns, in which every line but the last is full.
 
     Returns
@@ -105,7 +105,7 @@ def fixed_values(source: Source, block: Block, layout: Layout) -> Floats:
     return values
 
 
-def fixed_rows(source: Source, block: Block, layout: Layout) -> Floats:
+def fixed_rows(source: Source, block: Block, layout: FieldFormat) -> Floats:
     """Values of all lines of a block of fixed columns, in which any line may be short.
 
     Ignores `block.count`.
@@ -185,7 +185,7 @@ def _digits(field: str) -> tuple[int, int]:
     return len(mantissa.partition(".")[2]), len(exponent.lstrip("+-"))
 
 
-def header_values(source: Source, first: int, count: int, layout: Layout) -> list[Stated]:
+def header_values(source: Source, first: int, count: int, layout: FieldFormat) -> list[Stated]:
     """Values of a header; NaN if a field is blank, missing or not a number: many are unused."""
     values = [
         printed(field.translate(_FORTRAN), first + row)
@@ -240,7 +240,7 @@ def _check_enough(source: Source, block: Block) -> None:
         raise InputError(f"{source.at(block.promised)}: states {values}; give at least 2")
 
 
-def _fixed_fast(rows: Sequence[str], count: int, layout: Layout) -> Floats | None:
+def _fixed_fast(rows: Sequence[str], count: int, layout: FieldFormat) -> Floats | None:
     if len(rows) != layout.lines(count) or not rows:
         return None
     full = layout.per_line * layout.width
@@ -264,15 +264,15 @@ def _converted(text: str, width: int) -> Floats | None:
     return values if (np.abs(values) < BEYOND).all() else None
 
 
-def _cut(row: str, layout: Layout) -> list[str]:
+def _cut(row: str, layout: FieldFormat) -> list[str]:
     return [row[i : i + layout.width].strip() for i in range(0, len(row), layout.width)]
 
 
-def _padded(fields: Sequence[str], layout: Layout) -> list[str]:
+def _padded(fields: Sequence[str], layout: FieldFormat) -> list[str]:
     return [*fields, *[""] * layout.per_line][: layout.per_line]
 
 
-def _slowly(source: Source, block: Block, rows: Sequence[str], layout: Layout) -> Floats:
+def _slowly(source: Source, block: Block, rows: Sequence[str], layout: FieldFormat) -> Floats:
     """Read a block that has an error row by row, to report all its errors."""
     # The values end with the last line that has a number.
     count = len(rows)
@@ -284,7 +284,7 @@ def _slowly(source: Source, block: Block, rows: Sequence[str], layout: Layout) -
 
 
 def _slow_problems(
-    source: Source, block: Block, rows: Sequence[str], layout: Layout
+    source: Source, block: Block, rows: Sequence[str], layout: FieldFormat
 ) -> Iterator[str]:
     count = 0
     for number, row in enumerate(rows):
@@ -322,7 +322,9 @@ def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterat
     return (f"{source.at(index)}: {problem}" for problem in problems if problem)
 
 
-def _cut_lines(source: Source, block: Block, rows: Sequence[str], layout: Layout) -> Iterator[str]:
+def _cut_lines(
+    source: Source, block: Block, rows: Sequence[str], layout: FieldFormat
+) -> Iterator[str]:
     """Problems of lines that end within a field, where most lines end with one."""
     within = [index for index, row in enumerate(rows) if len(row) % layout.width]
     if 2 * len(within) >= len(rows):

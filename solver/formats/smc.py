@@ -19,7 +19,7 @@ from collections.abc import Sequence
 
 from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
 from solver.formats.motionfile import MotionFile
-from solver.formats.numbers import Block, Layout, fixed_rows, fixed_values, header_values
+from solver.formats.numbers import Block, FieldFormat, fixed_rows, fixed_values, header_values
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats, InputError
@@ -29,9 +29,9 @@ _FIRST = re.compile(rf"\s*\d\s+({_KINDS})", re.ASCII | re.IGNORECASE)
 _COMPONENT = re.compile(r"component\s*=(.*)", re.IGNORECASE)
 
 _TEXT = 11
-_WHOLE = Layout(per_line=8, width=10)
-_REAL = Layout(per_line=5, width=15)
-_VALUES = Layout(per_line=8, width=10)
+_WHOLE = FieldFormat(per_line=8, width=10)
+_REAL = FieldFormat(per_line=5, width=15)
+_VALUES = FieldFormat(per_line=8, width=10)
 _WHOLES, _REALS = 48, 50
 
 # Positions of the numbers in the heading, from 1.

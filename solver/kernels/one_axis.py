@@ -66,7 +66,7 @@ def bounds(a):
 
 
 @njit(cache=True, forceinline=True)
-def _push(c, ax, az, i):
+def _net_driving(c, ax, az, i):
     """Acceleration in one direction at sample i; c holds the coefficients of 1, az and -ax."""
     if az is None:
         return c[0] - c[2] * ax[np.uintp(i)]
@@ -74,8 +74,8 @@ def _push(c, ax, az, i):
 
 
 @njit(cache=True, forceinline=True)
-def _greatest_push(c, x, z, block):
-    """Upper bound of `_push` over a block of samples."""
+def _maximum_net_driving(c, x, z, block):
+    """Upper bound of `_net_driving` over a block of samples."""
     across = min(c[2] * x[0, np.uintp(block)], c[2] * x[1, np.uintp(block)])
     if z is None:
         return c[0] - across
@@ -83,28 +83,28 @@ def _greatest_push(c, x, z, block):
 
 
 @njit(cache=True)
-def least_normal(ax, az, x, z, dt, sn, cs, g, scale):
+def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
     """Least N / (m g) over the record, and when N first falls below zero (NaN: never).
 
     N = (g + az) cos(theta) + ax sin(theta), Eq. 6 with the vertical added. N is linear between
-    samples, so its minimum is at a sample. -N has the form of `_push`.
+    samples, so its minimum is at a sample. -N has the form of `_net_driving`.
     """
     c = (-cs * g, -cs * scale, sn * scale)
-    most = _greatest_push(c, x, z, x.shape[1] - 1)
+    most = _maximum_net_driving(c, x, z, x.shape[1] - 1)
     if az is not None:
         most = -np.inf
         for block in range((ax.size + BLOCK - 1) // BLOCK):
-            if _greatest_push(c, x, z, block) > most:
+            if _maximum_net_driving(c, x, z, block) > most:
                 for i in range(block * BLOCK, min((block + 1) * BLOCK, ax.size)):
-                    most = max(most, _push(c, ax, az, i))
+                    most = max(most, _net_driving(c, ax, az, i))
     if most <= 0.0:
         return -most / g, np.nan
     i = 0
-    while _push(c, ax, az, i) <= 0.0:
+    while _net_driving(c, ax, az, i) <= 0.0:
         i += 1
     if i == 0:
         return -most / g, 0.0
-    before, after = _push(c, ax, az, i - 1), _push(c, ax, az, i)
+    before, after = _net_driving(c, ax, az, i - 1), _net_driving(c, ax, az, i)
     return -most / g, (i - 1 + before / (before - after)) * dt
 
 
@@ -127,11 +127,14 @@ def _is_quiet(down, up, band, x, z, block):
     """Whether no sample of a block of samples can make the resting block slip."""
     if z is None:
         return x[0, np.uintp(block)] >= band[0] and x[1, np.uintp(block)] <= band[1]
-    return _greatest_push(down, x, z, block) <= 0.0 and _greatest_push(up, x, z, block) <= 0.0
+    return (
+        _maximum_net_driving(down, x, z, block) <= 0.0
+        and _maximum_net_driving(up, x, z, block) <= 0.0
+    )
 
 
 @njit(cache=True, forceinline=True)
-def _next_push(down, up, band, ax, az, x, z, i):
+def _next_slip(down, up, band, ax, az, x, z, i):
     """First sample from i on at which the resting block slips, or n."""
     n = ax.size
     fine = (n + BLOCK - 1) >> SHIFT
@@ -153,7 +156,9 @@ def _next_push(down, up, band, ax, az, x, z, i):
         end = min(((i >> SHIFT) + 1) << SHIFT, n)
         while i < end:
             beyond = az is not None or ax[np.uintp(i)] < band[0] or ax[np.uintp(i)] > band[1]
-            if beyond and (_push(down, ax, az, i) > 0.0 or _push(up, ax, az, i) > 0.0):
+            if beyond and (
+                _net_driving(down, ax, az, i) > 0.0 or _net_driving(up, ax, az, i) > 0.0
+            ):
                 return i
             i += 1
     return n
@@ -221,14 +226,14 @@ def _slide_on(c, ax, az, w, w_max, i, last, dt):
     """
     half = 0.5 * dt
     c = (c[0] * half, c[1] * half, c[2] * half)  # q dt / 2 from here on
-    q = _push(c, ax, az, i)
+    q = _net_driving(c, ax, az, i)
     way = 0.0
     while i < last:
         # The gain in speed is summed from zero every CHUNK samples, to keep its low-order digits.
         q_first, gained, total, end = q, 0.0, 0.0, min(i + CHUNK, last)
         start, top = i, w_max - w
         while i < end:
-            q_next = _push(c, ax, az, i + 1)
+            q_next = _net_driving(c, ax, az, i + 1)
             middle = gained + q
             more = gained + (q + q_next)  # not middle + q_next, which would wait for one more sum
             if min(middle, more) <= -w:
@@ -289,14 +294,14 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     last, rate = ax.size - 1, 1.0 / dt
     while i < last:
         # At rest at sample i: go to the interval in which slip begins.
-        first = _next_push(down, up, band, ax, az, x, z, i)
+        first = _next_slip(down, up, band, ax, az, x, z, i)
         if first > last:
             break
         tau = 0.0
         if first > i:
             # The push increases from q_0 <= 0 to q_1 > 0: no stop in the remaining time h.
-            c, sigma = (down, DOWN) if _push(down, ax, az, first) > 0.0 else (up, UP)
-            q_0, q_1 = _push(c, ax, az, first - 1), _push(c, ax, az, first)
+            c, sigma = (down, DOWN) if _net_driving(down, ax, az, first) > 0.0 else (up, UP)
+            q_0, q_1 = _net_driving(c, ax, az, first - 1), _net_driving(c, ax, az, first)
             h = dt * (q_1 / (q_1 - q_0))
             n_events = _note(events, n_events, first * dt - h, sigma, s)
             s += sigma * (q_1 * h * h * SIXTH)
@@ -307,10 +312,10 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
                 s += sigma * way
                 if i == last:
                     break
-                q_0, q_1 = _push(c, ax, az, i), _push(c, ax, az, i + 1)
+                q_0, q_1 = _net_driving(c, ax, az, i), _net_driving(c, ax, az, i + 1)
             else:
-                q_0, q_1 = _push(down, ax, az, i), _push(down, ax, az, i + 1)
-                u_0, u_1 = _push(up, ax, az, i), _push(up, ax, az, i + 1)
+                q_0, q_1 = _net_driving(down, ax, az, i), _net_driving(down, ax, az, i + 1)
+                u_0, u_1 = _net_driving(up, ax, az, i), _net_driving(up, ax, az, i + 1)
                 t_down, t_up = _onset(q_0, q_1, tau, dt), _onset(u_0, u_1, tau, dt)
                 tau, c, sigma = t_down, down, DOWN
                 if t_up < t_down:
@@ -358,7 +363,7 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
         )
         w, before, i = 0.0, t, int(t / dt) + 1
         while i < ax.size and i * dt < t_stop:
-            q_0, q_1 = _push(c, ax, az, i - 1), _push(c, ax, az, i)
+            q_0, q_1 = _net_driving(c, ax, az, i - 1), _net_driving(c, ax, az, i)
             r = (q_1 - q_0) / dt
             h = i * dt - before
             q = q_1 - r * h
@@ -375,7 +380,7 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
 def _run_scene(ax, az, x, z, dt, g, scene, out):
     """Fill `out` with the outcome of one scene of a sweep."""
     sn, cs = math.sin(scene[0]), math.cos(scene[0])
-    least, _ = least_normal(ax, az, x, z, dt, sn, cs, g, scene[2])
+    least, _ = minimum_normal(ax, az, x, z, dt, sn, cs, g, scene[2])
     out[:] = np.nan
     if least >= 0.0:
         s_max, s_min, s, w, _, _, _, _ = slide_exact(

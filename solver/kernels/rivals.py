@@ -17,7 +17,7 @@ Letters, along the slope and per unit mass, positive downslope:
     x, F     stretch of the link [m] and its force on the block, upslope             [m/s2]
     cap      mu N, the largest force of the link                                     [m/s2]
 
-Every kernel assumes N >= 0 throughout (`one_axis.least_normal`). It fills `history`, if of shape
+Every kernel assumes N >= 0 throughout (`one_axis.minimum_normal`). It fills `history`, if of shape
 (2, n), with s and w at the samples; shape (2, 0) is not filled. It returns its code, the largest
 and the least s, s and w at the end, the time of the largest |s| and the number of stops. A block
 that has stopped sliding has w = 0 at the end.

@@ -116,8 +116,8 @@ def _largest(c, order, end):
 
 
 @jit()
-def _series(b, w, e, sigma, mus, m, k, c, h, push, hold):
-    """Compute the series of all blocks and links; push and hold are two coefficients of G and N.
+def _series(b, w, e, sigma, mus, m, k, c, h, driving, hold):
+    """Compute the series of all blocks and links; driving and hold: two coefficients of G, N.
 
     Returns the degree of the series and the magnitude of the motion [m/s]: the sum of all speeds,
     of all stretches times sqrt(k), and of the terms of the series.
@@ -129,7 +129,7 @@ def _series(b, w, e, sigma, mus, m, k, c, h, push, hold):
             b[E, i, 0] = e[i]
     size = 0.0
     for p in range(ORDER):
-        g, hold_p = (push[p], hold[p]) if p < 2 else (0.0, 0.0)
+        g, hold_p = (driving[p], hold[p]) if p < 2 else (0.0, 0.0)
         share = h / (p + 1)
         largest, before = 0.0, 0.0
         for i in range(n):
@@ -199,7 +199,7 @@ def _next_events(b, sigma, mus, hold, degree, line, when, side):
 
 
 @jit()
-def _spend(b, sigma, mus, m, c, h, x, push, hold, degree, energy):
+def _spend(b, sigma, mus, m, c, h, x, driving, hold, degree, energy):
     """Add the work of G and the dissipation of friction and dashpots from 0 to x, exactly."""
     n = sigma.size
     for i in range(n):
@@ -207,7 +207,7 @@ def _spend(b, sigma, mus, m, c, h, x, push, hold, degree, energy):
         power = h * x * m[i] / n
         for p in range(degree + 1):
             flat, steep = power * b[W, i, p] / (p + 1), power * x * b[W, i, p] / (p + 2)
-            work += push[0] * flat + push[1] * steep
+            work += driving[0] * flat + driving[1] * steep
             loss += hold[0] * flat + hold[1] * steep
             power *= x
         energy[0] += work
@@ -263,7 +263,7 @@ def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
 
 
 @njit(cache=True, nogil=True)
-def slide_row(drive, normal, dt, mus, m, k, c, most, peaks, links, energy, samples):
+def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, energy, samples):
     """Solve the motion of a row of blocks from rest, with unstretched links, event by event.
 
     The error is bounded by energy: the difference of two motions of the row, measured by
@@ -276,7 +276,7 @@ def slide_row(drive, normal, dt, mus, m, k, c, most, peaks, links, energy, sampl
     ----------
     drive, normal : array, shape (n,)
     mus, m : array, shape (blocks,)
-    most : int
+    maximum_events : int
         Number of events in one interval above which the run is abandoned.
     peaks : array, shape (blocks, 4)
         Filled with the largest s, the least s, s and w at the end.
@@ -298,27 +298,27 @@ def slide_row(drive, normal, dt, mus, m, k, c, most, peaks, links, energy, sampl
     b = np.zeros((4, n, ORDER + 1))
     s, w, sigma, e = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n - 1)
     when, side, line = np.empty(n), np.zeros(n), np.zeros(ORDER + 1)
-    push, hold = np.zeros(2), np.zeros(2)
+    driving, hold = np.zeros(2), np.zeros(2)
     peaks[:], links[:], energy[:] = 0.0, 0.0, 0.0
     if samples is not None:
         samples[:, 0] = 0.0
-    most_mu = mus.max()
+    maximum_mu = mus.max()
     rate = 2.0 * math.sqrt(k / m.min()) + 4.0 * c / m.min() if n > 1 else 0.0
     longest = min(dt, 1.0 / rate) if rate > 0.0 else dt
     n_stops = n_steps = 0
     drift = error = 0.0
     for i in range(drive.size - 1):
         tau, n_events = 0.0, 0
-        given = max(abs(drive[i]), abs(drive[i + 1])) + most_mu * max(normal[i], normal[i + 1])
+        given = max(abs(drive[i]), abs(drive[i + 1])) + maximum_mu * max(normal[i], normal[i + 1])
         while tau < dt:
             h = min(longest, dt - tau)
-            for line_of, values in ((push, drive), (hold, normal)):
+            for line_of, values in ((driving, drive), (hold, normal)):
                 gain = (values[i + 1] - values[i]) / dt
                 line_of[0], line_of[1] = values[i] + gain * tau, gain * h
-            degree, size = _series(b, w, e, sigma, mus, m, k, c, h, push, hold)
+            degree, size = _series(b, w, e, sigma, mus, m, k, c, h, driving, hold)
             x, tie = _next_events(b, sigma, mus, hold, degree, line, when, side)
             reached = min(x, 1.0)
-            _spend(b, sigma, mus, m, c, h, reached, push, hold, degree, energy)
+            _spend(b, sigma, mus, m, c, h, reached, driving, hold, degree, energy)
             _advance(b, s, w, e, links, h, reached, degree)
             n_steps += 1
             drift += STEP * EPS * (size + h * given) + tie * h
@@ -327,7 +327,7 @@ def slide_row(drive, normal, dt, mus, m, k, c, most, peaks, links, energy, sampl
                     b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks
                 )
                 n_stops, n_events, drift = n_stops + stopped, n_events + 1, drift + lost
-                if n_events > most:
+                if n_events > maximum_events:
                     return False, np.inf, n_stops, n_steps
             error += drift * h * reached
             tau = dt if x == NEVER and h == dt - tau else tau + h * reached

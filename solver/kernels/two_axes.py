@@ -174,7 +174,7 @@ def _begin(w, ga, gs, ra, rs, c, rc, span, law, b):
 
 
 @jit(forceinline=True)
-def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, b):
+def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, maximum_degree, b):
     """Compute the series of a sliding block with constant mu, along and across its motion.
 
     Requires w > 0, or no friction. The recurrence is arranged so that a coefficient of e depends on
@@ -189,8 +189,8 @@ def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, b):
     # Contribution of the constant term of e, (1, 0), which is therefore not in ea_before.
     kick, turn = ra - rc, rs
     before, last = np.inf, abs(b[VA, 1]) + abs(b[VS, 1])
-    order = most
-    for k in range(1, most):
+    order = maximum_degree
+    for k in range(1, maximum_degree):
         n, share = np.uintp(k + 1), span * b[SHARE, np.uintp(k)]
         older = side = 0.0
         for j in range(2, k + 1):
@@ -217,7 +217,7 @@ def _sliding(w, ga, gs, ra, rs, c, rc, span, tol, most, b):
 
 
 @jit(forceinline=True)
-def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
+def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, maximum_degree, swell, law, b):
     """Compute what `_sliding` does with a friction law, all sums of a degree in one loop.
 
     The terms of `_friction` and `_advance` that hold the newest coefficients are added last.
@@ -227,8 +227,8 @@ def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
     faded, kick, turn = b[E, 0], ra, rs
     b[RISE, 1] = b[W, 1]
     before, last = np.inf, abs(b[VA, 1]) + abs(b[VS, 1])
-    order = most
-    for k in range(1, most):
+    order = maximum_degree
+    for k in range(1, maximum_degree):
         n, share = np.uintp(k + 1), span * b[SHARE, np.uintp(k)]
         older = side = ahead = aside = fades = 0.0
         for j in range(2, k + 1):
@@ -259,7 +259,7 @@ def _sliding_by_law(w, ga, gs, ra, rs, c, rc, span, tol, most, swell, law, b):
 
 
 @jit()
-def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
+def _creeping(w, vs, g, ra, rs, c, rc, span, tol, maximum_degree, swell, law, b):
     """Compute the series of a slow slip, w >= 0, with direction near that of G, along and across G.
 
     The equation is stiff for a slow block: its direction approaches that of G within a time of
@@ -276,11 +276,11 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
     arises because the actual vs differs from that of the series. The fraction is 0 if the sweeps do
     not converge or if that error exceeds tol.
     """
-    for k in range(most + 2):
+    for k in range(maximum_degree + 2):
         b[ES, k] = b[W, k] = 0.0
     b[EA, 0], b[W, 0] = 1.0, w
     before = last = change = np.inf
-    order, top = most, 1 if law is None else most
+    order, top = maximum_degree, 1 if law is None else maximum_degree
     for _ in range(SWEEPS):
         change_before, change, first = change, 0.0, 0.0
         for k in range(order):
@@ -313,7 +313,7 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
             last = _advance(k, b, g, 0.0, ra, rs, span, law)
             if k == 0 and w == 0.0:
                 b[W, 1] = b[VA, 1] = first
-            if order == most and last <= tol and before <= tol and k > 1 and k > swell:
+            if order == maximum_degree and last <= tol and before <= tol and k > 1 and k > swell:
                 order = k + 1
                 break
         b[VA, 0], b[VS, 0], off = w * b[EA, 0], w * b[ES, 0], 0.0
@@ -336,7 +336,7 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, most, swell, law, b):
 
 
 @jit(forceinline=True)
-def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
+def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, maximum_degree, slow, law, b):
     """Compute the series of a step: by `_creeping` if it applies, otherwise by `_sliding`.
 
     The rates rx, ry and rc are per second; `left` is the time to the end of the interval [s].
@@ -373,7 +373,7 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
             swell = rate * (w + span * (push + 0.5 * rise * span))
         ux, uy = gx / g, gy / g
         ra, rs = span * (rx * ux + ry * uy), span * (ry * ux - rx * uy)
-        few = min(most, CREEP_ORDER)
+        few = min(maximum_degree, CREEP_ORDER)
         order, part, astray = _creeping(
             w, vy * ux - vx * uy, g, ra, rs, c, rc * span, span, tol, few, swell, law, b
         )
@@ -390,16 +390,16 @@ def _series(w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b):
         # it. The span is limited to the time for which the exponential certainly stays negligible
         # (`unseen`), or in which its exponent changes by at most SWELL.
         mu = max(slow, law[0])
-        most_push = g + mu * c + left * (abs(rx) + abs(ry) + mu * abs(rc))
-        unseen = (w - FADED / rate) / most_push
-        span = min(span, max(unseen, SWELL / (rate * most_push)))
-        swell = rate * most_push * span if span > unseen else 0.0
+        maximum_acceleration = g + mu * c + left * (abs(rx) + abs(ry) + mu * abs(rc))
+        unseen = (w - FADED / rate) / maximum_acceleration
+        span = min(span, max(unseen, SWELL / (rate * maximum_acceleration)))
+        swell = rate * maximum_acceleration * span if span > unseen else 0.0
     ra, rs = span * (rx * ux + ry * uy), span * (ry * ux - rx * uy)
     if law is None:
-        order, part = _sliding(w, ga, gs, ra, rs, c, rc * span, span, tol, most, b)
+        order, part = _sliding(w, ga, gs, ra, rs, c, rc * span, span, tol, maximum_degree, b)
     else:
         order, part = _sliding_by_law(
-            w, ga, gs, ra, rs, c, rc * span, span, tol, most, swell, law, b
+            w, ga, gs, ra, rs, c, rc * span, span, tol, maximum_degree, swell, law, b
         )
     return order, part, span, 0.0, ux, uy
 
@@ -470,8 +470,8 @@ def _zeros(b, row, first, degree):
 
 
 @jit()
-def _changes(b, row, degree, most):
-    """Write into row ROOTS the first `most` points in (0, 1] where a series changes sign.
+def _changes(b, row, degree, maximum_count):
+    """Write into row ROOTS the first `maximum_count` points in (0, 1] where a series changes sign.
 
     If `_zeros` shows one change at most, only the sign at 1 is checked. Otherwise the sign is
     checked at SCAN points, which are denser near both ends, and at further points in the first cell
@@ -490,7 +490,7 @@ def _changes(b, row, degree, most):
     cells, m, n = (SCAN if known > 1 else 1), 1, 0
     near = _keeps(b, row, first, degree) if known > 1 else np.inf
     right, at_right, rise = 0.0, b[row, first], b[row, first + 1]
-    while m <= cells and n < most:
+    while m <= cells and n < maximum_count:
         left, at_left, x = right, at_right, m / cells
         # If the left point is a zero, the derivative there gives the sign to its right.
         up = at_left > 0.0 or (at_left == 0.0 and rise > 0.0)
@@ -507,7 +507,7 @@ def _changes(b, row, degree, most):
             if (there <= 0.0) if up else (there >= 0.0):
                 b[ROOTS, n] = _root(b, row, first, degree, left, at_left, middle, there, up)
                 n += 1
-                if n < most:
+                if n < maximum_count:
                     b[ROOTS, n] = _root(b, row, first, degree, right, at_right, middle, there, up)
                     n += 1
         elif beyond:
@@ -822,7 +822,7 @@ def _is_quiet(x, y, z, block, p, q, hold):
 
 
 @jit()
-def _next_push(ax, ay, az, x, y, z, i, p, q, hold):
+def _next_slip(ax, ay, az, x, y, z, i, p, q, hold):
     """First sample from i on at which the resting block slips, or n."""
     n = ax.size
     while i < n:
@@ -878,7 +878,7 @@ def _rest(gx, gy, c, hx, hy, d, left, hold, slow, dead, error, off):
 
 
 @jit()
-def _net_push(gx, gy, c, hx, hy, d):
+def _net_driving(gx, gy, c, hx, hy, d):
     """The larger net push, |G| less friction, of two samples."""
     return max(math.sqrt(hx * hx + hy * hy) - d, math.sqrt(gx * gx + gy * gy) - c)
 
@@ -900,7 +900,7 @@ def _fill(history, i, end, sx, sy, vx, vy):
 
 @ieee(cache=True, nogil=True)
 def slide_plane(
-    ax, ay, az, x, y, z, dt, sn, cs, mu, g, scale, tolerance, most, most_steps, law,
+    ax, ay, az, x, y, z, dt, sn, cs, mu, g, scale, tolerance, maximum_degree, maximum_steps, law,
     events, history, top, end,
 ):  # fmt: skip
     """Solve the motion under the linearly interpolated record event by event, to a tolerance.
@@ -923,7 +923,7 @@ def slide_plane(
         Friction coefficient; 1 with a law.
     tolerance : float
         Of a step, relative to the largest speed so far; of a slip, to the largest distance.
-    most, most_steps : int
+    maximum_degree, maximum_steps : int
         Largest degree of a series, from 4 to `ORDER`, and largest number of steps.
     law : tuple of float, or None
         mu(w) = law[0] - law[1] exp(-law[2] w) while sliding; law[3] >= mu(0) at rest.
@@ -965,7 +965,7 @@ def slide_plane(
     while i < last:
         # Samples are skipped only when the exact block is certainly at rest as well.
         if not moving and off == 0.0:
-            first = _next_push(ax, ay, az, x, y, z, i, p, q, hold)
+            first = _next_slip(ax, ay, az, x, y, z, i, p, q, hold)
             _fill(history, i + 1, min(first, last + 1), sx, sy, 0.0, 0.0)
             i = max(i, first - 1)
             if i >= last:
@@ -989,11 +989,13 @@ def slide_plane(
                 continue
             t = i * dt + tau
             n_steps += 1
-            if n_steps > most_steps:
+            if n_steps > maximum_steps:
                 return TOO_MANY_STEPS, error, n_stops, n_events, n_steps
             if w == 0.0:
                 since = t
-                fastest = max(fastest, 0.5 * left * _net_push(gx, gy, slow * c, hx, hy, slow * d))
+                fastest = max(
+                    fastest, 0.5 * left * _net_driving(gx, gy, slow * c, hx, hy, slow * d)
+                )
             fastest = max(fastest, w)
             far = max(top[0], math.sqrt(cs * cs * sx * sx + sy * sy), SMALL)
             # An error in v acts until the slip ends, assumed to take about as long again.
@@ -1001,7 +1003,7 @@ def slide_plane(
             tol = tolerance * max(fastest * far / (far + late * fastest), SMALL / (late + left))
             tol = max(tol, EPS * terms * left)
             order, part, span, astray, ux, uy = _series(
-                w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, most, slow, law, b
+                w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, maximum_degree, slow, law, b
             )
             along, across, way, aside, va_rate, vs_rate, moved = _scale(b, order, part)
             stops = rubs and moved >= w and _changes(b, W, order, 1) > 0

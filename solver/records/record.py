@@ -123,12 +123,12 @@ def record_csv(
     return f"{remark}time_s,acceleration_{units}\n{body}"
 
 
-def _decimals(values: Floats, least: int, within: float) -> int:
-    """Decimals, `least` or more, that keep rounding `within` that fraction of the largest value."""
+def _decimals(values: Floats, minimum: int, within: float) -> int:
+    """Decimals, `minimum` or more, that keep rounding `within` that fraction of the peak value."""
     peak = np.abs(values).max()
     # With more than about 300 decimals the power of ten underflows.
-    kept = (k for k in range(least, 300) if _off(values, k) <= within * peak)
-    return least if math.isinf(within) or peak == 0.0 else next(kept, 300)
+    kept = (k for k in range(minimum, 300) if _off(values, k) <= within * peak)
+    return minimum if math.isinf(within) or peak == 0.0 else next(kept, 300)
 
 
 def _off(values: Floats, decimals: int) -> float:

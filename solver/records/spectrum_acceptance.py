@@ -71,7 +71,7 @@ class SpectrumRatio:
         given = points & np.isfinite(self.ratio)
         return POINTS_HZ[given], self.ratio[given]
 
-    def least(self, points: NDArray[np.bool_]) -> tuple[float, str]:
+    def minimum(self, points: NDArray[np.bool_]) -> tuple[float, str]:
         """Return the smallest ratio among some points, and where it is."""
         freq_hz, ratio = self.among(points)
         at = int(ratio.argmin())
@@ -81,7 +81,7 @@ class SpectrumRatio:
         """Return the number of points below 1.00 among some, and where the lowest is."""
         _, ratio = self.among(points)
         count = int((ratio < FULL_RATIO).sum())
-        return count, self.least(points)[1] if count else ""
+        return count, self.minimum(points)[1] if count else ""
 
     def longest_dip(self, points: NDArray[np.bool_]) -> tuple[int, str]:
         """Return the most neighboring points below 1.00 among some, and where they end."""
@@ -186,7 +186,7 @@ def _least(
     *,
     provision: Provision = MOTIONS,
 ) -> Limit:
-    found, worst = min(each.least(points) for each in ratios)
+    found, worst = min(each.minimum(points) for each in ratios)
     return Limit(
         title=title,
         found=found,

@@ -123,10 +123,10 @@ def link_frequency(stiffness_per_m: float, g_mps2: float) -> float:
     return math.sqrt(g_mps2 * stiffness_per_m)
 
 
-def least_normal(scene: AxisScene) -> tuple[float, float]:
+def minimum_normal(scene: AxisScene) -> tuple[float, float]:
     """Return the least N / (m g), and when N first falls below zero [s]; NaN if it never does."""
     c, (az, z) = scene, _vertical(scene)
-    n_min_and_time: tuple[float, float] = one_axis.least_normal(
+    n_min_and_time: tuple[float, float] = one_axis.minimum_normal(
         c.ax, az, c.x, z, c.dt, c.sn, c.cs, c.g, c.scale
     )
     return n_min_and_time

@@ -211,13 +211,13 @@ class ComponentForce:
     """Seismic design force of a nonstructural component / its weight (ASCE 7, 13.3.1)."""
 
     formula: float
-    largest: float
-    least: float
+    maximum: float
+    minimum: float
 
     @property
     def value(self) -> float:
         """F_p / W_p: the formula within its limits."""
-        return min(max(self.formula, self.least), self.largest)
+        return min(max(self.formula, self.minimum), self.maximum)
 
 
 def component_force(
@@ -249,8 +249,8 @@ def component_force(
         amplified *= known / unknown.height_factor(z_over_h)
     return ComponentForce(
         formula=0.4 * s_ds_g * i_p * amplified * factor / divisor,
-        largest=1.6 * s_ds_g * i_p,
-        least=0.3 * s_ds_g * i_p,
+        maximum=1.6 * s_ds_g * i_p,
+        minimum=0.3 * s_ds_g * i_p,
     )
 
 

@@ -132,7 +132,7 @@ def basis_for(rules: RuleSet, n_motions: int, asked: Basis | None = None) -> Bas
     if asked is None:
         enough = n_motions >= rules["analysis_mean_motions"]
         asked = Basis.MEAN_FACTORED if enough else Basis.LARGEST_FACTORED
-    return asked if n_motions >= least_motions(rules, asked) else Basis.TOO_FEW
+    return asked if n_motions >= minimum_motions(rules, asked) else Basis.TOO_FEW
 
 
 def factored(rules: RuleSet, basis: Basis, mean_m: Lengths, largest_m: Lengths) -> Lengths:
@@ -152,7 +152,7 @@ def analysis_floor_m(
     return 0.0 if is_reviewed else rules["analysis_floor"] * prescriptive.value_m
 
 
-def least_motions(rules: RuleSet, basis: Basis) -> float:
+def minimum_motions(rules: RuleSet, basis: Basis) -> float:
     """Return the minimum number of motions for a statistic."""
     return {
         Basis.MEAN_FACTORED: rules["analysis_mean_motions"],
@@ -198,10 +198,12 @@ def required_separation(
     if rules.importance_in_separation:
         required *= importance
     # NaN, no design displacement, must not be replaced with the minimum.
-    return required if required != required else max(required, least_separation_m(rules, neighbor))
+    return (
+        required if required != required else max(required, minimum_separation_m(rules, neighbor))
+    )
 
 
-def least_separation_m(rules: RuleSet, neighbor: Neighbor) -> float:
+def minimum_separation_m(rules: RuleSet, neighbor: Neighbor) -> float:
     """Return the minimum separation [m] of a rule set for any displacement; 0 if it has none."""
     return rules.length_m("separation_edge_min_in") if neighbor is Neighbor.EDGE else 0.0
 
@@ -331,7 +333,7 @@ def _check(
         title=title,
         found=value,
         limit=rules[key] if limit is None else limit,
-        is_at_least=not ALLOWED[key].is_most,
+        is_at_least=not ALLOWED[key].is_maximum,
         measure=measure,
         key=key,
         provision=rules.values[key],

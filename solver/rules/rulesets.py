@@ -78,7 +78,7 @@ class Allowed:
     ----------
     low, high : float
     is_whole : bool
-    is_most : bool
+    is_maximum : bool
         Whether the number limits a project from above: a larger one then requires less of it. Of
         all others a smaller one does.
     """
@@ -86,11 +86,11 @@ class Allowed:
     low: float
     high: float
     is_whole: bool = False
-    is_most: bool = False
+    is_maximum: bool = False
 
     def lowers(self, value: float, adopted: float) -> bool:
         """Whether a value requires less of a project than the number of the rule set."""
-        return value > adopted if self.is_most else value < adopted
+        return value > adopted if self.is_maximum else value < adopted
 
     def has(self, value: float) -> bool:
         """Whether a value is within the range."""
@@ -113,14 +113,14 @@ ALLOWED: Mapping[str, Allowed] = {
     "prescriptive_factor_in": Allowed(low=1, high=600),
     "prescriptive_minimum_in": Allowed(low=0, high=240),
     "prescriptive_low_sdc_in": Allowed(low=0, high=240),
-    "prescriptive_max_slope_deg": Allowed(low=0, high=30, is_most=True),
+    "prescriptive_max_slope_deg": Allowed(low=0, high=30, is_maximum=True),
     "prescriptive_min_mu": Allowed(low=0, high=1.5),
-    "analysis_max_slope_deg": Allowed(low=0, high=30, is_most=True),
-    "ibc_max_slope_deg": Allowed(low=0, high=30, is_most=True),
-    "max_stories": Allowed(low=1, high=200, is_whole=True, is_most=True),
-    "max_risk_category": Allowed(low=1, high=4, is_whole=True, is_most=True),
-    "low_profile_in": Allowed(low=1, high=120, is_most=True),
-    "low_profile_ratio": Allowed(low=0.01, high=5, is_most=True),
+    "analysis_max_slope_deg": Allowed(low=0, high=30, is_maximum=True),
+    "ibc_max_slope_deg": Allowed(low=0, high=30, is_maximum=True),
+    "max_stories": Allowed(low=1, high=200, is_whole=True, is_maximum=True),
+    "max_risk_category": Allowed(low=1, high=4, is_whole=True, is_maximum=True),
+    "low_profile_in": Allowed(low=1, high=120, is_maximum=True),
+    "low_profile_ratio": Allowed(low=0.01, high=5, is_maximum=True),
     "analysis_min_motions": Allowed(low=1, high=100, is_whole=True),
     "analysis_mean_motions": Allowed(low=1, high=100, is_whole=True),
     "analysis_factor": Allowed(low=1, high=10),

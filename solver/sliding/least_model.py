@@ -61,7 +61,7 @@ class Settings:
         Tolerance in two axes and with velocity-dependent friction, relative to the PRD
         (`two_axes.TOLERANCES`).
     forced : Model or None
-        Use this rung only. A row is never selected; it runs only if requested.
+        Use this model only. A row is never selected; it runs only if requested.
     row : BlockRow or None
         The blocks and links of `Model.ROW`.
     """
@@ -88,10 +88,10 @@ class Solution:
     ----------
     model : Model
     reason : str
-        Why this rung was used, as a clause.
+        Why this model was used, as a clause.
     result : SlideResult
     next_model : Model
-        The first more complete model that was not used; the rung itself if there is none.
+        The first more complete model that was not used; the model itself if there is none.
     next_effect_m : float
         Largest change of the PRD or of any excursion by the more complete models [m], from runs of
         them and including their errors; inf if such a run gives no displacement, NaN if the input
@@ -129,17 +129,17 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     """Solve a scene with the simplest adequate model.
 
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
-    models are compared. Otherwise the simplest rung is used whose PRD and excursions agree within
+    models are compared. Otherwise the simplest model is used whose PRD and excursions agree within
     `Settings.bound_m` with those of all more complete ones, error bounds included. The more
     complete models are run for this comparison: the effect of cross-slope shaking accumulates along
     the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction is
-    modeled whenever the scene has it. If the normal force falls below zero no rung gives a
+    modeled whenever the scene has it. If the normal force falls below zero no model gives a
     displacement, not even a forced one.
 
     Raises
     ------
     InputError
-        If a rung is forced that the scene does not allow.
+        If a model is forced that the scene does not allow.
     """
     started = time.perf_counter()
     demand = forces(scene).friction_demand
@@ -153,7 +153,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
 
 
 def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> SlideHistory:
-    """Return the motion at the samples of a solved scene, by the same rung.
+    """Return the motion at the samples of a solved scene, by the same model.
 
     Raises
     ------
@@ -332,7 +332,7 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
 
 
 def as_run(scene: Scene, model: Model) -> Scene:
-    """Return the scene as a rung runs it, without the vertical or the friction law it neglects.
+    """Return the scene as a model runs it, without the vertical or the friction law it neglects.
 
     The cross-slope component is still there where a run in one axis ignores it.
     """

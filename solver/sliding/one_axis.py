@@ -1,4 +1,4 @@
-"""Rungs 1 and 2: one block along the slope, by the exact method or another one.
+"""Models 1 and 2: one block along the slope, by the exact method or another one.
 
 Checks no input (`solver.sliding.checked`) and computes no physics (`solver.kernels.one_axis`,
 `solver.rivals`). Read `run` first.
@@ -21,7 +21,7 @@ from solver.rivals.methods import (
     Outcome,
     Parameters,
     exact_events,
-    least_normal,
+    minimum_normal,
 )
 
 _NO_HISTORY = np.empty((2, 0))
@@ -63,7 +63,7 @@ def run_method(method: Method, parameters: Parameters, scene: Scene) -> SlideRes
 
 def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:
     """Run a scene; `samples` of shape (2, n) is filled with u and u'; of shape (2, 0) it is not."""
-    n_min_g, t_uplift = least_normal(scene)
+    n_min_g, t_uplift = minimum_normal(scene)
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
     outcome = method.follow(scene, dict(method.parameters) | dict(parameters), samples)

@@ -247,7 +247,7 @@ def _share_faults(shares: Sequence[float], count: int) -> list[str]:
     return []
 
 
-def least_steps(row: BlockRow, seconds: float) -> float:
+def minimum_steps(row: BlockRow, seconds: float) -> float:
     """Return a lower bound of the number of steps that a row needs for a motion this long [s]."""
     if len(row.mus) == 1:
         return 0.0
@@ -257,7 +257,7 @@ def least_steps(row: BlockRow, seconds: float) -> float:
 
 
 def _too_stiff(scene: Scene, row: BlockRow) -> list[str]:
-    if least_steps(row, scene.dt_s * scene.ax_mps2.size) <= MOST_STEPS:
+    if minimum_steps(row, scene.dt_s * scene.ax_mps2.size) <= MOST_STEPS:
         return []
     return [
         f"stiffness_per_s2 {row.stiffness_per_s2:g} with damping_per_s {row.damping_per_s:g} takes "

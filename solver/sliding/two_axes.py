@@ -1,4 +1,4 @@
-"""Rungs 3 and 4: a block in two axes, with constant or velocity-dependent friction, to a tolerance.
+"""Models 3 and 4: a block in two axes, friction constant or by velocity, to a tolerance.
 
 Computes no physics itself (see `solver.kernels.two_axes`) and checks no input
 (`solver.sliding.checked` does). Read `solver.model.Scene`, then `follow`.
@@ -22,7 +22,7 @@ from solver.model import (
     SlideResult,
     Status,
 )
-from solver.rivals.methods import least_normal
+from solver.rivals.methods import minimum_normal
 from solver.sliding.one_axis import prepared, sample_times, without_displacement
 
 DEFAULT_TOLERANCE = 1e-6
@@ -97,7 +97,7 @@ class TwoAxesOutcome:
 
 def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
     """Slide a checked scene in two axes, to a tolerance relative to the PRD."""
-    n_min_g, t_uplift = least_normal(prepared(scene))
+    n_min_g, t_uplift = minimum_normal(prepared(scene))
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
     return _result(follow(scene, tolerance), n_min_g)
@@ -127,7 +127,7 @@ def _result(outcome: TwoAxesOutcome, n_min_g: float) -> SlideResult:
 
 def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHistory:
     """Return the displacement history of `run`."""
-    n_min_g, t_uplift = least_normal(prepared(scene))
+    n_min_g, t_uplift = minimum_normal(prepared(scene))
     samples = np.full((4, scene.ax_mps2.size), np.nan)
     events: tuple[Event, ...] = ()
     if n_min_g < 0.0:
@@ -151,7 +151,7 @@ def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHist
 def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome:
     """Compute the motion of a block to a tolerance relative to its PRD.
 
-    Assumes that the normal force never falls below zero (`solver.kernels.one_axis.least_normal`).
+    Assumes that the normal force never falls below zero (`solver.kernels.one_axis.minimum_normal`).
 
     Parameters
     ----------

@@ -59,7 +59,7 @@ def uplift(scene: Scene) -> Uplift:
     )
 
 
-def least_normal_mps2(scene: Scene) -> float:
+def minimum_normal_mps2(scene: Scene) -> float:
     """Return the minimum of N / m [m/s2], by which the scene nearest to uplift is found."""
     return float(normal_mps2(scene).min())
 

@@ -138,11 +138,11 @@ class Campaign:
         return tuple(_ranges([*ends.tolist(), len(self.cases)], most))
 
 
-def _ranges(ends: Sequence[int], most: int) -> list[slice]:
-    """Return the ranges between ends, those of more than `most` cases divided."""
+def _ranges(ends: Sequence[int], maximum: int) -> list[slice]:
+    """Return the ranges between ends, those of more than `maximum` cases divided."""
     ranges, start = [], 0
     for end in ends:
-        pieces = -(-(end - start) // most)
+        pieces = -(-(end - start) // maximum)
         edges = [start + (end - start) * k // pieces for k in range(pieces + 1)] if pieces else []
         ranges += [slice(low, high) for low, high in pairwise(edges)]
         start = end

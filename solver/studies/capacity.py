@@ -168,7 +168,7 @@ def capacities(
     )
 
 
-def most_searched(limits_m: Sequence[float], levels: Floats, steps: int = SCAN) -> int:
+def maximum_searches(limits_m: Sequence[float], levels: Floats, steps: int = SCAN) -> int:
     """Return how many intensities of a motion `capacities` may run at most."""
     return steps + len(levels) + MOST_CLOSER * sum(limit > 0.0 for limit in limits_m)
 
@@ -222,7 +222,7 @@ class _Scan:
             at = min(at, int(np.searchsorted(self._x, close[0])) - 1)
         return float(self._x[at]), is_censored, float(self._x[end]), falls
 
-    def _first_beyond(self, limit_m: float, most: int) -> int:
+    def _first_beyond(self, limit_m: float, maximum: int) -> int:
         """Return the index of the first run beyond a limit, bisected; their number for none."""
         while True:
             beyond = np.flatnonzero(~(self._prd_m <= limit_m))
@@ -230,7 +230,7 @@ class _Scan:
                 return self._x.size
             first = int(beyond[0])
             low, high = self._x[first - 1], self._x[first]
-            if high - low <= ACCURACY * high or self._x.size >= most:
+            if high - low <= ACCURACY * high or self._x.size >= maximum:
                 return first
             self._add(np.array([0.5 * (low + high)]))
 

@@ -63,7 +63,7 @@ def _finite(values: Floats) -> Floats:
     return np.where(np.isfinite(values), values, np.nan)
 
 
-def least_friction(mus: Floats, prd_m: Floats, allowed_m: float) -> float:
+def minimum_friction(mus: Floats, prd_m: Floats, allowed_m: float) -> float:
     """Return the least friction coefficient from which on the PRD does not exceed a limit.
 
     Interpolated between the runs; the smallest coefficient run if none exceeds the limit, NaN if

@@ -44,7 +44,7 @@ class Fit:
         p, mean peak acceleration of the motions per unit of intensity [g], to `DIGITS`.
     sigma_ln : float
         Standard deviation of ln(exact / fitted), with the degrees of freedom that are left.
-    least_ratio, greatest_ratio : float
+    minimum_ratio, maximum_ratio : float
         Extremes of exact / fitted.
     cases : int
         Number of cases fitted.
@@ -55,8 +55,8 @@ class Fit:
     coefficients: tuple[float, ...]
     ppa_g: float
     sigma_ln: float
-    least_ratio: float
-    greatest_ratio: float
+    minimum_ratio: float
+    maximum_ratio: float
     cases: int
     domain: Mapping[str, tuple[float, float]]
 
@@ -154,8 +154,8 @@ def fit_prd(
         coefficients=tuple(found.tolist()),
         ppa_g=ppa_g,
         sigma_ln=float(np.sqrt(np.sum(off**2) / (cases - TERMS))),
-        least_ratio=float(np.exp(off.min())),
-        greatest_ratio=float(np.exp(off.max())),
+        minimum_ratio=float(np.exp(off.min())),
+        maximum_ratio=float(np.exp(off.max())),
         cases=cases,
         domain={name: (float(v.min()), float(v.max())) for name, v in values.items()},
     )

@@ -43,7 +43,7 @@ _QUANTUM_G = 10.0 ** -DECIMALS["g"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Frame:
+class MatchingFrame:
     """Data common to all motions of one target, sampling interval and duration.
 
     Attributes
@@ -66,7 +66,7 @@ class Frame:
     pulses: Floats
 
 
-def make_frame(target: Target, dt_s: float, duration_s: float) -> Frame:
+def make_frame(target: Target, dt_s: float, duration_s: float) -> MatchingFrame:
     """Return the frame of a target.
 
     The lowest frequency is that of the target or three cycles in the duration, whichever is higher.
@@ -76,7 +76,7 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> Frame:
     from_start = np.linspace(0.0, 1.0, n)
     envelope = np.minimum(1.0, 6.0 * np.minimum(from_start, from_start[::-1]))
     freq_hz = np.append(_matched_hz(low_hz, min(50.0, 0.4 / dt_s)), 5.0 / dt_s)
-    return Frame(
+    return MatchingFrame(
         dt_s=dt_s,
         envelope=envelope,
         quiet=_quiet(from_start, low_hz * duration_s),
@@ -124,12 +124,12 @@ def _pulses(cycles: Floats, n: int) -> Floats:
     return (2.0 * ramp[:, 1:-1] - ramp[:, 2:] - ramp[:, :-2]) / p
 
 
-def _goal_mps2(frame: Frame, target: Target) -> Floats:
+def _goal_mps2(frame: MatchingFrame, target: Target) -> Floats:
     """Target pseudo-accelerations [m/s2], one for each oscillator of the frame."""
     return _G * target_sa_g(target, frame.freq_hz)
 
 
-def shaped(frame: Frame, start: Floats, target: Target) -> Floats:
+def shaped(frame: MatchingFrame, start: Floats, target: Target) -> Floats:
     """Enveloped motion whose Fourier amplitudes are corrected iteratively by goal / spectrum."""
     n, goal = len(frame.envelope), _goal_mps2(frame, target)
     padded = 1 << (n - 1).bit_length() + 1
@@ -145,13 +145,13 @@ def shaped(frame: Frame, start: Floats, target: Target) -> Floats:
     return a
 
 
-def _calmed(frame: Frame, a: Floats) -> Floats:
+def _calmed(frame: MatchingFrame, a: Floats) -> Floats:
     """Remove the quiet shapes from a motion by the smallest change under the envelope."""
     shapes = frame.quiet * frame.envelope
     return a - frame.envelope * (shapes.T @ np.linalg.solve(shapes @ shapes.T, frame.quiet @ a))
 
 
-def _peaks(frame: Frame, a: Floats) -> tuple[Floats, _Samples]:
+def _peaks(frame: MatchingFrame, a: Floats) -> tuple[Floats, _Samples]:
     """Peak pseudo-accelerations [m/s2] with their signs, and the samples at which they occur."""
     read_only = a.view()
     read_only.setflags(write=False)
@@ -160,7 +160,7 @@ def _peaks(frame: Frame, a: Floats) -> tuple[Floats, _Samples]:
     return peak, at
 
 
-def matched(frame: Frame, a: Floats, target: Target) -> Floats:
+def matched(frame: MatchingFrame, a: Floats, target: Target) -> Floats:
     """Corrected motion with a small mean ratio / smallest ratio to the target, wherever it is.
 
     Minima of the spectrum between the matched frequencies are matched in turn.
@@ -186,14 +186,14 @@ def _minima(ratio: Floats) -> _Samples:
     return np.flatnonzero(is_least) + 1
 
 
-def _joined_by(frame: Frame, more_hz: Floats) -> Frame:
+def _joined_by(frame: MatchingFrame, more_hz: Floats) -> MatchingFrame:
     """Return a frame that matches more frequencies as well; the rigid one stays last."""
     freq_hz = np.append(np.union1d(frame.freq_hz[:-1], more_hz), frame.freq_hz[-1])
     pulses = _pulses(freq_hz * frame.dt_s, len(frame.envelope))
     return replace(frame, freq_hz=freq_hz, pulses=pulses)
 
 
-def _matched(frame: Frame, a: Floats, goal: Floats) -> Floats:
+def _matched(frame: MatchingFrame, a: Floats, goal: Floats) -> Floats:
     """Iteratively corrected motion with the smallest mean ratio / smallest ratio to the goal."""
     best, least = a, math.inf
     for _ in range(_MATCHINGS):
@@ -218,7 +218,7 @@ class _Moves(NamedTuple):
     outside: NDArray[np.bool_]
 
 
-def _correction(frame: Frame, a: Floats, moves: _Moves, goal: Floats) -> Floats:
+def _correction(frame: MatchingFrame, a: Floats, moves: _Moves, goal: Floats) -> Floats:
     """Smallest change under the envelope's square that makes the moves of the peaks.
 
     The square leaves the ends weak, where late peaks of long periods would add.

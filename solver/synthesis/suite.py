@@ -16,7 +16,7 @@ from solver.model import Floats, InputError
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
 from solver.records.record import Record
-from solver.synthesis.matching import Frame, make_frame, matched, rounded, shaped
+from solver.synthesis.matching import MatchingFrame, make_frame, matched, rounded, shaped
 from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
 from solver.synthesis.target import (
     SpectrumFit,
@@ -195,7 +195,7 @@ class _Wanted:
     """A target with the frame for matching its motions."""
 
     target: Target
-    frame: Frame
+    frame: MatchingFrame
 
 
 def _component(
@@ -208,15 +208,15 @@ def _component(
     for draw in range(DRAWS):
         start = grown(seed, rng, len(frame.envelope), draw)
         a = matched(frame, shaped(frame, start, target), target)
-        a = rounded(a * _ABOVE / _fit(wanted, a).least)
+        a = rounded(a * _ABOVE / _fit(wanted, a).minimum)
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
         alike = any(abs(correlation(record, other)) > MOST_CORRELATION for other in unlike)
         is_strong = strength(record).d5_95_s >= HOLD_SHARE * duration_s
         fit = _fit(wanted, a)
         if keeps(fit) and is_strong and not alike:
             return record, seed.words(draw)
-        reached = f"{fit.least:.2f} to {fit.greatest:.2f}"
-        nearest = min(nearest, (max(1.0 / fit.least, fit.greatest), reached))
+        reached = f"{fit.minimum:.2f} to {fit.maximum:.2f}"
+        nearest = min(nearest, (max(1.0 / fit.minimum, fit.maximum), reached))
     raise InputError(
         f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum; the closest "
         f"has {nearest[1]} times the target; give a smoother target or a longer duration"

@@ -56,12 +56,12 @@ class SpectrumFit:
         return self.achieved_g / self.target_g
 
     @property
-    def least(self) -> float:
+    def minimum(self) -> float:
         """Smallest ratio."""
         return float(self.ratio.min())
 
     @property
-    def greatest(self) -> float:
+    def maximum(self) -> float:
         """Largest ratio."""
         return float(self.ratio.max())
 
@@ -107,7 +107,7 @@ def spectrum_fit(record: Record, target: Target, freq_hz: Floats | None = None) 
 
 def keeps(fit: SpectrumFit) -> bool:
     """Whether a fit is within `LEAST`, `GREATEST` and `MEAN_OFF`."""
-    return fit.least >= LEAST and fit.greatest <= GREATEST and abs(fit.mean - 1.0) <= MEAN_OFF
+    return fit.minimum >= LEAST and fit.maximum <= GREATEST and abs(fit.mean - 1.0) <= MEAN_OFF
 
 
 def target_problems(target: Target) -> list[str]:

@@ -9,8 +9,8 @@ from functools import cache
 
 import numpy as np
 
+from solver.verification.model_evidence import BoundRatios
 from solver.verification.random_pairs import KINDS, UNBOUNDED, pair
-from solver.verification.rung_evidence import BoundRatios
 
 PAIRS = (40, 1000)
 """Number of pairs of each kind, quick and full."""

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats, Status
-from solver.studies.curves import least_friction
-from solver.verification.rung_evidence import RungEvidence
+from solver.studies.curves import minimum_friction
+from solver.verification.model_evidence import ModelEvidence
 from solver.verification.shake_table import ShakeTable
 
 FLOOR_M = 1e-3
@@ -222,9 +222,9 @@ class DesignCurves:
         )
         return np.array([np.interp(ppa_g, self.ppas_g, row) for row in by_slope])
 
-    def least_mu(self, slope_deg: float, ppa_g: float, wanted_m: float) -> float:
-        """Return the least friction coefficient that limits the PRD; see `least_friction`."""
-        return least_friction(self.mus, self.prd(slope_deg, ppa_g), wanted_m)
+    def minimum_mu(self, slope_deg: float, ppa_g: float, wanted_m: float) -> float:
+        """Return the least friction coefficient that limits the PRD; see `minimum_friction`."""
+        return minimum_friction(self.mus, self.prd(slope_deg, ppa_g), wanted_m)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -378,7 +378,7 @@ class Verification:
     conditioning : tuple of Conditioning
     roofs : tuple of RoofComparison
         The model building first, then those whose records were given.
-    rungs : tuple of RungEvidence
+    models : tuple of ModelEvidence
         One.
     tables : tuple of ShakeTable
         One if tests of a shake table were given, otherwise empty.
@@ -399,7 +399,7 @@ class Verification:
     curves: tuple[DesignCurves, ...]
     conditioning: tuple[Conditioning, ...]
     roofs: tuple[RoofComparison, ...]
-    rungs: tuple[RungEvidence, ...]
+    models: tuple[ModelEvidence, ...]
     tables: tuple[ShakeTable, ...]
     peers: tuple[PeerPoint, ...]
     records: tuple[str, ...]

@@ -85,7 +85,9 @@ def _plain(point: _Point) -> _Point:
     )
 
 
-def _descend(misfit: Callable[[_Point], float], least: float, best: _Point) -> tuple[float, _Point]:
+def _descend(
+    misfit: Callable[[_Point], float], minimum: float, best: _Point
+) -> tuple[float, _Point]:
     """Step to the best of the neighbors on each axis; halve the steps where none is better."""
     reach = np.array([_PERIOD_STEP / 2.0, 0.4, 0.4])
     while reach[0] > _LAST_STEP:
@@ -93,11 +95,11 @@ def _descend(misfit: Callable[[_Point], float], least: float, best: _Point) -> t
             tuple(best + sign * move) for move in np.diag(reach) for sign in (1.0, -1.0)
         ]
         nearby, point = best_of(misfit, around)
-        if nearby < least:
-            least, best = nearby, point
+        if nearby < minimum:
+            minimum, best = nearby, point
         else:
             reach /= 2.0
-    return least, best
+    return minimum, best
 
 
 @lru_cache(maxsize=256)

@@ -22,7 +22,7 @@ from solver.verification.evidence import (
     percent_off,
 )
 from solver.verification.scenes import prepared, scale_to
-from solver.verification.study import grid, history, least_seconds, run
+from solver.verification.study import grid, history, minimum_seconds, run
 from solver.verification.workprecision import timed
 
 CONVERGENCE_CASES = grid((-7.0, -4.0, 0.0, 4.0, 7.0), (0.0, 0.1, 0.5), (0.0, 0.18, 1.0, 1.44))
@@ -119,7 +119,7 @@ def design_curves(record: Record) -> DesignCurves:
             scales=PPAS_G * scale_to(record, 1.0),
         ).prd_m
 
-    prd_m, seconds = all_runs(), least_seconds(all_runs, enough_s=1.0)
+    prd_m, seconds = all_runs(), minimum_seconds(all_runs, enough_s=1.0)
     flat = SLOPES_DEG.size - 1
     return DesignCurves(
         record=record.name,

@@ -20,7 +20,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, Scene, coulomb
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
-from solver.verification import rungs
+from solver.verification import model_checks
 from solver.verification.evidence import PeerPoint, percent_off
 from solver.verification.plane_scipy import samples_of
 from solver.verification.scenes import CASES, Case, scale_to
@@ -70,7 +70,7 @@ def peer_points(
 
     Uses the strongest parts of the first motions whose vertical does not lift the block.
     """
-    kept = [triple for triple in triples if rungs.stays(triple)][:MOTIONS]
+    kept = [triple for triple in triples if model_checks.stays(triple)][:MOTIONS]
     scenes = {
         ONE_AXIS: list(_record_scenes(records, quick)),
         VERTICAL: list(_motion_scenes(kept, quick, second=False)),

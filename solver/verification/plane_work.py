@@ -14,10 +14,10 @@ from solver.kernels import fixed_steps
 from solver.model import Scene, coulomb
 from solver.sliding import two_axes
 from solver.verification import plane_scipy
+from solver.verification.model_checks import stopped_scene
+from solver.verification.model_evidence import PlaneWork, StopPoint
 from solver.verification.plane_scipy import Solver, samples_of
-from solver.verification.rung_evidence import PlaneWork, StopPoint
-from solver.verification.rungs import stopped_scene
-from solver.verification.study import MODEL_CASES, TIGHT, clocked, least_seconds
+from solver.verification.study import MODEL_CASES, TIGHT, clocked, minimum_seconds
 from solver.verification.triples import Triple
 
 OURS = "Power series, event by event"
@@ -64,7 +64,7 @@ def _ours(scene: Scene) -> Iterator[PlaneWork]:
         yield PlaneWork(
             method=OURS,
             setting=f"tol. {tolerance:g}",
-            seconds=least_seconds(partial(two_axes.follow, scene, tolerance)),
+            seconds=minimum_seconds(partial(two_axes.follow, scene, tolerance)),
             steps=outcome.n_steps,
             error_percent=100.0 * off / truth.result.prd_m,
         )
@@ -79,7 +79,7 @@ def _fixed(scene: Scene, prd_m: float) -> Iterator[PlaneWork]:
             yield PlaneWork(
                 method=method,
                 setting=f"P = {substeps}",
-                seconds=least_seconds(run),
+                seconds=minimum_seconds(run),
                 steps=substeps * (len(rows) - 1),
                 error_percent=100.0 * abs(end_prd_m - prd_m) / prd_m,
             )
@@ -105,7 +105,7 @@ def _scipy(scene: Scene, prd_m: float, quick: bool) -> Iterator[PlaneWork]:
 def stops() -> Iterator[StopPoint]:
     """Run the block that stops under a transverse acceleration and rests for 1.8 s, every method.
 
-    Its position is known in closed form, see `rungs.stopped_scene` and its checks.
+    Its position is known in closed form, see `model_checks.stopped_scene` and its checks.
     """
     scene = stopped_scene()
     truth = two_axes.run(scene, TIGHT)

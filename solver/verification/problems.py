@@ -17,16 +17,16 @@ def pulse_travel(drive_mps2: float, resist_mps2: float, plateau_s: float, ramp_s
 
     Valid for long plateaus only: the speed must not reach zero within the falling ramp.
     """
-    push = drive_mps2 - resist_mps2
+    net_driving = drive_mps2 - resist_mps2
     rate = drive_mps2 / ramp_s if ramp_s else math.inf
-    rise = push / rate
+    rise = net_driving / rate
     speed = rate * rise**2 / 2 if ramp_s else 0.0
     travel = rate * rise**3 / 6 if ramp_s else 0.0
-    travel += speed * plateau_s + push * plateau_s**2 / 2
-    speed += push * plateau_s
+    travel += speed * plateau_s + net_driving * plateau_s**2 / 2
+    speed += net_driving * plateau_s
     if ramp_s:
-        travel += speed * ramp_s + push * ramp_s**2 / 2 - rate * ramp_s**3 / 6
-        speed += push * ramp_s - rate * ramp_s**2 / 2
+        travel += speed * ramp_s + net_driving * ramp_s**2 / 2 - rate * ramp_s**3 / 6
+        speed += net_driving * ramp_s - rate * ramp_s**2 / 2
     return travel + speed**2 / (2 * resist_mps2)
 
 

@@ -32,7 +32,7 @@ Law = Callable[[float], Friction]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class PairComparison:
     """Comparison of the two runs of a pair.
 
     Attributes
@@ -77,7 +77,7 @@ class Pair:
     rounding_m: float
     compare: Compare
 
-    def run(self) -> Outcome:
+    def run(self) -> PairComparison:
         """Run both.
 
         Raises
@@ -90,7 +90,7 @@ class Pair:
         if a.status is not Status.OK or b.status is not Status.OK:
             raise ArithmeticError(f"{a.status}, {b.status}")
         bound = a.error_m + b.error_m + self.rounding_m
-        return Outcome(
+        return PairComparison(
             prd_m=a.prd_m,
             off_m=float(np.abs(self.compare(a, b)).max()),
             bound_m=bound if self.first.friction.is_monotone else math.inf,
@@ -192,7 +192,7 @@ def _scene(
     slope_deg: float | None = None,
     mu: float | None = None,
     law: Law = coulomb,
-    least_normal_g: float | None = None,
+    minimum_normal_g: float | None = None,
 ) -> Scene:
     n = int(rng.choice((2, 3, 4, 6, 10, 30)))
     slope = math.radians(rng.choice(SLOPES_DEG) if slope_deg is None else slope_deg)
@@ -209,7 +209,7 @@ def _scene(
     return Scene(
         ax_mps2=readonly(ax),
         ay_mps2=readonly(ay),
-        az_mps2=readonly(_held_down(rng, ax, az, slope, least_normal_g)),
+        az_mps2=readonly(_held_down(rng, ax, az, slope, minimum_normal_g)),
         dt_s=float(rng.choice(STEPS_S)),
         slope_rad=slope,
         friction=law(float(mu)),
@@ -347,7 +347,7 @@ def _at_tan_slope(rng: Random) -> Pair:
 def _light(rng: Random) -> Pair:
     least = float(rng.choice((0.0, 0.0, 1e-15, 1e-9, 1e-6, 1e-3)))
     law = _by_speed(rng) if rng.random() < 0.2 else coulomb
-    return _either(rng, _scene(rng, least_normal_g=least, law=law))
+    return _either(rng, _scene(rng, minimum_normal_g=least, law=law))
 
 
 KINDS: dict[str, Callable[[Random], Pair]] = {

@@ -100,11 +100,11 @@ class _Block:
     def _onset(self, lines: dict[int, _Line], t: Decimal) -> tuple[Decimal, int] | None:
         onsets = []
         for sign, (a, rate) in lines.items():
-            push, rise = sign * (a + rate * t), sign * rate
-            if push > _TINY:
+            net_driving, rise = sign * (a + rate * t), sign * rate
+            if net_driving > _TINY:
                 onsets.append((t, sign))
-            elif rise > 0 and t - push / rise < self.dt:
-                onsets.append((max(t, t - push / rise), sign))
+            elif rise > 0 and t - net_driving / rise < self.dt:
+                onsets.append((max(t, t - net_driving / rise), sign))
         return min(onsets, default=None)
 
     def _slip(self, a: Decimal, rate: Decimal, t: Decimal) -> Decimal:

@@ -15,10 +15,10 @@ from solver.verification import (
     checks,
     crosschecks,
     design_checks,
+    model_checks,
+    model_study,
     paper_studies,
     peers,
-    rung_study,
-    rungs,
     stability,
     workprecision,
 )
@@ -36,7 +36,7 @@ from solver.verification.evidence import (
     Verification,
     WorkPoint,
 )
-from solver.verification.rung_evidence import RungEvidence
+from solver.verification.model_evidence import ModelEvidence
 from solver.verification.scenes import own_records
 from solver.verification.shake_table import SHIPPED, ShakeTable, compare
 from solver.verification.table_tests import TableTest, table_tests
@@ -49,10 +49,10 @@ __all__ = [
     "DesignCurves",
     "FloorRecords",
     "LinkComparison",
+    "ModelEvidence",
     "PeerPoint",
     "RoofComparison",
     "RoofPrediction",
-    "RungEvidence",
     "ShakeTable",
     "StabilityMap",
     "TableTest",
@@ -111,8 +111,8 @@ def verify(
     rows += building_checks.building_checks(made, roofs[0])
     progress("Two axes: checks, comparison of models, accuracy against run time")
     triples = (*own_triples(quick), *(motions[:1] if quick else motions))
-    rows += rungs.rung_checks(triples, quick=quick)
-    models = rung_study.rung_evidence(triples, quick=quick)
+    rows += model_checks.model_checks(triples, quick=quick)
+    models = model_study.model_evidence(triples, quick=quick)
     progress(f"Accuracy against run time: every method on {len(chosen)} records")
     work = tuple(workprecision.work_points(chosen, quick=quick))
     progress("Stability: maps of error over two parameters")
@@ -140,7 +140,7 @@ def verify(
         curves=curves,
         conditioning=conditioning,
         roofs=roofs,
-        rungs=(models,),
+        models=(models,),
         tables=(*SHIPPED, *((compare(tests),) if tests else ())),
         peers=judged,
         records=tuple(record.name for record in chosen),

@@ -14,7 +14,7 @@ import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, coulomb
 from solver.sliding import one_axis, two_axes
-from solver.verification.rung_evidence import (
+from solver.verification.model_evidence import (
     LEAST_M,
     FadingAxis,
     PushedPoint,

@@ -1,6 +1,6 @@
 """What the studies share: cases, scenes and their variants, runs of a record, times and misfits.
 
-A study chooses its variants and counts the results. Read `grid`, `scenes_of`, then `least_seconds`.
+A study chooses its variants and counts the results. Read `grid`, `scenes_of`, `minimum_seconds`.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ def clocked(work: Callable[[], T]) -> tuple[T, float]:
     return result, time.perf_counter() - start
 
 
-def least_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> float:
+def minimum_seconds(work: Callable[[], object], enough_s: float = ENOUGH_S) -> float:
     """Return the least time of several repeats, fewer if they take long [s]."""
     total, least = 0.0, math.inf
     for _ in range(REPEATS):

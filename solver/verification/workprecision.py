@@ -17,7 +17,7 @@ from solver.records.record import Record
 from solver.rivals.methods import METHODS, AxisScene, Method
 from solver.verification.evidence import WorkPoint, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable, prepared
-from solver.verification.study import clocked, least_seconds, run
+from solver.verification.study import clocked, minimum_seconds, run
 
 SLOW_RECORDS, SLOW_CASES = 6, 2
 """Number of records, and of cases of each, for a method that takes a second per run."""
@@ -64,7 +64,7 @@ def settings(
 
 def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> float:
     """Return the least time of a run by a method on a prepared scene [s]."""
-    return least_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
+    return minimum_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
 
 
 def _is_short(record: Record) -> bool:

@@ -29,7 +29,7 @@ from solver.sliding import least_model, two_axes
 from solver.sliding import one_axis as one_axis_run
 from solver.sliding.row import slide_row
 from solver.sliding.sweep import order_alike
-from solver.verification.rung_study import by_speed, row_of
+from solver.verification.model_study import by_speed, row_of
 from solver.verification.scenes import Case
 from solver.verification.triples import own_triples
 
@@ -60,7 +60,7 @@ def run_exact(ax: Floats, x: Floats, dt: float, peak: float, grid: Floats) -> fl
     sum_m = 0.0
     for k in range(grid.shape[0]):
         sn, cs, scale = math.sin(grid[k, 0]), math.cos(grid[k, 0]), grid[k, 2] * G / peak
-        n_min, _ = one_axis.least_normal(ax, None, x, None, dt, sn, cs, G, scale)
+        n_min, _ = one_axis.minimum_normal(ax, None, x, None, dt, sn, cs, G, scale)
         out = one_axis.slide_exact(ax, None, x, None, dt, sn, cs, grid[k, 1], G, scale, None)
         sum_m += max(out[0], -out[1]) + min(n_min, 0.0)
     return sum_m

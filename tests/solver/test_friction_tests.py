@@ -68,9 +68,9 @@ def test_runs_at_different_velocities_are_no_repeats_of_each_other():
     assert tested.repeats[0].velocity_mps == 0.0205
     assert math.isnan(tested.repeats[-1].velocity_mps)
     assert tested.velocity_mps == 0.1051
-    assert tested.least_mu == pytest.approx(0.41, abs=1e-15)
+    assert tested.minimum_mu == pytest.approx(0.41, abs=1e-15)
     (still,) = series([run(0.5, velocity=0.0), run(0.6, velocity=0.0)])
-    assert (len(still.repeats), still.least_mu) == (1, pytest.approx(0.55, abs=1e-15))
+    assert (len(still.repeats), still.minimum_mu) == (1, pytest.approx(0.55, abs=1e-15))
 
 
 @pytest.mark.parametrize("mu_fast", [0.52, 0.31])

@@ -12,7 +12,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, model_validator
 
-from report.sheet.fields import Cell, Frozen, Section, YesNo
+from report.sheet.fields import Cell, Frozen, SheetSection, YesNo
 from report.sheet.legacy_labels import PROVISIONS
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
@@ -346,8 +346,8 @@ class ProjectInput(Frozen):
 
 def _block(
     key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, may_be_absent: bool = False
-) -> Section:
-    return Section(
+) -> SheetSection:
+    return SheetSection(
         key=key,
         sheet=sheet,
         title=title,
@@ -360,7 +360,7 @@ def _block(
 
 def _table(
     key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, may_be_absent: bool = False
-) -> Section:
+) -> SheetSection:
     block = _block(key, sheet, title, hint, model, may_be_absent=may_be_absent)
     return replace(block, is_table=True)
 

@@ -275,7 +275,7 @@ class Array(Placed):
         )
 
     @property
-    def least_mu(self) -> float:
+    def minimum_mu(self) -> float:
         """The smallest friction coefficient at any velocity."""
         return min(self.friction.mu_slow, self.friction.mu_fast)
 

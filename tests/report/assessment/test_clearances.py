@@ -89,8 +89,8 @@ def test_asce_requires_four_feet_to_an_edge():
     done = assessed(resting, site=site, options=PEER)
     edge = done.clearances[4]
     assert edge.required_m == pytest.approx(4 * 0.3048)
-    assert edge.is_least_value
-    assert not done.clearances[1].is_least_value
+    assert edge.is_minimum_value
+    assert not done.clearances[1].is_minimum_value
 
 
 def test_the_larger_component_importance_of_both_sides_governs():

@@ -178,9 +178,11 @@ def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():
 
     given = apart(30.0)
     assert row(given, "less_friction") is None
-    done = apart((given.clearances[0].required_m + given.less.clearances[0].required_m) / 2.0)
+    done = apart(
+        (given.clearances[0].required_m + given.at_reduced_friction.clearances[0].required_m) / 2.0
+    )
     assert done.clearances[0].ok
-    assert not done.less.clearances[0].ok
+    assert not done.at_reduced_friction.clearances[0].ok
     assert row(done, "less_friction").verdict is Verdict.CONDITIONS
     assert "5 % less friction" in row(done, "less_friction").remedy
 

@@ -171,7 +171,7 @@ def test_the_low_velocity_coefficient_alone_gives_what_it_gives_when_entered(by_
 
 
 def test_reruns_with_other_friction_have_none_of_their_own(by_velocity):
-    assert by_velocity.less.low_velocity.arrays == ()
+    assert by_velocity.at_reduced_friction.low_velocity.arrays == ()
     constant = one(tests=runs())
     assert (constant.low_velocity.arrays, constant.low_velocity.clearances) == ((), {})
     assert "every velocity: " not in rows(constant)["A1"].remedy

@@ -70,7 +70,7 @@ def test_a_margin_satisfies_with_all_runs_and_one_hundredth_less_does_not():
     searched = [one for one in uncertainty(made(clearances=[close])).margins if not one.is_beyond]
     assert searched
     for margin in searched:
-        array, gap, mu = margin.array.array, margin.gap, margin.least_mu
+        array, gap, mu = margin.array.array, margin.gap, margin.minimum_mu
         there, below = (
             1.1 * max(prd_m(motion, array, mu=each) for motion in SHORT) for each in (mu, mu - 0.01)
         )
@@ -83,10 +83,10 @@ def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_non
     found = uncertainty(made(clearances=gaps))
     listed = [(one.number, one.array.id) for one in found.margins]
     assert listed == [(1, "A2"), (1, "A3"), (2, "A1")]
-    assert math.isnan(found.margins[0].least_mu)
-    assert math.isnan(found.margins[1].least_mu)
+    assert math.isnan(found.margins[0].minimum_mu)
+    assert math.isnan(found.margins[1].minimum_mu)
     assert found.margins[2].is_beyond
-    assert found.margins[2].least_mu == pytest.approx(0.23)  # half of 0.45, in whole hundredths
+    assert found.margins[2].minimum_mu == pytest.approx(0.23)  # half of 0.45, in whole hundredths
 
 
 def test_turned_shaking_agrees_with_the_public_solver(usual):
@@ -121,9 +121,9 @@ def test_one_component_has_no_angles_and_no_vertical_to_reverse():
 def test_a_clearance_without_a_permitted_route_has_no_margin():
     first, second, across, own = uncertainty(stand_in.unpermitted()).margins
     for margin in (first, second, across):  # the second and third are of one clearance
-        assert math.isnan(margin.least_mu)
+        assert math.isnan(margin.minimum_mu)
     assert own.array.id == "A2"
-    assert own.least_mu == 0.40  # below it the route is not permitted
+    assert own.minimum_mu == 0.40  # below it the route is not permitted
 
 
 def test_without_clearances_there_are_no_margins():
@@ -150,4 +150,4 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
 def test_a_block_that_lifts_off_leaves_holes_and_no_margin():
     found = uncertainty(made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))))
     assert np.isnan(found.surface.mean_m).all()
-    assert all(math.isnan(margin.least_mu) for margin in found.margins)
+    assert all(math.isnan(margin.minimum_mu) for margin in found.margins)

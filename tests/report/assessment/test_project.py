@@ -109,8 +109,8 @@ def test_friction_by_speed_reaches_the_solver():
         alone(SHORT, arrays=[stand_in.array("A1", 2.0, mu=0.4, **given)]).arrays[0]
         for given in (law, {})
     )
-    rungs = {run.solution.model for motion in by_speed.motions for run in motion.runs}
-    assert rungs == {Model.SPEED_FRICTION}
+    models = {run.solution.model for motion in by_speed.motions for run in motion.runs}
+    assert models == {Model.SPEED_FRICTION}
     assert by_speed.analysis.mean_m < constant.analysis.mean_m
 
 

@@ -43,11 +43,13 @@ def weaker(motion, share):
 def test_a_verdict_with_less_friction_is_that_of_exact_runs_at_the_limit_and_beside_it():
     wide = [stand_in.clearance(name, "RTU-1", 30.0) for name in ("A1", "A2")]
     given = assess_with(SHORT, options=scenes.REVIEW, clearances=wide)
-    rough, exact = gaps(given.less), gaps(exactly(given))
+    rough, exact = gaps(given.at_reduced_friction), gaps(exactly(given))
     assert all(0.0 < abs(r / e - 1.0) < ROUGH for r, e in zip(rough, exact, strict=True))
     for share in (-1e-2, -1e-3, -1e-9, 0.0, 1e-9, 1e-3, 1e-2):
         close = wide[0] | {"provided_m": exact[0] * (1.0 + share)}
-        less = assess_with(SHORT, options=scenes.REVIEW, clearances=[close, wide[1]]).less
+        less = assess_with(
+            SHORT, options=scenes.REVIEW, clearances=[close, wide[1]]
+        ).at_reduced_friction
         assert less.clearances[0].ok is (share >= 0.0)
         assert gaps(less)[1] == rough[1]
         if abs(share) <= 1e-9:
@@ -61,12 +63,12 @@ def test_where_one_axis_is_exact_its_prd_stands_across_for_rough_runs_as_well():
     make = partial(assess_with, motions, arrays=arrays, options=BY_DIRECTION)
     wide = make(clearances=[stand_in.clearance("A1", "RTU-1", 30.0, "across")])
     exact = exactly(wide)
-    rungs = {run.solution.model for motion in exact.arrays[0].motions for run in motion.runs}
-    assert {Model.ONE_AXIS_VERTICAL, Model.TWO_AXES} <= rungs
+    models = {run.solution.model for motion in exact.arrays[0].motions for run in motion.runs}
+    assert {Model.ONE_AXIS_VERTICAL, Model.TWO_AXES} <= models
     between = (gaps(wide)[0] + gaps(exact)[0]) / 2.0
     done = make(clearances=[stand_in.clearance("A1", "RTU-1", between, "across")])
     assert done.clearances[0].ok
-    assert not done.less.clearances[0].ok
+    assert not done.at_reduced_friction.clearances[0].ok
     assert not exactly(done).clearances[0].ok
 
 
@@ -98,7 +100,7 @@ def scene_of(seed):
 @pytest.mark.parametrize("seed", range(8))
 def test_rough_runs_are_off_by_less_than_the_bound(seed):
     given = scene_of(seed)
-    less = given.less
+    less = given.at_reduced_friction
     for rough, exact in zip(less.clearances, exactly(given).clearances, strict=True):
         sides = facing(less.project, less.arrays, rough.clearance)
         off_m = max(rough.factor * design_off_m(less.rules, *side) for side in sides)
@@ -123,7 +125,7 @@ def test_what_a_model_may_neglect_in_each_of_seven_motions_does_not_add_up_past_
         clearances=[stand_in.clearance("A1", "RTU-1", 30.0)],
         options=scenes.REVIEW,
     )
-    less, exact = given.less, exactly(given)
+    less, exact = given.at_reduced_friction, exactly(given)
     neglecting = [run.governing.solution.model for run in exact.arrays[0].motions]
     assert set(neglecting) == {Model.ONE_AXIS}
     (side,) = facing(less.project, less.arrays, less.clearances[0].clearance)

@@ -90,13 +90,22 @@ def test_the_table_of_methods_agrees_with_the_solver(usual):
 
 def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
     scene, evidence, page = usual
-    for factor, assessed in ((0.95, evidence.less), (1.0, evidence.given), (1.05, evidence.more)):
+    for factor, assessed in (
+        (0.95, evidence.at_reduced_friction),
+        (1.0, evidence.given),
+        (1.05, evidence.at_increased_friction),
+    ):
         for array, item in zip(scene.data.arrays, assessed.arrays, strict=True):
             motions = scene.assessment.shaking.motions
             peaks = [prd_m(motion, array, mu=array.mu * factor) for motion in motions]
             assert item.design_m == pytest.approx(1.1 * max(peaks), rel=1e-12)
     rows = page.table("Design displacement with").rows
-    for row, less, more in zip(rows, evidence.less.arrays, evidence.more.arrays, strict=True):
+    for row, less, more in zip(
+        rows,
+        evidence.at_reduced_friction.arrays,
+        evidence.at_increased_friction.arrays,
+        strict=True,
+    ):
         assert row["5 % less [in]"].rstrip("†") == f"{less.design_m / 0.0254:.1f}"
         assert row["5 % more [in]"].rstrip("†") == f"{more.design_m / 0.0254:.1f}"
 

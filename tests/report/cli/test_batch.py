@@ -8,7 +8,7 @@ import pytest
 
 from commands import run
 from report.cli import batch
-from report.cli.batch import Outcome
+from report.cli.batch import BatchOutcome
 from sheets import at, make
 
 
@@ -35,7 +35,7 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
 
 
 def outcome(**about):
-    return Outcome(source=Path("a"), **about)
+    return BatchOutcome(source=Path("a"), **about)
 
 
 @pytest.mark.parametrize(

@@ -182,7 +182,7 @@ def test_the_papers_own_figures_stand_beside_those_found(words, verification):
     for comparison in verification.links:
         assert formats.percent(comparison.worst_percent) in words
         assert formats.percent(comparison.mean_percent) in words
-    assert f"{verification.curves[0].least_mu(2.0, 1.5, 0.5):.3f}" in words
+    assert f"{verification.curves[0].minimum_mu(2.0, 1.5, 0.5):.3f}" in words
 
 
 def test_every_method_is_in_the_table_with_when_it_is_not_valid(words):
@@ -209,7 +209,7 @@ def test_all_and_only_the_checks_and_runs_are_in_the_table(made, verification):
     checks, runs = table[table["kind"] == "check"], table[table["kind"] == "run"]
     assert len(checks) == len(verification.checks)
     assert len(runs) == len(verification.work)
-    in_two_axes = sum(len(evidence.work) for evidence in verification.rungs)
+    in_two_axes = sum(len(evidence.work) for evidence in verification.models)
     assert len(table) == len(checks) + len(runs) + in_two_axes
     assert checks["computed"].tolist() == [row.computed for row in verification.checks]
     assert checks["error [-]"].tolist() == [row.error for row in verification.checks]
@@ -317,7 +317,7 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
 
     folder, out = tmp_path / "tests", tmp_path / "v"
     folder.mkdir()
-    drawn = ("work", "stability", "convergence", "links", "curves", "conditioning", "rungs")
+    drawn = ("work", "stability", "convergence", "links", "curves", "conditioning", "models")
     for factor, code in ((1.0, 0), (1.5, 1)):
         tables.write_folder(folder, [factor] * 5)
         with verifying(kept) as patch:

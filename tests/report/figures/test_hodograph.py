@@ -9,7 +9,7 @@ import pytest
 
 import scenes
 from report.figures.charts import hodographs
-from report.figures.hodograph import STEP_IN, Panel, path_of, thinned
+from report.figures.hodograph import STEP_IN, PanelScale, path_of, thinned
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_a_run_in_one_axis_is_a_straight_line(array):
 
 def test_every_path_stays_within_its_panel(array):
     paths = [path_of(run.history()) for run in array.motions]
-    panel = Panel.around(paths)
+    panel = PanelScale.around(paths)
     for path in paths:
         x = panel.start[0] + path.x_m / panel.m_per_in
         y = panel.start[1] + path.y_m / panel.m_per_in

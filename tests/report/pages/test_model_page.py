@@ -60,8 +60,8 @@ def test_a_run_that_has_the_model_says_nothing_of_neglecting_it():
     gentle, full = alone(scenes.motions(2, 8.0))
     gentle = replace(gentle, az_mps2=gentle.az_mps2 * 1e-3)
     package = scene((gentle, full, full), arrays=[stand_in.array("A1", 1.0, mu=0.5)])
-    rungs = {run.solution.model for m in package.assessment.arrays[0].motions for run in m.runs}
-    assert rungs == {Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL}
+    models = {run.solution.model for m in package.assessment.arrays[0].motions for run in m.runs}
+    assert models == {Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL}
     assert float(table(package, NEGLECTED).cells[0][2]) < 0.1
 
 

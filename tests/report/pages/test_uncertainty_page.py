@@ -23,12 +23,12 @@ def made(found=None, **changes):
 def test_the_smallest_margin_is_said():
     (roomy,) = made(clearances=[stand_in.clearance("A2", "A3", 9.0)])[0].assessment.clearances
     _, found, page = made(clearances=[stand_in.clearance("A2", "A3", 1.3 * roomy.required_m)])
-    least = max(found.margins, key=lambda one: one.least_mu / one.array.array.mu)
+    least = max(found.margins, key=lambda one: one.minimum_mu / one.array.array.mu)
     text = page.line("The smallest margin")
     assert f"{least.array.array.mu:.2f}, may be " in text
-    assert f" % less: {least.least_mu:.2f}." in text
+    assert f" % less: {least.minimum_mu:.2f}." in text
     shown = {row["Friction of"]: row for row in page.table("Least friction").rows}
-    assert shown[least.array.id]["μ [least]"] == f"{least.least_mu:.2f}"
+    assert shown[least.array.id]["μ [least]"] == f"{least.minimum_mu:.2f}"
 
 
 def test_where_nothing_slides_there_are_no_contours_and_no_ratios():

@@ -27,7 +27,7 @@ import packages
 import tampering
 from report.cli.main import main
 from report.proof import signatures
-from report.proof.package import Package, reader
+from report.proof.package import ReadPackage, reader
 from report.proof.sign import signed as signed_by
 from report.proof.signatures import Signature
 from report.proof.updates import Appended, appended
@@ -159,7 +159,9 @@ def signed(sign):
 @pytest.fixture(scope="module")
 def found(data):
     """A function that returns what was appended to the package, which is parsed once."""
-    package = Package(path=None, data=data, first=data, manifest=None, files={}, pdf=reader(data))
+    package = ReadPackage(
+        path=None, data=data, first=data, manifest=None, files={}, pdf=reader(data)
+    )
     return lambda whole: appended(replace(package, data=whole))
 
 

@@ -163,7 +163,7 @@ def test_json_has_the_margins_and_the_angles(supported):
     margins = document["certainty"]["margins"]
     assert [row["array"] for row in margins] == ["A1", "A1", "A3"]
     assert margins[0]["least_mu"] is None  # NG as given
-    least = [item.least_mu for item in evidence.uncertainty.margins]
+    least = [item.minimum_mu for item in evidence.uncertainty.margins]
     assert [row["least_mu"] for row in margins[1:]] == least[1:]
     angles = document["certainty"]["angles"]
     assert [row["angle_deg"] for row in angles["turned"]][:3] == [22.5, 45.0, 67.5]

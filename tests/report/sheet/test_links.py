@@ -11,7 +11,7 @@ from cells import cell
 from inputs import INCH, LB
 from report.sheet.schema import Links, UnitsFirst, coefficients
 from sheets import arrays, at, edit, make, problems, read_workbook, said, type_into
-from solver.sliding.row import MOST_STEPS, least_steps
+from solver.sliding.row import MOST_STEPS, minimum_steps
 
 G = 9.80665
 WANTED = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45, 0.50"
@@ -134,5 +134,5 @@ def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted
     book = read_workbook(path)
     seconds = sum(len(m.orientations) * m.dt_s * len(m.ax_mps2) for m in book.motions)
     for row in book.input.links:
-        steps = least_steps(row.row(42000 * LB), seconds)
+        steps = minimum_steps(row.row(42000 * LB), seconds)
         assert 0.9 * MOST_STEPS < steps <= MOST_STEPS

@@ -16,7 +16,7 @@ from printed import printed
 from report.assessment.precheck import findings
 from report.sheet.fields import Place
 from report.sheet.read import read
-from report.sheet.unseen import Kind, Unseen, warnings
+from report.sheet.unseen import Concealment, Unseen, warnings
 from sheets import at, blank, edit, make, of, read_workbook, told, type_into
 
 
@@ -223,7 +223,7 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
 
 def test_many_cells_are_named_by_their_first_ranges():
     scattered = Unseen(
-        kind=Kind.STRUCK,
+        kind=Concealment.STRUCK,
         sheet="Arrays",
         state="visible",
         place=Place("arrays", 0, "id"),

@@ -16,7 +16,7 @@ import printed
 from report.study import files
 from report.study.exports import export_files
 from report.study.plan import FRICTION, SLOPE, ArrayPlan
-from report.study.results import ArrayResult, LimitState
+from report.study.results import ArrayStudyResult, LimitState
 from report.study.run import planned, run_study
 from report.study.schema import StudyArray
 from report.study.spread import spectral_spread
@@ -108,7 +108,7 @@ def with_state(results, motions, *, allow_matched=False, **changes):
         spreads={FRICTION: Spread(center=0.4), SLOPE: Spread(center=2.0)}, shifts={},
         fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
-    one = ArrayResult(
+    one = ArrayStudyResult(
         plan=array, states=(state,), exceedances=(), bars=(), center_m=math.nan, capacity_runs=0
     )
     spread = spectral_spread([motions])

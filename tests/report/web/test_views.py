@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import stand_in
-from report.assessment.runs import RUNGS
+from report.assessment.runs import REQUESTED_MODELS
 from report.assessment.uncertainty import uncertainty
 from report.web import views
 from report.web.run_forces import during, run_forces, slips_of
@@ -52,7 +52,7 @@ def solved(assessment, array, motion, run):
     moved = next(one for one in assessment.shaking.motions if one.id == motion)
     orientation = next(one for one in moved.orientations if one.name == run)
     scene = moved.scene(orientation, slope_rad=item.slope_rad, friction=item.friction)
-    solution = least_model.solve(scene, Settings(forced=RUNGS.get(item.model)))
+    solution = least_model.solve(scene, Settings(forced=REQUESTED_MODELS.get(item.model)))
     return scene, least_model.history(scene, solution)
 
 

@@ -4,7 +4,7 @@ import asyncio
 import sys
 from asyncio.subprocess import PIPE
 
-from report.web.workers import LostError, Place, Rank, StaleError, Workers
+from report.web.workers import JobOrigin, LostError, Rank, StaleError, Workers
 
 # Answers with the job itself, after the seconds that it says; ends where it says so.
 ECHO = """
@@ -80,7 +80,7 @@ def test_an_answer_that_comes_with_the_end_does_not_keep_the_processes():
 
 
 def ask(pool, name, rank=Rank.AT_REST, key="p", number=1, **job):
-    place = Place((key, "assess"), number)
+    place = JobOrigin((key, "assess"), number)
     return asyncio.create_task(pool.ask({"name": name, **job}, rank, place))
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from refused import refused
 from solver.formats.numbers import (
     Block,
-    Layout,
+    FieldFormat,
     each,
     fixed_rows,
     fixed_values,
@@ -54,12 +54,14 @@ def test_a_fortran_format_gives_fields_and_width(text, expected):
 def test_touching_fields_are_cut_by_width(values):
     fields = [f"{value / 1000:8.3f}" for value in values]
     lines = ["".join(fields[i : i + 5]) for i in range(0, len(fields), 5)]
-    read = fixed_values(source(*lines), block(len(values), len(lines)), Layout(per_line=5, width=8))
+    read = fixed_values(
+        source(*lines), block(len(values), len(lines)), FieldFormat(per_line=5, width=8)
+    )
     assert read.tolist() == [value / 1000 for value in values]
 
 
 def test_numbers_set_to_the_left_and_exponents_of_doubles_are_read():
-    layout = Layout(per_line=2, width=8)
+    layout = FieldFormat(per_line=2, width=8)
     read = fixed_values(source("1.5     -2.D+01 ", "3"), block(3, 2), layout)
     assert read.tolist() == [1.5, -20.0, 3.0]
     assert free_values(source("1.5 -2.D+01", "", "3"), block(3, 3)).tolist() == [1.5, -20.0, 3.0]
@@ -74,7 +76,7 @@ def test_free_numbers_may_touch_at_a_sign():
 
 
 def test_short_lines_are_allowed_only_where_they_are_asked_for():
-    layout, lines = Layout(per_line=2, width=4), ("   1   2", "   3    ", "   4   5")
+    layout, lines = FieldFormat(per_line=2, width=4), ("   1   2", "   3    ", "   4   5")
     assert fixed_rows(source(*lines), block(5, 3), layout).tolist() == [1, 2, 3, 4, 5]
     told = refused(fixed_values, source(*lines), block(6, 3), layout)
     assert told == ("a:2: found 1 value; give 2",)
@@ -85,7 +87,7 @@ def test_short_lines_are_allowed_only_where_they_are_asked_for():
 @pytest.mark.parametrize("field", ["1_0", "nan", "inf", "1e999", "", "1 2", "****", "٣"])
 def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field):
     lines = (f"{field:>8}       2", "       3       4")
-    layout = Layout(per_line=2, width=8)
+    layout = FieldFormat(per_line=2, width=8)
     (problem,) = refused(fixed_values, source(*lines), block(4, 2), layout)
     assert problem.startswith(f"a:1: found {field!r}")
 
@@ -101,12 +103,12 @@ def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field):
 )
 def test_counts_that_do_not_hold_are_told_at_the_line_of_the_promise(count, told):
     lines = source("   1   2", "   3   4", "no more")
-    problem = refused(fixed_values, lines, block(count, 3), Layout(per_line=2, width=4))[0]
+    problem = refused(fixed_values, lines, block(count, 3), FieldFormat(per_line=2, width=4))[0]
     assert problem.startswith(f"a:10: states {count} values, {told}")
 
 
 def test_unused_fields_of_a_heading_may_be_anything():
-    numbers = header_values(source("   1****", "    -2.5"), 0, 6, Layout(per_line=2, width=4))
+    numbers = header_values(source("   1****", "    -2.5"), 0, 6, FieldFormat(per_line=2, width=4))
     none, values = math.nan, [number.value for number in numbers]
     assert np.array_equal(values, [1.0, none, none, -2.5, none, none], equal_nan=True)
     assert [number.index for number in numbers] == [0, 0, 1, 1, 2, 2]

@@ -16,7 +16,7 @@ RUN = (
     "import numpy as np; from copied import one_axis as kernels; "
     "a = np.array([0.0, 4.0, 0.0, 0.0]); a.setflags(write=False); "
     "x = np.array([[0.0] * 3, [4.0] * 3]); "  # its bounds: one kernel less to compile
-    "print(kernels.least_normal(a, None, x, None, 0.1, 0.0, 1.0, 9.8, 1.0)[0])"
+    "print(kernels.minimum_normal(a, None, x, None, 0.1, 0.0, 1.0, 9.8, 1.0)[0])"
 )
 NO_FOLDER = "a file where the folder would be: nothing can be written there"
 

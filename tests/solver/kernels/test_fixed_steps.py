@@ -7,8 +7,8 @@ import pytest
 
 from solver.kernels import fixed_steps
 from solver.sliding import two_axes
+from solver.verification.model_checks import stopped_scene
 from solver.verification.plane_scipy import samples_of
-from solver.verification.rungs import stopped_scene
 
 
 def run(scene, substeps, holds):

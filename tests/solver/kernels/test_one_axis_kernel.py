@@ -28,7 +28,7 @@ LONG = [
 
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
-    names = "slide_exact", "fill_history", "least_normal", "bounds", "sweep_exact", "sweep_alone"
+    names = "slide_exact", "fill_history", "minimum_normal", "bounds", "sweep_exact", "sweep_alone"
     kernels = [getattr(one_axis, name) for name in names]
     exact, fill, normal, bounds, sweep, alone, peaks, oscillations = (
         f if compiled else getattr(f, "py_func", f)
@@ -87,6 +87,6 @@ def test_the_last_sample_of_a_record_of_any_length_is_seen(size, vertical):
     down, right = readonly(3.0 * ax), readonly(-3.0 * ax)
     for ax, az, sn, cs in ((level, down, 0.0, 1.0), (right, level, -1.0, 0.0)):
         bounds = one_axis.bounds(ax), one_axis.bounds(az)
-        least, first = one_axis.least_normal(ax, az, *bounds, 0.25, sn, cs, G, 1.0)
+        least, first = one_axis.minimum_normal(ax, az, *bounds, 0.25, sn, cs, G, 1.0)
         assert least == pytest.approx(cs - 1.2, rel=1e-12)
         assert first == pytest.approx(0.25 * (size - 2 + cs / 1.2), rel=1e-12)

@@ -34,7 +34,7 @@ def force(edition=E16, **given):
 
 def test_the_component_force_of_a_permit_sheet():
     found = force(s_ds_g=1.0504)
-    printed = [f"{value:.2f}" for value in (found.value, found.largest, found.least)]
+    printed = [f"{value:.2f}" for value in (found.value, found.maximum, found.minimum)]
     assert printed == ["0.84", "1.68", "0.32"]
     assert f"{approximate_period_s('other', 35 * FOOT_M):.3f}" == "0.288"
 
@@ -42,8 +42,8 @@ def test_the_component_force_of_a_permit_sheet():
 @pytest.mark.parametrize(("factor", "expected"), [(0.1, 0.45), (10.0, 2.4)])
 def test_the_component_force_keeps_within_its_limits(factor, expected):
     found = force(factor=factor, i_p=1.5)
-    assert found.value in (found.least, found.largest)
-    assert (found.least, found.largest) == pytest.approx((0.45, 2.4))
+    assert found.value in (found.minimum, found.maximum)
+    assert (found.minimum, found.maximum) == pytest.approx((0.45, 2.4))
     assert found.value == pytest.approx(expected)
 
 

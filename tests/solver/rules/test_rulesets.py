@@ -56,7 +56,7 @@ VALUE = RULE_SETS["SEAOC PV1-2012"].values["parapet_over_cg_in"]
 
 
 def test_a_number_that_limits_from_above_requires_less_where_it_is_larger():
-    most, least = Allowed(low=0, high=10, is_most=True), Allowed(low=0, high=10)
+    most, least = Allowed(low=0, high=10, is_maximum=True), Allowed(low=0, high=10)
     assert [most.lowers(value, 5.0) for value in (4.0, 5.0, 6.0)] == [False, False, True]
     assert [least.lowers(value, 5.0) for value in (4.0, 5.0, 6.0)] == [True, False, False]
 

@@ -1,4 +1,4 @@
-"""The choice of a model: each rung where it suffices, none where a fuller one matters."""
+"""The choice of a model: each model where it suffices, none where a fuller one matters."""
 
 import math
 from dataclasses import replace
@@ -141,7 +141,7 @@ def test_friction_by_speed_is_modelled_where_it_is_given():
     assert solution.result.prd_m < solve(scene(AX, AY, AZ, mu=0.3)).result.prd_m
 
 
-def test_a_forced_rung_is_run_and_tells_what_the_next_would_change():
+def test_a_forced_model_is_run_and_tells_what_the_next_would_change():
     models = Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL, Model.TWO_AXES
     solution, lifted, two = (solve(FULL, Settings(forced=model)) for model in models)
     assert solution.result == one_axis.run(FLAT)
@@ -167,7 +167,7 @@ def test_no_slip_forced_on_a_block_that_slips_is_refused():
 
 @pytest.mark.parametrize("ay", [(), AY], ids=["alone", "both"])
 @pytest.mark.parametrize("forced", [None, *list(Model)[:-1]])
-def test_where_the_normal_force_vanishes_no_rung_gives_a_number(ay, forced):
+def test_where_the_normal_force_vanishes_no_model_gives_a_number(ay, forced):
     solution = solve(scene(AX, ay, 4.0 * AZ), Settings(forced=forced))
     assert solution.result.status is Status.UPLIFT
     assert np.isnan([solution.result.prd_m, solution.result.error_m]).all()
@@ -193,7 +193,7 @@ def test_a_row_is_run_where_it_is_asked_for():
         (FULL, None),
     ],
 )
-def test_the_history_is_of_the_rung_that_was_chosen(run, forced):
+def test_the_history_is_of_the_model_that_was_chosen(run, forced):
     solution = solve(run, Settings(forced=forced))
     seen = history(run, solution, Settings(forced=forced))
     assert seen.result == solution.result
@@ -201,7 +201,7 @@ def test_the_history_is_of_the_rung_that_was_chosen(run, forced):
     assert far == pytest.approx(solution.result.prd_m, rel=0.01, abs=1e-12)
 
 
-def test_every_rung_has_a_name():
+def test_every_model_has_a_name():
     assert len({model.title for model in Model}) == len(Model)
 
 

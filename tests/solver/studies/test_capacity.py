@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from solver import solve
 from solver.model import coulomb
 from solver.studies.campaign import Campaign, grid
-from solver.studies.capacity import ACCURACY, COARSE_SCAN, SCAN, Curve, capacities, most_searched
+from solver.studies.capacity import ACCURACY, COARSE_SCAN, SCAN, Curve, capacities, maximum_searches
 from solver.studies.runs import Runner
 from studied import frozen, motion
 
@@ -175,7 +175,7 @@ def test_the_intensities_of_a_search_are_counted_and_are_no_more_than_is_said(st
         limits = [0.0, 0.02, 0.2]
         for capacity in capacities([curve], limits, LEVELS, is_censoring=False, steps=steps):
             assert capacity.searched.tolist() == [sum(ran)]
-        assert 0 < sum(ran) <= most_searched(limits, LEVELS, steps)
+        assert 0 < sum(ran) <= maximum_searches(limits, LEVELS, steps)
 
 
 @pytest.mark.parametrize("most", [0, 1, 3, 5])

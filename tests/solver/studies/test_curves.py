@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from solver.studies.curves import largest_slope, least_friction, statistics
+from solver.studies.curves import largest_slope, minimum_friction, statistics
 
 NONE = math.nan
 
@@ -45,7 +45,7 @@ def test_the_percentile_does_not_depend_on_a_missing_value_above_it():
     ],
 )
 def test_least_friction_is_above_what_exceeds_the_limit(prds_m, limit_m, expected):
-    found = least_friction(np.array([0.3, 0.4, 0.5]), np.array(prds_m), limit_m)
+    found = minimum_friction(np.array([0.3, 0.4, 0.5]), np.array(prds_m), limit_m)
     assert found == pytest.approx(expected, rel=1e-14, nan_ok=True)
 
 

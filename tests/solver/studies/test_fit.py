@@ -43,7 +43,7 @@ def test_data_that_follow_the_formula_give_its_coefficients():
 def test_the_error_is_that_of_the_data():
     found = fit_prd(*CASES, NOISY, ppa_g=PPA)
     assert found.sigma_ln == pytest.approx(0.2, rel=0.2)
-    assert found.least_ratio < 1.0 < found.greatest_ratio
+    assert found.minimum_ratio < 1.0 < found.maximum_ratio
 
 
 def test_the_errors_are_those_of_the_coefficients_as_printed():
@@ -53,8 +53,8 @@ def test_the_errors_are_those_of_the_coefficients_as_printed():
     assert found.ppa_g == 1.235
     fitted = (NOISY >= 0.005) & (yielding(*CASES, found.ppa_g) <= 0.9)
     ratio = (NOISY / formula(printed, *CASES, found.ppa_g))[fitted]
-    assert found.least_ratio == pytest.approx(ratio.min(), rel=1e-12)
-    assert found.greatest_ratio == pytest.approx(ratio.max(), rel=1e-12)
+    assert found.minimum_ratio == pytest.approx(ratio.min(), rel=1e-12)
+    assert found.maximum_ratio == pytest.approx(ratio.max(), rel=1e-12)
 
 
 @pytest.mark.parametrize(

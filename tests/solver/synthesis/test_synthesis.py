@@ -75,8 +75,8 @@ class TestSuite:
         # The fit itself is held against another way in `TestFit`.
         for record, wanted in components:
             fit = spectrum_fit(record, wanted)
-            assert fit.least >= 1.0
-            assert fit.greatest <= 1.30
+            assert fit.minimum >= 1.0
+            assert fit.maximum <= 1.30
             assert 1.0 <= fit.mean <= 1.07
 
     @pytest.mark.parametrize("count", [2, pytest.param(6, marks=pytest.mark.nightly)])
@@ -247,7 +247,7 @@ class TestFit:
         assert fit.freq_hz[-1] == 33.3
         ratio = psa_over(suites[0].x, HORIZONTAL, fit.freq_hz)
         assert fit.ratio == pytest.approx(ratio, rel=1e-4)
-        ratios = fit.least, fit.mean, fit.greatest
+        ratios = fit.minimum, fit.mean, fit.maximum
         assert ratios == pytest.approx((ratio.min(), ratio.mean(), ratio.max()), rel=1e-4)
 
     def test_scipy_finds_the_same_spectrum_by_a_state_space_model(self, suites):

@@ -10,7 +10,7 @@ from blocks import block, readonly
 from solver.model import coulomb
 from solver.sliding import one_axis
 from solver.verification import plane_scipy
-from solver.verification.rungs import stopped_scene
+from solver.verification.model_checks import stopped_scene
 from solver.verification.scenes import Case
 from solver.verification.triples import own_triples
 

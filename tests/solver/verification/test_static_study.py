@@ -5,14 +5,14 @@ import pytest
 
 from solver.model import STANDARD_GRAVITY_MPS2, coulomb
 from solver.sliding import one_axis, two_axes
-from solver.verification import rung_study, static_study
+from solver.verification import model_study, static_study
 from solver.verification.study import MODEL_CASES, TIGHT
 from solver.verification.triples import own_triples
 
 
 @pytest.fixture(scope="module")
 def evidence():
-    return rung_study.static(own_triples(True), quick=True)
+    return model_study.static(own_triples(True), quick=True)
 
 
 def test_each_scene_that_slides_is_in_every_row(evidence):

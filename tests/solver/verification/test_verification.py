@@ -34,7 +34,7 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.records == ("motion-01-x", "near-fault-pulse")
     v = verification
     parts = v.checks, v.work, v.maps, v.convergence, v.links, v.curves, v.conditioning, v.roofs
-    assert all(len(part) > 0 for part in (*parts, v.rungs))
+    assert all(len(part) > 0 for part in (*parts, v.models))
     assert len(verification.convergence) == len(verification.curves) == 2
     assert [(link.record, link.slope_deg) for link in verification.links] == [
         (record, slope) for record in verification.records for slope in (0.0, 4.0)
@@ -181,9 +181,9 @@ def test_the_least_friction_is_read_off_between_the_runs():
     )  # fmt: skip
     assert curves.prd(1.0, 0.5) == pytest.approx([4.0, 1.0, 2.0, 0.0])
     # From 0.4 to 0.5 it is within 1.5 too, but not from there on.
-    assert curves.least_mu(0.0, 1.0, 1.5) == pytest.approx(0.65)
-    assert curves.least_mu(0.0, 1.0, 5.0) == 0.2
-    assert math.isnan(curves.least_mu(0.0, 1.0, -1.0))
+    assert curves.minimum_mu(0.0, 1.0, 1.5) == pytest.approx(0.65)
+    assert curves.minimum_mu(0.0, 1.0, 5.0) == 0.2
+    assert math.isnan(curves.minimum_mu(0.0, 1.0, -1.0))
 
 
 def test_studies_of_the_paper_give_the_same_every_time(pulse):

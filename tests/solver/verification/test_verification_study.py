@@ -63,16 +63,16 @@ def test_a_run_and_its_history_are_those_of_a_slide():
 
 def test_repeats_end_early_where_they_take_long():
     calls = []
-    study.least_seconds(lambda: calls.append(0), enough_s=0.0)
+    study.minimum_seconds(lambda: calls.append(0), enough_s=0.0)
     assert len(calls) == 1
-    study.least_seconds(lambda: calls.append(0), enough_s=60.0)
+    study.minimum_seconds(lambda: calls.append(0), enough_s=60.0)
     assert len(calls) == 1 + study.REPEATS
 
 
 def test_the_least_time_is_that_of_the_fastest_repeat(monkeypatch):
     ticks = iter([0.0, 3.0, 10.0, 11.0, 20.0, 22.0, 30.0, 34.0, 40.0, 45.0])
     monkeypatch.setattr(study.time, "perf_counter", lambda: next(ticks))
-    assert study.least_seconds(lambda: None, enough_s=60.0) == 1.0
+    assert study.minimum_seconds(lambda: None, enough_s=60.0) == 1.0
 
 
 def test_nothing_unexplained_is_zero_and_no_motion_at_all_is_one():

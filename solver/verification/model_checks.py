@@ -1,6 +1,6 @@
 """Checks of the models against each other, closed forms and SciPy, one row for each value.
 
-Returns the same rows as `checks`. Read `rung_checks`.
+Returns the same rows as `checks`. Read `model_checks`.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ REFERENCE_SAMPLES = (61, 101)
 """Samples of the part of a motion that the SciPy reference integrates, quick and full."""
 
 
-def rung_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]:
+def model_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]:
     """Run the checks; the first motion, a generated one, is used where one motion is enough.
 
     Motions whose vertical component lifts the block in one of `MODEL_CASES` are excluded.
@@ -309,7 +309,7 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
     faint = faded(full, 1e-4)
     level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
-    for what, scene, rung in (
+    for what, scene, model in (
         ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Model.NO_SLIP),
         ("Second and vertical components negligible", level, Model.ONE_AXIS),
         ("Second component negligible", faint, Model.ONE_AXIS_VERTICAL),
@@ -322,7 +322,7 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
             "Number of the simplest sufficient model (section 12)",
             "Model chosen",
             "1",
-            float(rung),
+            float(model),
             float(least_model.solve(scene, Settings()).model),
             0.0,
         )

@@ -1,4 +1,4 @@
-"""Rung against rung: ratios of what the solver gives, small and lifted runs counted apart."""
+"""Model against model: ratios of what the solver gives, small and lifted runs counted apart."""
 
 import math
 from dataclasses import replace
@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from solver.sliding.checked import slide
-from solver.verification import rung_study
-from solver.verification.rung_evidence import (
+from solver.verification import model_study
+from solver.verification.model_evidence import (
     HELD,
     LEAST_M,
     OVER_SLOW,
@@ -17,14 +17,14 @@ from solver.verification.rung_evidence import (
     SOFT,
     STIFF,
     WORST,
-    RungChange,
+    ModelChange,
 )
 from solver.verification.triples import own_triples, readonly
 
 
 @pytest.fixture(scope="module")
 def study():
-    return rung_study.study(own_triples(True), quick=True)
+    return model_study.study(own_triples(True), quick=True)
 
 
 def test_every_run_is_counted(study):
@@ -65,26 +65,26 @@ def test_a_row_is_compared_with_a_rigid_array_of_its_mean_friction(study):
     assert stiff.ratios.size + stiff.n_small == study.n_runs // 8
     assert 1.0 < stiff.median < 1.1
     assert 1.0 < soft.median < 1.1
-    assert rung_study.row_of(0.4, 1e-3, 9.81).mean_mu == pytest.approx(0.4)
+    assert model_study.row_of(0.4, 1e-3, 9.81).mean_mu == pytest.approx(0.4)
 
 
 def test_lifted_runs_are_counted_and_not_compared():
     (triple,) = own_triples(True)
     lifting = replace(triple, z_mps2=readonly(20.0 * triple.z_mps2))
-    study = rung_study.study((lifting,), quick=True)
+    study = model_study.study((lifting,), quick=True)
     assert study.n_uplift == study.n_runs
     assert all(change.ratios.size == 0 and math.isnan(change.median) for change in study.changes)
     assert math.isnan(study.largest_error)
 
 
 def test_percentiles_and_the_share_above_one():
-    change = RungChange(name="x", ratios=np.array([0.5, 1.5, 2.0]), n_small=0, most_m=0.0)
+    change = ModelChange(name="x", ratios=np.array([0.5, 1.5, 2.0]), n_small=0, maximum_m=0.0)
     assert (change.median, change.at(0.0), change.at(100.0)) == (1.5, 0.5, 2.0)
     assert change.share_above_one == pytest.approx(2.0 / 3.0)
 
 
-def test_rungs_are_timed_against_the_first():
-    times = rung_study.times(own_triples(True)[0])
+def test_models_are_timed_against_the_first():
+    times = model_study.times(own_triples(True)[0])
     assert times[0].ratio == 1.0
-    assert len({rung.title for rung in times}) == 5
-    assert all(rung.ratio == pytest.approx(rung.seconds / times[0].seconds) for rung in times)
+    assert len({model.title for model in times}) == 5
+    assert all(model.ratio == pytest.approx(model.seconds / times[0].seconds) for model in times)

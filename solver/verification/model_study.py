@@ -1,6 +1,6 @@
 """Comparison of models: the same scenes by every model, and the run time of each.
 
-Read `rung_evidence`; the other functions compute its parts.
+Read `model_evidence`; the other functions compute its parts.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, RowResult, slide_row
 from solver.verification import plane_work
 from solver.verification.bound_study import bound_ratios
-from solver.verification.rung_evidence import (
+from solver.verification.model_evidence import (
     HELD,
     HELD_ONE,
     LEAST_M,
@@ -31,10 +31,10 @@ from solver.verification.rung_evidence import (
     STIFF,
     VERTICAL,
     WORST,
-    RungChange,
-    RungEvidence,
-    RungStudy,
-    RungTime,
+    ModelChange,
+    ModelEvidence,
+    ModelStudy,
+    ModelTime,
     StaticEvidence,
 )
 from solver.verification.static_study import held, static_evidence
@@ -42,7 +42,7 @@ from solver.verification.study import (
     MODEL_CASES,
     faded,
     grid,
-    least_seconds,
+    minimum_seconds,
     plane_prds,
     scenes_of,
 )
@@ -71,12 +71,12 @@ ORIENTATIONS = tuple(
 """Each horizontal component along the slope, in each sign."""
 
 
-def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
+def model_evidence(triples: Sequence[Triple], *, quick: bool) -> ModelEvidence:
     """Run all comparisons; accuracy and run times use the first motion."""
     scene, work = plane_work.work(triples[0], quick=quick)
     first = triples[0]
     length = (first.x_mps2.size - 1) * first.dt_s
-    return RungEvidence(
+    return ModelEvidence(
         study=study(triples, quick=quick),
         static=static(triples, quick=quick),
         bounds=bound_ratios(quick=quick),
@@ -88,7 +88,7 @@ def rung_evidence(triples: Sequence[Triple], *, quick: bool) -> RungEvidence:
     )
 
 
-def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
+def study(triples: Sequence[Triple], *, quick: bool) -> ModelStudy:
     """Run every scene of every motion with every orientation by every model."""
     slopes, mus, ppas = _axes(quick)
     row_ppa_g = ppas[len(ppas) // 2]
@@ -98,7 +98,7 @@ def study(triples: Sequence[Triple], *, quick: bool) -> RungStudy:
     answered = [result for result in results if not math.isnan(result.prd_m)]
     errors = (result.error_m / result.prd_m if result.prd_m else 0.0 for result in answered)
     changes = _changes(scenes, np.array([result.prd_m for result in results]), len(triples))
-    return RungStudy(
+    return ModelStudy(
         motions=tuple(triple.name for triple in triples),
         n_recorded=sum(triple.is_recorded for triple in triples),
         slopes_deg=tuple(slopes),
@@ -126,7 +126,7 @@ def static(triples: Sequence[Triple], *, quick: bool) -> StaticEvidence:
     return static_evidence(scenes_of(triples, grid(*_axes(quick))), 1.0 / SLOW_SHARE)
 
 
-def _changes(scenes: Sequence[Scene], plane_m: Floats, n_triples: int) -> Iterator[RungChange]:
+def _changes(scenes: Sequence[Scene], plane_m: Floats, n_triples: int) -> Iterator[ModelChange]:
     """Compare the models; the simpler ones use the low-velocity friction, as `least_model` does.
 
     `higher_m` uses at every velocity the coefficient that others have at high velocity or at rest.
@@ -157,20 +157,20 @@ def _worst_heading(prd_m: Floats, n_triples: int) -> Floats:
     return np.asarray(np.fmax.reduce(by_heading, axis=1).ravel())
 
 
-def _change(name: str, lesser_m: Floats, fuller_m: Floats) -> RungChange:
+def _change(name: str, lesser_m: Floats, fuller_m: Floats) -> ModelChange:
     """Compare the runs that both models answer."""
     answered = ~np.isnan(lesser_m + fuller_m)
     lesser, fuller = lesser_m[answered], fuller_m[answered]
     counted = np.minimum(lesser, fuller) >= LEAST_M
-    return RungChange(
+    return ModelChange(
         name=name,
         ratios=np.sort(fuller[counted] / lesser[counted]),
         n_small=int((~counted).sum()),
-        most_m=float(np.abs(fuller - lesser).max(initial=0.0)),
+        maximum_m=float(np.abs(fuller - lesser).max(initial=0.0)),
     )
 
 
-def _rows(scenes: Sequence[Scene]) -> Iterator[RungChange]:
+def _rows(scenes: Sequence[Scene]) -> Iterator[ModelChange]:
     """Compare the largest PRD of the blocks of a row with the row as one rigid array."""
     for name, stretch_m in STRETCHES_M.items():
         results = [_slide_row(scene, stretch_m) for scene in scenes]
@@ -202,24 +202,24 @@ def by_speed(mu_slow: float) -> Friction:
     )
 
 
-def times(triple: Triple) -> tuple[RungTime, ...]:
+def times(triple: Triple) -> tuple[ModelTime, ...]:
     """Time every model on the scenes `MODEL_CASES`; the first two share one solver."""
     medians = []
-    for title, run, law, second, vertical in _RUNGS:
+    for title, run, law, second, vertical in _MODELS:
         scenes = [
             triple.scene(case, law(case.mu), second=second, vertical=vertical)
             for case in MODEL_CASES
         ]
-        each = [least_seconds(partial(run, scene)) for scene in scenes]
+        each = [minimum_seconds(partial(run, scene)) for scene in scenes]
         medians.append((title, statistics.median(each)))
     return tuple(
-        RungTime(title=title, seconds=seconds, ratio=seconds / medians[0][1])
+        ModelTime(title=title, seconds=seconds, ratio=seconds / medians[0][1])
         for title, seconds in medians
     )
 
 
-_RUNGS: tuple[tuple[str, Callable[[Scene], object], Callable[[float], Friction], bool, bool], ...]
-_RUNGS = (
+_MODELS: tuple[tuple[str, Callable[[Scene], object], Callable[[float], Friction], bool, bool], ...]
+_MODELS = (
     ("One axis", one_axis.run, coulomb, False, False),
     ("One axis with vertical", one_axis.run, coulomb, False, True),
     ("Two axes with vertical", two_axes.run, coulomb, True, True),

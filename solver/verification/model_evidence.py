@@ -1,6 +1,6 @@
 """Results of the comparison of models as frozen records: ratios, accuracy, run times.
 
-Computes only ratios. See `solver.verification.rung_study` for what fills them.
+Computes only ratios. See `solver.verification.model_study` for what fills them.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ OVER_STATIC = "Static and kinetic μ / static μ"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RungChange:
+class ModelChange:
     """Effect of a fuller model on the PRD, over many runs.
 
     Attributes
@@ -34,14 +34,14 @@ class RungChange:
         `LEAST_M` or more.
     n_small : int
         Number of the other runs.
-    most_m : float
+    maximum_m : float
         Largest change of the PRD, of either sign, over all runs [m].
     """
 
     name: str
     ratios: Floats
     n_small: int
-    most_m: float
+    maximum_m: float
 
     def at(self, percent: float) -> float:
         """Return a percentile of the ratios; NaN where there are none."""
@@ -59,7 +59,7 @@ class RungChange:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RungStudy:
+class ModelStudy:
     """The same scenes by every model.
 
     Attributes
@@ -74,7 +74,7 @@ class RungStudy:
         its rate. The same share is kinetic over static friction where they differ.
     n_runs, n_uplift : int
         Scenes times motions and headings, and the runs in which the normal force vanishes.
-    changes : tuple of RungChange
+    changes : tuple of ModelChange
         `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `HELD_ONE`, `HELD`,
         `OVER_STATIC`, `STIFF` and `SOFT`.
     row_ppa_g : float
@@ -94,12 +94,12 @@ class RungStudy:
     rate_s_per_m: float
     n_runs: int
     n_uplift: int
-    changes: tuple[RungChange, ...]
+    changes: tuple[ModelChange, ...]
     row_ppa_g: float
     row_shares: tuple[float, ...]
     largest_error: float
 
-    def named(self, name: str) -> RungChange:
+    def named(self, name: str) -> ModelChange:
         """Return the change with that name."""
         return next(change for change in self.changes if change.name == name)
 
@@ -256,7 +256,7 @@ class StopPoint:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RungTime:
+class ModelTime:
     """Run time of a model relative to the others.
 
     Attributes
@@ -274,12 +274,12 @@ class RungTime:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RungEvidence:
+class ModelEvidence:
     """The complete comparison of models.
 
     Attributes
     ----------
-    study : RungStudy
+    study : ModelStudy
     static : StaticEvidence
     bounds : tuple of BoundRatios
     work_scene : str
@@ -287,14 +287,14 @@ class RungEvidence:
     stops : tuple of StopPoint
     times_motion : str
         Name, length and time step of the motion used for `times`.
-    times : tuple of RungTime
+    times : tuple of ModelTime
     """
 
-    study: RungStudy
+    study: ModelStudy
     static: StaticEvidence
     bounds: tuple[BoundRatios, ...]
     work_scene: str
     work: tuple[PlaneWork, ...]
     stops: tuple[StopPoint, ...]
     times_motion: str
-    times: tuple[RungTime, ...]
+    times: tuple[ModelTime, ...]

@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.scales import decades
 from report.words.letters import lettered
-from solver.verification.rung_evidence import BoundRatios, PlaneWork, RungChange
+from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneWork
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _DOT = "#9a9a9a"
@@ -22,7 +22,7 @@ _SPREAD = 0.31
 """Vertical spread of the dots of a row, to each side of its center line."""
 
 
-def changes(studied: Sequence[RungChange]) -> str:
+def changes(studied: Sequence[ModelChange]) -> str:
     """Return a row for each change: a dot for each run, a bar for 10 to 90 %, a median mark."""
     height = 0.5 + 0.31 * len(studied)
     with style():
@@ -46,7 +46,7 @@ def changes(studied: Sequence[RungChange]) -> str:
         return svg_text(figure)
 
 
-def _row(axes: Any, row: int, change: RungChange) -> None:
+def _row(axes: Any, row: int, change: ModelChange) -> None:
     if not change.ratios.size:
         return
     # Golden-ratio offsets: the same in every run, and equal values do not overlap.
@@ -103,7 +103,7 @@ def work(points: Sequence[PlaneWork]) -> str:
         axes.set_xscale("log")
         axes.set_yscale("log")
         decades(axes.xaxis)
-        decades(axes.yaxis, most=8)
+        decades(axes.yaxis, maximum=8)
         axes.grid(True, color=PALE)
         axes.set_axisbelow(True)
         bare(axes)
@@ -141,7 +141,7 @@ def bounds(groups: Sequence[BoundRatios]) -> str:
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlim(LEAST_RATIO, 10.0)
-        decades(axes.xaxis, most=8)
+        decades(axes.xaxis, maximum=8)
         decades(axes.yaxis)
         axes.grid(True, color=PALE)
         axes.set_axisbelow(True)

@@ -11,13 +11,13 @@ import pytest
 
 import printed
 from report.figures.base import load_fonts
-from report.manual.rungs import rungs
+from report.manual.models import models
 from report.manual.summary import summary
 from report.manual.table import verification_csv
 from report.typeset.pdf import TEMPLATES
 from report.words.formats import percent
-from solver.verification import rung_study
-from solver.verification.rung_evidence import HELD, SECOND
+from solver.verification import model_study
+from solver.verification.model_evidence import HELD, SECOND
 from solver.verification.triples import own_triples
 from verified import only
 
@@ -30,13 +30,13 @@ TWO_AXES = "PRD in two axes relative to one axis, median"
 @pytest.fixture(scope="module")
 def evidence():
     load_fonts(TEMPLATES / "fonts")
-    return rung_study.rung_evidence(own_triples(True), quick=True)
+    return model_study.model_evidence(own_triples(True), quick=True)
 
 
 def page(evidence):
     """The section on the models below the summary."""
-    found = only(rungs=(evidence,))
-    return printed.manual(found, summary(found), rungs(found))
+    found = only(models=(evidence,))
+    return printed.manual(found, summary(found), models(found))
 
 
 @pytest.fixture(scope="module")
@@ -108,13 +108,13 @@ def test_what_differs_in_another_run_is_told(evidence, changed, wanted, unsaid):
 
 
 def test_the_charts_are_the_same_every_time(evidence):
-    first, other = (rungs(only(rungs=(evidence,))).charts for _ in range(2))
+    first, other = (models(only(models=(evidence,))).charts for _ in range(2))
     assert first == other
     assert len(first) == 3
 
 
 def test_the_runs_are_in_the_table_of_the_verification(evidence):
-    table = pd.read_csv(io.BytesIO(verification_csv(only(rungs=(evidence,)))))
+    table = pd.read_csv(io.BytesIO(verification_csv(only(models=(evidence,)))))
     assert set(table["kind"]) == {"run in two axes"}
     assert list(table["PRD error [%]"]) == pytest.approx(
         [point.error_percent for point in evidence.work], rel=1e-12

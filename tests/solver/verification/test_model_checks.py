@@ -5,14 +5,14 @@ from dataclasses import replace
 import pytest
 
 from solver.sliding import two_axes
-from solver.verification import rungs
+from solver.verification import model_checks
 from solver.verification.checks import SECTIONS
 from solver.verification.triples import own_triples, readonly
 
 
 @pytest.fixture(scope="module")
 def rows():
-    return list(rungs.rung_checks(own_triples(True), quick=True))
+    return list(model_checks.model_checks(own_triples(True), quick=True))
 
 
 def test_every_check_passes(rows):
@@ -21,7 +21,7 @@ def test_every_check_passes(rows):
     assert {row.section for row in rows} == {SECTIONS["TA"]}
 
 
-def test_each_rung_is_chosen_once(rows):
+def test_each_model_is_chosen_once(rows):
     assert [row.computed for row in rows if row.quantity == "Model chosen"] == [0, 1, 2, 3, 4]
 
 
@@ -39,7 +39,9 @@ def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
         return replace(result, prd_m=result.prd_m * (1.0 + 1e-6))
 
     monkeypatch.setattr(two_axes, "run", off)
-    failed = [row for row in rungs.rung_checks(own_triples(True), quick=True) if not row.passed]
+    failed = [
+        row for row in model_checks.model_checks(own_triples(True), quick=True) if not row.passed
+    ]
     assert any(row.problem.startswith("No cross-slope") for row in failed)
     assert any(row.problem.startswith("One component rotated") for row in failed)
 
@@ -47,5 +49,5 @@ def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
 def test_a_motion_whose_vertical_lifts_the_block_is_left_out():
     (triple,) = own_triples(True)
     lifting = replace(triple, name="lifting", z_mps2=readonly(9.0 * triple.z_mps2))
-    rows = rungs.rung_checks((triple, lifting), quick=True)
+    rows = model_checks.model_checks((triple, lifting), quick=True)
     assert not any("lifting" in row.problem for row in rows)

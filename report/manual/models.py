@@ -11,14 +11,14 @@ import numpy as np
 from report.document.sections import Section
 from report.document.tables import Column, by_name, listed
 from report.entities.shown import plain, text, words
-from report.figures import rungs as figures
+from report.figures import models as figures
 from report.figures.scales import power_of_ten
 from report.words.formats import general, percent, scientific, seconds, ten_digits, two_digits
 from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Floats
 from solver.verification.evidence import Verification
-from solver.verification.rung_evidence import (
+from solver.verification.model_evidence import (
     HELD,
     HELD_ONE,
     LEAST_M,
@@ -27,8 +27,8 @@ from solver.verification.rung_evidence import (
     OVER_STATIC,
     SECOND,
     WORST,
+    ModelEvidence,
     PlaneWork,
-    RungEvidence,
     StaticEvidence,
 )
 from solver.verification.static_study import (
@@ -51,7 +51,7 @@ _CHANGE = (
     (plain("Largest"), lambda change: change.at(100.0)),
     (plain("Above 1", 0, "%"), lambda change: 100.0 * change.share_above_one),
     (text("Excluded", share=1.1), lambda change: change.n_small),
-    (plain("Largest change", 0, "mm", 1.3), lambda change: 1e3 * change.most_m),
+    (plain("Largest change", 0, "mm", 1.3), lambda change: 1e3 * change.maximum_m),
 )
 
 _TIME = (
@@ -98,12 +98,12 @@ _PUSHED = (
 )
 
 
-def rungs(verification: Verification) -> Section:
+def models(verification: Verification) -> Section:
     """Return the comparison of the models."""
     return Section(
-        id="rungs",
+        id="models",
         title="Models: one axis, two axes and rows of blocks",
-        template="manual/rungs.html",
+        template="manual/models.html",
         content={
             "LEAST_M": LEAST_M,
             "CHANGED": CHANGED,
@@ -112,11 +112,11 @@ def rungs(verification: Verification) -> Section:
             "PUSHED_BACK_G": PUSHED_BACK_G,
             "PUSHED_TOLERANCE": PUSHED_TOLERANCE,
             "least_ratio": power_of_ten(figures.LEAST_RATIO),
-            "models": [(evidence, _found(evidence)) for evidence in verification.rungs],
+            "models": [(evidence, _found(evidence)) for evidence in verification.models],
         },
         charts={
             name: svg
-            for evidence in verification.rungs
+            for evidence in verification.models
             for name, svg in (
                 ("rungs-changes", figures.changes(evidence.study.changes)),
                 ("rungs-work", figures.work(evidence.work)),
@@ -126,7 +126,7 @@ def rungs(verification: Verification) -> Section:
     )
 
 
-def _found(evidence: RungEvidence) -> Mapping[str, Any]:
+def _found(evidence: ModelEvidence) -> Mapping[str, Any]:
     """Return the changes that the words name, and the tables."""
     study, static = evidence.study, evidence.static
     return {
