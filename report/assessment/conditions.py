@@ -156,7 +156,8 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
     required = NO_DESIGN
     if not math.isnan(neighbor.required_m):
         up = rounding(neighbor.required_m, neighbor.gap_m, Quantity.SIZE)
-        required = f"≥ {pair(neighbor.required_m, Quantity.SIZE, us_first, shown)}{up}"
+        least = pair(neighbor.required_m, Quantity.SIZE, us_first, shown)
+        required = f"≥ {least}{neighbor.mark}{up}"
     return f"{NOT_GIVEN}; {gap} in plan", required
 
 

@@ -16,7 +16,7 @@ from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
-from report.assessment.clearances import ClearanceCheck, check_clearance, least_gap_m
+from report.assessment.clearances import ClearanceCheck, check_clearance, least_gap
 from report.assessment.conditions import (
     MOTIONS_ID,
     array_rows,
@@ -163,9 +163,18 @@ class Assessment:
     @property
     def is_overridden(self) -> bool:
         """Whether an override or a departure changes a design displacement or a separation."""
-        return any(item.design_mark for item in self.arrays) or any(
-            gap.mark for gap in self.clearances
+        return any(
+            (
+                *(item.design_mark for item in self.arrays),
+                *(gap.mark for gap in self.clearances),
+                *(gap.mark for gap in self.missing_gaps),
+            )
         )
+
+    @property
+    def missing_gaps(self) -> tuple[PlanNeighbor, ...]:
+        """The gaps of the plan without a clearance that are not known to be sufficient."""
+        return tuple(near for near in self.neighbors if near.is_short)
 
     def rows_of(self, subject: str) -> Sequence[Row]:
         """Return the rows about an array or a motion."""
@@ -305,7 +314,7 @@ def _assess(
         qualify = acceptance.qualifies
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    required = partial(least_gap_m, data, rules, arrays)
+    required = partial(least_gap, data, rules, arrays)
     nearby = neighbors(data, arrays, sheet.addresses, required)
     return Assessment(
         sheet=sheet,
