@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from report.assessment.verdict import NOT_GIVEN, Row, Verdict
+from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     ]
 
 
-def _of_row(row: Row) -> str:
+def _of_row(row: Requirement) -> str:
     is_missing = row.id == "neighbors" and row.found.startswith(NOT_GIVEN)
     return f"{_lowered(row.title)}{f' {NOT_GIVEN}' if is_missing else ''}"
 

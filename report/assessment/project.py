@@ -27,7 +27,6 @@ from report.assessment.conditions import (
     route_row,
 )
 from report.assessment.friction import SHIFT, with_friction
-from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_velocity import (
     NOT_BY_VELOCITY,
     LowVelocity,
@@ -42,7 +41,7 @@ from report.assessment.precheck import rule_set_of
 from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
-from report.assessment.verdict import BY_CONSEQUENCE, Row, Verdict, worst
+from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.read import Sheet
@@ -77,7 +76,7 @@ class Assessment:
         What the plan shows near each array, with its clearances.
     acceptance : Acceptance
         Limits on the motions as run, at the roof.
-    rows : tuple of Row
+    rows : tuple of Requirement
         Requirements beside the numeric limits, of the project, its motions and its arrays.
     less : Assessment or None
         The same with less friction, from runs that tell whether clearances are satisfied
@@ -100,7 +99,7 @@ class Assessment:
     linked: tuple[LinkedArray, ...]
     neighbors: tuple[PlanNeighbor, ...]
     acceptance: Acceptance
-    rows: tuple[Row, ...]
+    rows: tuple[Requirement, ...]
     less: Assessment | None
     low_velocity: LowVelocity
     solver_seconds: float
@@ -156,7 +155,7 @@ class Assessment:
         )
 
     @property
-    def conditions(self) -> tuple[Row, ...]:
+    def conditions(self) -> tuple[Requirement, ...]:
         """The rows that are not satisfied, whatever follows from them."""
         return tuple(row for row in self.rows if not row.is_satisfied)
 
@@ -176,7 +175,7 @@ class Assessment:
         """The gaps of the plan without a clearance that are not known to be sufficient."""
         return tuple(near for near in self.neighbors if near.is_short)
 
-    def rows_of(self, subject: str) -> Sequence[Row]:
+    def rows_of(self, subject: str) -> Sequence[Requirement]:
         """Return the rows about an array or a motion."""
         return [row for row in self.rows if row.subject == subject]
 
@@ -336,8 +335,7 @@ def _assess(
         acceptance=acceptance,
         rows=(
             *project_rows(data, shaking.prepared),
-            *friction_rows(data),
-            *motion_rows(acceptance, arrays),
+            *motion_rows(acceptance, (item.route for item in arrays)),
             *(row for item in arrays for row in array_rows(data, item)),
             *(velocity_rows(data, arrays, slower) if less else ()),
             *plan_rows(data, nearby),
@@ -351,7 +349,7 @@ def _assess(
 
 def _friction_rows(
     arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], less: Assessment
-) -> Sequence[Row]:
+) -> Sequence[Requirement]:
     """Return the routes and clearances whose verdict less friction changes."""
     routes = zip(arrays, less.arrays, strict=True)
     gaps = zip(clearances, less.clearances, strict=True)

@@ -10,11 +10,10 @@ from typing import Any
 
 from report.assessment.precheck import findings
 from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
 from report.entities.shown import Entity
 from report.sheet.fields import Level
 from report.sheet.findings import located
-from solver.rules.limit import Consequence, Limit
+from solver.rules.limit import Limit
 
 
 class FindingResult(Entity):
@@ -25,21 +24,6 @@ class FindingResult(Entity):
     cell: str
     text: str
     reason: str
-
-
-class RequirementResult(Entity):
-    """A requirement beside the numeric limits, with its verdict."""
-
-    id: str
-    title: str
-    found: str
-    limit: str
-    basis: str
-    is_satisfied: bool
-    consequence: Consequence
-    subject: str
-    remedy: str
-    verdict: Verdict
 
 
 def finding_results(assessment: Assessment) -> Iterator[FindingResult]:

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import Requirement, Verdict
 from report.entities.array import ArrayResult, LowVelocityResult, array_result
 from report.entities.clearance import ClearanceResult
 from report.entities.evidence import (
@@ -27,7 +27,6 @@ from report.entities.linked import LinkedResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, motion_result
 from report.entities.requirement import (
     FindingResult,
-    RequirementResult,
     acceptance,
     finding_results,
     limit,
@@ -61,7 +60,7 @@ class Compared(Entity):
     input: ProjectInput
     rule_set: str
     verdict: Verdict
-    requirements: tuple[RequirementResult, ...]
+    requirements: tuple[Requirement, ...]
     arrays: tuple[ArrayResult, ...]
     clearances: tuple[ClearanceResult, ...]
 
