@@ -41,6 +41,10 @@ def test_the_schema_names_every_key_that_is_written_and_no_other(content):
         model = schema["$defs"][models[key]["items"]["$ref"].rpartition("/")[2]]
         assert set(rows[key][0]) == set(model["properties"]), key
         assert set(rows[key][0]) == set(model["required"]), key
+    for key in ("building_checks", "acceptance", "remedies"):
+        model = schema["$defs"][models[key]["items"]["$ref"].rpartition("/")[2]]
+        for row in written[key]:
+            assert set(model["required"]) <= set(row) <= set(model["properties"]), key
     assert schema["$defs"]["RunResult"]["properties"]["prd_m"]["type"] == ["number", "null"]
 
 
