@@ -196,9 +196,8 @@ def _unscalable(
         if field in records and not records[field].a_mps2.any():
             goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
             text = f"{LABELS[field]} record is all zeros and cannot be scaled to {goal}"
-            yield Finding.error(
-                Place("motions", index, field), text, "change the record or scaling"
-            )
+            wanted = "change the record or scaling"
+            yield Finding.error(Place("motions", index, field), text, wanted)
 
 
 def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:

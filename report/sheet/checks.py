@@ -112,10 +112,8 @@ def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
     if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
         return
     most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
-    text = f"slope is {value:g} {unit}"
-    yield Finding.error(
-        Place("arrays", index, "slope_value"), text, f"give 0 to less than {most} {unit}"
-    )
+    wanted = f"give 0 to less than {most} {unit}"
+    yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", wanted)
 
 
 def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
@@ -126,18 +124,12 @@ def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
     mu, static, model = row["mu"], row["mu_static"], row["model"]
     if static is not None and static < mu:
         text = f"static friction is {static:g}"
-        yield Finding.error(
-            Place("arrays", index, "mu_static"),
-            text,
-            f"give the friction coefficient, {mu:g}, or more",
-        )
+        wanted = f"give the friction coefficient, {mu:g}, or more"
+        yield Finding.error(Place("arrays", index, "mu_static"), text, wanted)
     if _by_speed(row) and model is not ModelChoice.CHOOSE:
         text = f"model is '{model}', which neglects velocity-dependent and static friction"
-        yield Finding.error(
-            Place("arrays", index, "model"),
-            text,
-            f"select '{ModelChoice.CHOOSE}', or leave high-velocity and static friction blank",
-        )
+        wanted = f"select '{ModelChoice.CHOOSE}', or leave high-velocity and static friction blank"
+        yield Finding.error(Place("arrays", index, "model"), text, wanted)
 
 
 def _by_speed(array: DraftRow) -> list[str]:
@@ -185,9 +177,8 @@ def _room(
     array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == other:
         text = f"object is '{other}', the array itself"
-        yield Finding.error(
-            Place("clearances", index, "object"), text, "give an object or another array"
-        )
+        wanted = "give an object or another array"
+        yield Finding.error(Place("clearances", index, "object"), text, wanted)
         return
     a, b = (shapes.get(str(name)) for name in (array, other))
     if a is None or b is None or provided is None:
@@ -235,10 +226,8 @@ def _blocks(
     """Yield errors in the coefficients of a row, and inconsistencies with its array."""
     mus = coefficients(text)
     if not mus:
-        wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points"
-        yield Finding.error(
-            place, f"block friction is '{text}'", f"{wanted}, such as 0.40, 0.45, 0.50"
-        )
+        wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
+        yield Finding.error(place, f"block friction is '{text}'", f"{wanted}, 0.50")
         return
     mu = draft["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):

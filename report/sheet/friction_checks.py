@@ -45,9 +45,8 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
         if first != index:
             at = where(Place("friction_runs", first, "number"))
             text = f"run is {number}, {surface}, already given at {at}"
-            yield Finding.error(
-                Place("friction_runs", index, "number"), text, "give another number"
-            )
+            wanted = "give another number"
+            yield Finding.error(Place("friction_runs", index, "number"), text, wanted)
 
 
 def _tested(draft: Draft) -> tuple[Series, ...]:

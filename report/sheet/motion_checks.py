@@ -51,20 +51,13 @@ def _scale_value(index: int, row: DraftRow) -> Iterator[Finding]:
 def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
-        text = f"end time is {end:g} s"
-        yield Finding.error(
-            Place("motions", index, "to_s"),
-            text,
-            f"give more than the start time, {start or 0.0:g} s",
-        )
+        wanted = f"give more than the start time, {start or 0.0:g} s"
+        yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", wanted)
     high, low = row.get("highpass_hz"), row.get("lowpass_hz")
     if high is not None and low is not None and low <= high:
         text = f"low-pass corner is {low:g} Hz"
-        yield Finding.error(
-            Place("motions", index, "lowpass_hz"),
-            text,
-            f"give more than the high-pass corner, {high:g} Hz",
-        )
+        wanted = f"give more than the high-pass corner, {high:g} Hz"
+        yield Finding.error(Place("motions", index, "lowpass_hz"), text, wanted)
 
 
 def _building(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -74,9 +67,8 @@ def _building(draft: Draft, where: Where) -> Iterator[Finding]:
         if second is not None and (first is None or second > first):
             longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
             text = f"period T2 is {second:g} s"
-            yield Finding.error(
-                Place("building", 0, "period_2_s"), text, f"give {longest}, or leave it blank"
-            )
+            wanted = f"give {longest}, or leave it blank"
+            yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
     if ground is not None:
         yield from _stories(draft)
 
@@ -106,16 +98,13 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
         if after - before <= 1e-9 * after:
             at = where(Place("spectrum", first, "period_s"))
             text = f"period is {after:g} s, already given at {at}"
-            yield Finding.error(
-                Place("spectrum", second, "period_s"), text, "give each period once"
-            )
+            wanted = "give each period once"
+            yield Finding.error(Place("spectrum", second, "period_s"), text, wanted)
     verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
     if any(verticals) and not all(verticals):
         index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
-        text = "vertical is missing"
-        yield Finding.error(
-            Place("spectrum", index, "vertical_g"), text, "give it in every row, or in none"
-        )
+        wanted = "give it in every row, or in none"
+        yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", wanted)
 
 
 def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -126,9 +115,8 @@ def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
         return
     if end <= start:
         text = f"longest scaling period is {end:g} s"
-        yield Finding.error(
-            Place("target", 0, "to_s"), text, f"give more than the shortest, {start:g} s"
-        )
+        wanted = f"give more than the shortest, {start:g} s"
+        yield Finding.error(Place("target", 0, "to_s"), text, wanted)
         return
     scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
     for index in scaled:
@@ -189,9 +177,8 @@ def _transition(site: DraftRow, target: DraftRow) -> Iterator[Finding]:
     t_s = None if parameters is None else parameters.t_s
     if t_s is not None and target["t_l_s"] <= t_s:
         text = f"long-period transition T_L is {target['t_l_s']:g} s"
-        yield Finding.error(
-            Place("target", 0, "t_l_s"), text, f"give more than T_S = S_D1/S_DS = {t_s:.3g} s"
-        )
+        wanted = f"give more than T_S = S_D1/S_DS = {t_s:.3g} s"
+        yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
 
 
 def _s_d1(site: DraftRow) -> float | None:

@@ -140,10 +140,8 @@ def _in_order(
             continue
         given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
         at = where(Place(section, index, first))
-        text = f"{_label(last)} is {given}"
-        yield Finding.error(
-            Place(section, index, last), text, f"give more than {_label(first)} in {at}, {least}"
-        )
+        wanted = f"give more than {_label(first)} in {at}, {least}"
+        yield Finding.error(Place(section, index, last), f"{_label(last)} is {given}", wanted)
 
 
 def _label(side: str) -> str:
@@ -198,9 +196,8 @@ def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
         if before != index - 1:
             at = where(Place("outlines", before, "name"))
             text = f"outline of '{name}' goes on here after {at}"
-            yield Finding.error(
-                Place("outlines", index, "name"), text, "put all of its rows together"
-            )
+            wanted = "put all of its rows together"
+            yield Finding.error(Place("outlines", index, "name"), text, wanted)
         last[name.casefold()] = index
 
 
@@ -236,9 +233,8 @@ def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
             if found is not None:
                 text = f"{array.get('id')} is outside the roof near {spot(found, us_first(draft))}"
                 place = Place("arrays", index, "x_from_m") if own is None else own.place
-                yield Finding.error(
-                    place, text, f"correct it, or the outline of the roof at {where(at)}"
-                )
+                wanted = f"correct it, or the outline of the roof at {where(at)}"
+                yield Finding.error(place, text, wanted)
 
 
 def _beyond(
@@ -250,13 +246,10 @@ def _beyond(
         if value is None or (value >= edge if is_low else value <= edge):
             continue
         given, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
-        wanted = f"give {limit} or {'more' if is_low else 'less'}"
+        inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
         text = f"{_label(side)} is {given}, outside the roof"
-        yield Finding.error(
-            Place("arrays", index, side),
-            text,
-            f"{wanted}, or correct the outline at {where(Place('roof', 0, side))}",
-        )
+        wanted = f"give {limit} or {inside}, or correct the outline at {at}"
+        yield Finding.error(Place("arrays", index, side), text, wanted)
 
 
 @dataclass(frozen=True, slots=True)

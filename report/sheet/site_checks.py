@@ -72,11 +72,8 @@ def _importance(row: DraftRow) -> Iterator[Finding]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
-    yield Finding.error(
-        Place("site", 0, "i_e"),
-        f"importance factor I_e is {i_e:g}",
-        f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}",
-    )
+    wanted = f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
+    yield Finding.error(Place("site", 0, "i_e"), f"importance factor I_e is {i_e:g}", wanted)
 
 
 def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
@@ -84,19 +81,15 @@ def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     rule_set = row["rule_set"]
     if rule_set in hazard.EDITIONS and rule_set != edition.name:
         text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"
-        yield Finding.error(
-            Place("site", 0, "edition_name"), text, "leave it blank, or correct one"
-        )
+        wanted = "leave it blank, or correct one"
+        yield Finding.error(Place("site", 0, "edition_name"), text, wanted)
     if edition.has_site_coefficients:
         return
-    for field, label, wanted in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
+    for field, label, other in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
         if row.get(field) is not None:
             text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients"
-            yield Finding.error(
-                Place("site", 0, field),
-                text,
-                f"leave it blank and give {wanted} from a hazard tool",
-            )
+            wanted = f"leave it blank and give {other} from a hazard tool"
+            yield Finding.error(Place("site", 0, field), text, wanted)
 
 
 def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
@@ -127,9 +120,8 @@ def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Findi
     ):
         if given is not None and derived is not None and abs(given - derived) > AGREES_G:
             text = f"{label} is {given:g} g, but {words} is {derived:.4f} g"
-            yield Finding.error(
-                Place("site", 0, name), text, "leave one of them blank, or correct it"
-            )
+            wanted = "leave one of them blank, or correct it"
+            yield Finding.error(Place("site", 0, name), text, wanted)
             return
 
 
@@ -141,9 +133,8 @@ def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     site_class = row.get("site_class")
     if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
         text = f"site class is '{site_class}', which {edition.name} does not have"
-        yield Finding.error(
-            Place("site", 0, "site_class"), text, f"give one of {', '.join(F_A.rows)}"
-        )
+        wanted = f"give one of {', '.join(F_A.rows)}"
+        yield Finding.error(Place("site", 0, "site_class"), text, wanted)
 
 
 def _below_table(
@@ -215,8 +206,5 @@ def _sdc(row: DraftRow) -> Iterator[Finding]:
         key=lambda table: table[0],
     )
     if sdc < least:
-        yield Finding.error(
-            Place("site", 0, "sdc"),
-            f"seismic design category is '{sdc}'",
-            f"{reason} in risk category {risk_category} requires {least} or higher ({clause})",
-        )
+        wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
+        yield Finding.error(Place("site", 0, "sdc"), f"seismic design category is '{sdc}'", wanted)

@@ -158,9 +158,8 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
 def _too_many(campaign: Campaign) -> Iterator[Finding]:
     place = Place("study", 0, "intensities")
     if len(campaign.cases) > MOST_CASES:
-        yield Finding.error(
-            place, f"make {len(campaign.cases):,} cases", f"give at most {MOST_CASES:,}"
-        )
+        wanted = f"give at most {MOST_CASES:,}"
+        yield Finding.error(place, f"make {len(campaign.cases):,} cases", wanted)
     elif campaign.rows > MOST_RUNS:
         yield Finding.error(place, f"make {campaign.rows:,} runs", f"give at most {MOST_RUNS:,}")
 

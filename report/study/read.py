@@ -239,9 +239,8 @@ def _about_motions(study: Any, draft: Draft) -> Iterator[Finding]:
             yield _at("folder", "no folder and no row on the sheet Motions")
     is_ground = study.get("recorded_at") is RecordedAt.GROUND
     if is_ground and not draft["buildings"]:
-        yield Finding.error(
-            Place("buildings"), "ground motions need at least one building", "fill in a row"
-        )
+        wanted = "fill in a row"
+        yield Finding.error(Place("buildings"), "ground motions need at least one building", wanted)
     if "recorded_at" in study and not is_ground and draft["buildings"]:
         yield Finding.error(
             Place("buildings", 0, "id"),
