@@ -30,16 +30,7 @@ STEPS = 5
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A step of `make`.
-
-    Attributes
-    ----------
-    doing : str
-    cost : str
-        What it takes, where that is long.
-    hint : str
-        What to know of it on a terminal otherwise.
-    """
+    """A step of `make`: what it takes where that is long, or else a hint for a terminal."""
 
     doing: str
     cost: str = ""

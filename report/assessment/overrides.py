@@ -19,6 +19,7 @@ from report.sheet.schema import (
     provision_name,
     provision_unit,
 )
+from report.words.counts import lowered
 from solver.rules.limit import Consequence
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet
 from solver.rules.rulesets import ALLOWED
@@ -63,12 +64,11 @@ def _lowers(rules: RuleSet, row: Override) -> bool:
 
 
 def _override(rules: RuleSet, index: int, row: Override) -> Requirement:
-    name = provision_name(row.provision)
     given, unit = rules.values[row.provision], provision_unit(row.provision)
     value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, given.value))
     sign = "≤" if ALLOWED[row.provision].is_most else "≥"
     return _row(
-        title=f"Override of the {name[:1].lower()}{name[1:]}",
+        title=f"Override of the {lowered(provision_name(row.provision))}",
         id=OVERRIDE_ID,
         found=f"{value}{OVERRIDDEN}, {row.reason}",
         limit=f"{sign} {adopted}",

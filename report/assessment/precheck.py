@@ -22,6 +22,7 @@ from report.sheet.plausible import implausible
 from report.sheet.read import Sheet
 from report.sheet.schema import Array, ProjectInput
 from report.sheet.unseen import warnings
+from report.words.counts import lowered
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
@@ -93,8 +94,7 @@ def limit_words(check: Limit, us_first: bool) -> str:
     """Return a limit that is not satisfied: quantity, value, what would do, clause."""
     value, most = (limit_value(check, v, us_first) for v in (check.found, check.limit))
     wanted = f"at least {most} is required" if check.is_at_least else f"at most {most} is permitted"
-    title = check.title[0].lower() + check.title[1:]
-    return f"{title}: {value}; {wanted} ({check.provision.clause})"
+    return f"{lowered(check.title)}: {value}; {wanted} ({check.provision.clause})"
 
 
 def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
@@ -174,6 +174,5 @@ def _of_array(data: ProjectInput, rules: RuleSet, index: int, array: Array) -> I
 def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
     for row in (row for row in rows if not row.is_satisfied):
         subject = f"{row.subject}, " if row.subject else ""
-        title = row.title[0].lower() + row.title[1:]
-        text = f"{subject}{title}: {row.found}; {row.limit} required ({row.basis}): "
+        text = f"{subject}{lowered(row.title)}: {row.found}; {row.limit} required ({row.basis}): "
         yield limit(row.place, f"{text}{row.verdict.word}. {row.remedy}")

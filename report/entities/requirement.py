@@ -25,7 +25,7 @@ class FindingResult(Entity):
     reason: str
 
 
-class _Compared(Entity):
+class _FoundAndLimit(Entity):
     """A value found and its limit, each under the key of its unit."""
 
     title: str
@@ -39,7 +39,7 @@ class _Compared(Entity):
     limit_s: OfUnit
 
 
-class LimitResult(_Compared):
+class LimitResult(_FoundAndLimit):
     """A limit of the rule set, with the value found."""
 
     clause: str
@@ -48,7 +48,7 @@ class LimitResult(_Compared):
     by_exception: bool
 
 
-class AcceptanceResult(_Compared):
+class AcceptanceResult(_FoundAndLimit):
     """A limit on the motions, with the value found."""
 
     is_at_least: bool
