@@ -28,11 +28,24 @@ STEPS = 5
 """Steps that `make` reports."""
 
 
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A step of `make`: what it takes where that is long, or else a hint for a terminal."""
+
+    doing: str
+    cost: str = ""
+    hint: str = ""
+
+    def __str__(self) -> str:
+        more = self.cost or self.hint
+        return f"{self.doing} ({more})" if more else self.doing
+
+
 def make(
     source: Path,
     out: Path | None,
     since: Path | None,
-    progress: Callable[[str], None],
+    progress: Callable[[Step], None],
     worker: Executor,
     on_assessment: Callable[[Assessment], None] = lambda _: None,
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
@@ -45,18 +58,18 @@ def make(
     from report.package.html import pages
     from report.results.publish import publish
 
-    progress("reading the workbook")
+    progress(Step("reading the workbook"))
     request = read(source, out, since)
     prepared = prepare(request)
-    progress(f"running the motions ({prepared.notice})")
+    progress(Step("running the motions", prepared.cost, "the first run compiles the solver"))
     assessment = assess(request.sheet, prepared.shaking)
     on_assessment(assessment)
     supported = support(assessment, request, worker)
-    progress("writing the pages")
+    progress(Step("writing the pages"))
     html = pages(assessment, supported.evidence, supported.changes, supported.pictures)
-    progress("laying out the package")
+    progress(Step("laying out the package"))
     files = lay_out(html, assessment, supported.evidence, prepared.sources, worker)
-    progress("writing the result tables")
+    progress(Step("writing the result tables"))
     publish(files, request.folder)
     return assessment, request.folder, files, supported.changes
 
@@ -97,11 +110,11 @@ def read(source: Path, out: Path | None, since: Path | None) -> Request:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prepared:
-    """The motions at the roof, the files that all is computed from, and how long it will take."""
+    """The motions at the roof, the files that all is computed from, and what a long run costs."""
 
     shaking: Shaking
     sources: Sequence[SourceFile]
-    notice: str
+    cost: str
 
 
 def prepare(request: Request) -> Prepared:
@@ -114,7 +127,7 @@ def prepare(request: Request) -> Prepared:
     return Prepared(
         shaking=shaking,
         sources=sources(request.sheet, shaking, request.since),
-        notice=cost(request.sheet.project, shaking) or "the first run compiles the solver",
+        cost=cost(request.sheet.project, shaking),
     )
 
 

@@ -23,17 +23,55 @@ INCH_M = 0.0254
 STANDARD_GRAVITY_MPS2 = 9.80665
 
 
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """An error that the user can fix.
+
+    Attributes
+    ----------
+    found, remedy : str
+        What was found, and what would do; the latter is empty where the former says it.
+    where : str
+        Address of the cell, or its sheet; empty where `found` begins with the location.
+    """
+
+    found: str
+    remedy: str = ""
+    where: str = ""
+
+    @classmethod
+    def of(cls, line: str) -> Problem:
+        """Return a problem that is written `what was found; what would do`."""
+        found, _, remedy = line.partition("; ")
+        return cls(found, remedy)
+
+    def at(self, where: str, of: str = "") -> Problem:
+        """Return the problem of a field at an address."""
+        return Problem(f"{of} {self.found}".lstrip(), self.remedy, where)
+
+    @property
+    def text(self) -> str:
+        """What was found and what would do."""
+        return f"{self.found}; {self.remedy}" if self.remedy else self.found
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.text}" if self.where else self.text
+
+
 class InputError(ValueError):
     """Errors that the user can fix: each with its location, what was found and what is accepted.
 
     Attributes
     ----------
+    parts : tuple of Problem
     problems : tuple of str
         One line for each problem.
     """
 
-    def __init__(self, problems: str | Sequence[str]):
-        self.problems = (problems,) if isinstance(problems, str) else tuple(problems)
+    def __init__(self, problems: str | Problem | Sequence[str | Problem]):
+        given = [problems] if isinstance(problems, (str, Problem)) else problems
+        self.parts = tuple(Problem.of(each) if isinstance(each, str) else each for each in given)
+        self.problems = tuple(map(str, self.parts))
         super().__init__("\n".join(self.problems))
 
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from report.assessment.verdict import NOT_GIVEN, Row, Verdict
+from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
+from report.words.counts import lowered
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     on_motions = item.governs is not item.governs.PRESCRIPTIVE
     return [
         *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
-        *(_lowered(check.title) for check in item.limits if not check.ok),
+        *(lowered(check.title) for check in item.limits if not check.ok),
         *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
         *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
@@ -50,9 +51,9 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     ]
 
 
-def _of_row(row: Row) -> str:
+def _of_row(row: Requirement) -> str:
     is_missing = row.id == "neighbors" and row.found.startswith(NOT_GIVEN)
-    return f"{_lowered(row.title)}{f' {NOT_GIVEN}' if is_missing else ''}"
+    return f"{lowered(row.title)}{f' {NOT_GIVEN}' if is_missing else ''}"
 
 
 def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
@@ -62,7 +63,3 @@ def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
 
 def _is_not_rigid(assessment: Assessment, item: ArrayAssessment) -> bool:
     return any(not linked.is_rigid_enough for linked in assessment.linked_of(item))
-
-
-def _lowered(text: str) -> str:
-    return text[0].lower() + text[1:]

@@ -177,10 +177,10 @@ def _marked(
     )
 
 
-def minimum_gap_m(
+def minimum_gap(
     data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment], near: PlanNeighbor
-) -> float:
-    """Return the separation that the rule set requires between neighbors of the plan [m].
+) -> tuple[float, str]:
+    """Return the separation that the rule set requires between neighbors of the plan [m], marked.
 
     As `check_clearance` has it for a row in any direction; NaN without a permitted displacement.
     """
@@ -191,11 +191,21 @@ def minimum_gap_m(
             direction=Direction.ANY,
             provided_m=max(near.gap_m, 0.0),
         )
-        return check_clearance(data, rules, arrays, row).required_m
+        found = check_clearance(data, rules, arrays, row)
+        return found.required_m, found.mark
+    array, adopted = by_id(arrays, near.array), as_adopted(data)
+    required_m = _to_edge_m(data, rules, array)
+    if adopted is data:
+        return required_m, ""
+    other_m = _to_edge_m(adopted, provisions.RULE_SETS[data.site.rule_set], array.adopted or array)
+    return required_m, mark_of(required_m, other_m) or array.opened_mark
+
+
+def _to_edge_m(data: ProjectInput, rules: RuleSet, array: ArrayAssessment) -> float:
     return provisions.required_separation(
         rules,
         Neighbor.EDGE,
-        design_m=by_id(arrays, near.array).permitted_toward_m(Direction.ANY),
+        design_m=array.permitted_toward_m(Direction.ANY),
         importance=_importance(rules, Neighbor.EDGE, i_e=data.site.i_e, i_p=math.nan),
     )
 

@@ -6,15 +6,17 @@ Each row says what its lack leads to. Read `project_rows` and `array_rows`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
-from report.assessment.verdict import NOT_GIVEN, Row, Verdict
+from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from report.motions.history import PreparedMotion
+from report.sheet.fields import Place
 from report.sheet.schema import Array, ProjectInput
 from report.words.units import Quantity, compared, number, pair, rounding
 from solver.records.acceptance import Acceptance
@@ -32,12 +34,18 @@ MOTIONS_ID = "motions"
 NO_DESIGN = "unknown without a permitted design displacement"
 
 
-def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Row, ...]:
-    """Return the rows of the whole project and of its motions."""
-    return (*_peer_review(data), *override_rows(data), *hazard_rows(data), *_drift(data, prepared))
+def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Requirement, ...]:
+    """Return the requirements on the whole project, its motions and its friction tests."""
+    return (
+        *_peer_review(data),
+        *override_rows(data),
+        *hazard_rows(data),
+        *_drift(data, prepared),
+        *friction_rows(data),
+    )
 
 
-def _peer_review(data: ProjectInput) -> Iterator[Row]:
+def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
     options = data.options
     if not options.peer_reviewed:
         return
@@ -47,7 +55,7 @@ def _peer_review(data: ProjectInput) -> Iterator[Row]:
         ("date", options.peer_date),
     )
     missing = [name for name, value in parts if not value]
-    yield Row(
+    yield Requirement(
         id="peer_review",
         title="Peer review of the analysis",
         found=f"{' and '.join(missing)} {NOT_GIVEN}"
@@ -59,16 +67,17 @@ def _peer_review(data: ProjectInput) -> Iterator[Row]:
         consequence=Consequence.CONDITION,
         remedy="Give reviewer, license and date. Without peer review the floor and the slope limit "
         "of the analysis route apply.",
+        place=Place("options", 0, "peer_reviewer"),
     )
 
 
-def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Row]:
+def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Requirement]:
     us_first = data.project.units_first.is_us
-    for motion in prepared:
+    for index, motion in enumerate(prepared):
         largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
         more, most = compared(largest, DRIFT_M)
         if drifts(motion):
-            yield Row(
+            yield Requirement(
                 id="drift",
                 title="Final displacement of the record",
                 subject=motion.motion_id,
@@ -79,29 +88,23 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
                 consequence=Consequence.CONDITION,
                 remedy="Drift of a record becomes slip: correct its baseline, or show that the "
                 "displacement is real.",
+                place=Place("motions", index, "record"),
             )
 
 
-def motion_rows(acceptance: Acceptance, arrays: Sequence[ArrayAssessment]) -> tuple[Row, ...]:
+def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requirement, ...]:
     """Return the limits on the motions that they miss.
 
     What makes a value from analysis NG is a condition where no array takes that value.
     """
-    takes_analysis = any(item.route is Route.ANALYSIS for item in arrays)
-    return tuple(motion_row(missed, takes_analysis=takes_analysis) for missed in acceptance.missed)
+    takes_analysis = Route.ANALYSIS in routes
+    return tuple(_motion_row(missed, takes_analysis) for missed in acceptance.missed)
 
 
-def motion_row(missed: Limit, *, takes_analysis: bool) -> Row:
-    """Return a limit on the motions that they miss.
-
-    Parameters
-    ----------
-    takes_analysis : bool
-        Whether any array takes the value from analysis.
-    """
+def _motion_row(missed: Limit, takes_analysis: bool) -> Requirement:
     is_ng = missed.consequence is Consequence.NG
     found, least = (f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit))
-    return Row(
+    return Requirement(
         id=MOTIONS_ID,
         title=missed.title,
         found=found + (f" ({missed.worst})" if missed.worst else ""),
@@ -110,6 +113,7 @@ def motion_row(missed: Limit, *, takes_analysis: bool) -> Row:
         is_satisfied=False,
         consequence=Consequence.NG if is_ng and takes_analysis else Consequence.CONDITION,
         remedy=_motion_remedy(is_ng, takes_analysis),
+        place=Place("motions"),
     )
 
 
@@ -123,14 +127,14 @@ def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
     return "The design displacements are prescriptive; the analysis is for information."
 
 
-def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Row, ...]:
+def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requirement, ...]:
     """Return what the plan shows near an array and no clearance covers, or contradicts.
 
     A gap of the plan that no clearance covers, and that is less than is required, is NG.
     """
     us_first = data.project.units_first.is_us
     return tuple(
-        Row(
+        Requirement(
             id="neighbors",
             title=f"Clearance {neighbor.array} to {neighbor.other}",
             subject=neighbor.array,
@@ -156,7 +160,8 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
     required = NO_DESIGN
     if not math.isnan(neighbor.required_m):
         up = rounding(neighbor.required_m, neighbor.gap_m, Quantity.SIZE)
-        required = f"≥ {pair(neighbor.required_m, Quantity.SIZE, us_first, shown)}{up}"
+        least = pair(neighbor.required_m, Quantity.SIZE, us_first, shown)
+        required = f"≥ {least}{neighbor.mark}{up}"
     return f"{NOT_GIVEN}; {gap} in plan", required
 
 
@@ -165,21 +170,25 @@ def drifts(prepared: PreparedMotion) -> bool:
     return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
 
 
-def array_rows(data: ProjectInput, assessed: ArrayAssessment) -> tuple[Row, ...]:
-    """Return the rows of an array."""
-    return (
-        fire_lanes(data, assessed.array),
-        interconnection(data, assessed.array, assessed.interconnection_n),
-        _slack(data, assessed),
-    )
+def array_rows(data: ProjectInput, assessed: ArrayAssessment) -> tuple[Requirement, ...]:
+    """Return the requirements on an array."""
+    known = rows_before_runs(data, assessed.array, assessed.interconnection_n)
+    return *known, _slack(data, assessed)
 
 
-def fire_lanes(data: ProjectInput, array: Array) -> Row:
+def rows_before_runs(
+    data: ProjectInput, array: Array, required_n: float
+) -> tuple[Requirement, ...]:
+    """Return the requirements on an array that no run is needed for, with the strength [N]."""
+    return _fire_lanes(data, array), _interconnection(data, array, required_n)
+
+
+def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
     """Return whether an array fits between fire lanes."""
     us_first = data.project.units_first.is_us
     plan = array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
-    return Row(
+    return Requirement(
         id="fire_lanes",
         title="Largest plan dimension between fire lanes",
         subject=array.id,
@@ -189,16 +198,17 @@ def fire_lanes(data: ProjectInput, array: Array) -> Row:
         is_satisfied=largest <= FIRE_LANE_M * (1.0 + 1e-9),
         consequence=Consequence.CONDITION,
         remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
+        place=_place(data, array, "x_from_m"),
     )
 
 
-def interconnection(data: ProjectInput, array: Array, required: float) -> Row:
+def _interconnection(data: ProjectInput, array: Array, required: float) -> Requirement:
     """Return whether the strength between the parts of an array is as required [N]."""
     us_first = data.project.units_first.is_us
     provided = array.interconnection_n
     given = math.nan if provided is None else provided
     shown, had = compared(required, given)
-    return Row(
+    return Requirement(
         id="interconnection",
         title="Interconnection strength provided",
         subject=array.id,
@@ -209,17 +219,23 @@ def interconnection(data: ProjectInput, array: Array, required: float) -> Row:
         is_satisfied=provided is not None and provided >= required,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Show that the racking provides the required strength between its parts.",
+        place=_place(data, array, "interconnection_n"),
     )
 
 
-def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
+def _place(data: ProjectInput, array: Array, field: str) -> Place:
+    """Return the cell of a field of an array."""
+    return Place("arrays", [each.id for each in data.arrays].index(array.id), field)
+
+
+def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
     us_first = data.project.units_first.is_us
     provided, design = assessed.array.slack_m, assessed.permitted_m
     has_value = not math.isnan(design)
     given = math.nan if provided is None else provided
     shown, had = compared(design, given)
     least = f"≥ {pair(design, Quantity.SIZE, us_first, shown)}"
-    return Row(
+    return Requirement(
         id="electrical_slack",
         title="Electrical slack provided",
         subject=assessed.array.id,
@@ -232,7 +248,7 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Row:
     )
 
 
-def friction_row(given: ClearanceCheck, reduced: ClearanceCheck, share: float) -> Row:
+def friction_row(given: ClearanceCheck, reduced: ClearanceCheck, share: float) -> Requirement:
     """Return whether a clearance that is satisfied stays so with less friction.
 
     Parameters
@@ -250,7 +266,7 @@ def friction_row(given: ClearanceCheck, reduced: ClearanceCheck, share: float) -
     )
 
 
-def route_row(given: ArrayAssessment, reduced: ArrayAssessment, share: float) -> Row:
+def route_row(given: ArrayAssessment, reduced: ArrayAssessment, share: float) -> Requirement:
     """Return whether the route of an array that is permitted stays so with less friction."""
     before, after = (Verdict.OK if item.is_permitted else Verdict.NG for item in (given, reduced))
     return _reduced_friction_row(
@@ -264,10 +280,10 @@ def route_row(given: ArrayAssessment, reduced: ArrayAssessment, share: float) ->
 
 def _reduced_friction_row(
     subject: str, title: str, verdicts: tuple[Verdict, Verdict], share: float, effect: str
-) -> Row:
+) -> Requirement:
     given, reduced = verdicts
     friction = f"{number(100.0 * share, 0)} % less friction"
-    return Row(
+    return Requirement(
         id="less_friction",
         title=f"{title} with {friction}",
         subject=subject,

@@ -9,7 +9,8 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from report.assessment.verdict import NOT_GIVEN, Row, stated
+from report.assessment.verdict import NOT_GIVEN, Requirement, stated
+from report.sheet.fields import Place
 from report.sheet.friction_checks import MU_TOLERANCE
 from report.sheet.schema import Array, ProjectInput
 from report.words.units import Quantity, measured, pair
@@ -29,12 +30,12 @@ def tested(data: ProjectInput) -> tuple[Series, ...]:
     return series(row.run(data.friction_tests.report) for row in data.friction_runs)
 
 
-def friction_rows(data: ProjectInput) -> tuple[Row, ...]:
+def friction_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     """Return the rows on the friction tests."""
     return _on_file(data), _standard(data), _wet_and_dry(data)
 
 
-def _on_file(data: ProjectInput) -> Row:
+def _on_file(data: ProjectInput) -> Requirement:
     tests = data.friction_tests
     found, is_complete = stated(
         (("laboratory", tests.laboratory), ("report number", tests.report), ("date", tests.date))
@@ -48,7 +49,7 @@ def _on_file(data: ProjectInput) -> Row:
     )
 
 
-def _standard(data: ProjectInput) -> Row:
+def _standard(data: ProjectInput) -> Requirement:
     tests = data.friction_tests
     by_standard = bool(_STANDARD.search(tests.standard))
     standard = f"standard {tests.standard or NOT_GIVEN}"
@@ -63,7 +64,7 @@ def _standard(data: ProjectInput) -> Row:
     )
 
 
-def _wet_and_dry(data: ProjectInput) -> Row:
+def _wet_and_dry(data: ProjectInput) -> Requirement:
     given = {(one.report, one.surface): one for one in tested(data)}
     reports = dict.fromkeys(report for report, _ in given)
     us_first = data.project.units_first.is_us
@@ -166,8 +167,8 @@ def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
     return f"{first} ({second})"
 
 
-def _row(*, title: str, found: str, limit: str, is_satisfied: bool, remedy: str) -> Row:
-    return Row(
+def _row(*, title: str, found: str, limit: str, is_satisfied: bool, remedy: str) -> Requirement:
+    return Requirement(
         id="friction_tests",
         title=title,
         found=found,
@@ -176,6 +177,7 @@ def _row(*, title: str, found: str, limit: str, is_satisfied: bool, remedy: str)
         is_satisfied=is_satisfied,
         consequence=Consequence.CONDITION,
         remedy=remedy,
+        place=Place("friction_tests", 0, "report"),
     )
 
 

@@ -15,7 +15,7 @@ from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import at_low_velocity, coefficient
 from report.assessment.friction_rows import tested
 from report.assessment.pending_runs import PendingRuns
-from report.assessment.verdict import NOT_GIVEN, Row, Verdict
+from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from report.sheet.friction_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.words.units import Quantity, number, pair
@@ -152,7 +152,7 @@ def low_velocity(
 
 def velocity_rows(
     data: ProjectInput, arrays: Sequence[ArrayAssessment], slow: LowVelocityAssessment
-) -> Iterator[Row]:
+) -> Iterator[Requirement]:
     """Yield for each array whether friction beyond the velocities tested is shown by tests.
 
     Nothing without test runs: what is missing then is a requirement of its own.
@@ -164,7 +164,9 @@ def velocity_rows(
             yield _row(item.id, check, slow, us_first)
 
 
-def _row(array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool) -> Row:
+def _row(
+    array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool
+) -> Requirement:
     least = number(check.tests.minimum_mu, 3)
     remedy = (
         f"Obtain friction tests at the sliding velocities, or enter at most {least} at every "
@@ -174,7 +176,7 @@ def _row(array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_fi
     if alone is not None:
         outcome = ", ".join(_outcome(alone, slow, us_first))
         remedy += f" With {coefficient(alone.array.mu)} at every velocity: {outcome}."
-    return Row(
+    return Requirement(
         id=VELOCITY_ROW,
         title="Friction beyond the velocities tested",
         subject=array_id,

@@ -9,14 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from report.assessment.verdict import NOT_GIVEN, Row, stated
+from report.assessment.verdict import NOT_GIVEN, Requirement, stated
+from report.sheet.fields import Place
 from report.sheet.schema import ProjectInput, Site
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
 from solver.rules.limit import Consequence
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
 
 
-def hazard_rows(data: ProjectInput) -> tuple[Row, ...]:
+def hazard_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     """Return the rows on the seismic parameters of the site."""
     site = data.site
     return (_source(site), _category(site), *_site_class(site), *_site_specific(site))
@@ -26,7 +27,7 @@ def _is_studied(site: Site) -> bool:
     return site.hazard is HazardBasis.SITE_SPECIFIC
 
 
-def _source(site: Site) -> Row:
+def _source(site: Site) -> Requirement:
     """Return whether it is stated where the parameters come from."""
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
     if not _is_studied(site):
@@ -40,6 +41,7 @@ def _source(site: Site) -> Row:
             is_satisfied=is_complete,
             remedy="State on the sheet Site which tool or report the values are from, and when "
             "they were read.",
+            place=Place("site", 0, "hazard_source"),
         )
     found, is_complete = stated((source, ("report number", site.hazard_report), date))
     return _row(
@@ -50,10 +52,11 @@ def _source(site: Site) -> Row:
         basis=site.edition.clause("site_specific"),
         is_satisfied=is_complete,
         remedy="Obtain the report, and state its author, number and date on the sheet Site.",
+        place=Place("site", 0, "hazard_source"),
     )
 
 
-def _category(site: Site) -> Row:
+def _category(site: Site) -> Requirement:
     """Return whether the SDC was compared with all that it depends on."""
     lacking = site.sdc_lacks
     missing = " and ".join(lacking)
@@ -68,10 +71,11 @@ def _category(site: Site) -> Row:
         basis=site.edition.clause("sdc"),
         is_satisfied=not lacking,
         remedy=f"The SDC depends on {missing} too: give {'both' if len(lacking) > 1 else 'it'}.",
+        place=Place("site", 0, "sdc"),
     )
 
 
-def _site_class(site: Site) -> Iterator[Row]:
+def _site_class(site: Site) -> Iterator[Requirement]:
     """Yield a site class that nobody determined, with what then holds."""
     if site.assumed_class != BY_DEFAULT or _is_studied(site):
         return
@@ -90,10 +94,11 @@ def _site_class(site: Site) -> Iterator[Row]:
         remedy=holds
         if site.edition.has_site_coefficients
         else "The values of a hazard tool depend on the site class: determine it.",
+        place=Place("site", 0, "site_class"),
     )
 
 
-def _site_specific(site: Site) -> Iterator[Row]:
+def _site_specific(site: Site) -> Iterator[Requirement]:
     """Yield where a site-specific hazard analysis is required, or may be."""
     reason = site_specific_reason(
         site.edition, site_class=site.assumed_class, s_s_g=site.s_s_g, s_1_g=site.s_1_g
@@ -114,7 +119,8 @@ def _site_specific(site: Site) -> Iterator[Row]:
         if is_open
         else "S_DS and S_D1 are mapped values: obtain a site-specific hazard analysis, or state "
         "the exception that applies.",
+        place=Place("site", 0, "hazard"),
     )
 
 
-_row = partial(Row, consequence=Consequence.CONDITION)
+_row = partial(Requirement, consequence=Consequence.CONDITION)

@@ -84,6 +84,8 @@ class PlanNeighbor:
         one where none is permitted.
     required_m : float
         Required separation between them [m]; NaN without a permitted displacement.
+    mark : str
+        Of the required separation.
     given : tuple of GivenGap
         Clearances between them, from either side.
     to_add : str
@@ -100,6 +102,7 @@ class PlanNeighbor:
     given: tuple[GivenGap, ...]
     to_add: str
     required_m: float = math.nan
+    mark: str = ""
 
     @property
     def is_near(self) -> bool:
@@ -162,7 +165,7 @@ def neighbors(
     data: ProjectInput,
     arrays: Sequence[ArrayAssessment],
     addresses: Mapping[Place, str],
-    required: Callable[[PlanNeighbor], float],
+    required: Callable[[PlanNeighbor], tuple[float, str]],
 ) -> tuple[PlanNeighbor, ...]:
     """Return each pair of arrays, array and object, array and bare roof edge of the plan.
 
@@ -173,11 +176,15 @@ def neighbors(
     Parameters
     ----------
     required : callable
-        Returns the required separation of a pair [m].
+        Returns the required separation of a pair [m], and its mark.
     """
     pairs = _pairs(data, arrays, addresses)
-    complete = (replace(each, required_m=required(each)) for each in pairs)
+    complete = (_requiring(each, *required(each)) for each in pairs)
     return tuple(each for each in complete if each.given or each.is_near)
+
+
+def _requiring(pair: PlanNeighbor, required_m: float, mark: str) -> PlanNeighbor:
+    return replace(pair, required_m=required_m, mark=mark)
 
 
 def unplaced(data: ProjectInput) -> tuple[str, ...]:

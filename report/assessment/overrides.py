@@ -10,7 +10,8 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from report.assessment.verdict import Row
+from report.assessment.verdict import Requirement
+from report.sheet.fields import Place
 from report.sheet.schema import (
     Override,
     ProjectInput,
@@ -18,6 +19,7 @@ from report.sheet.schema import (
     provision_name,
     provision_unit,
 )
+from report.words.counts import lowered
 from solver.rules.limit import Consequence
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet
 from solver.rules.rulesets import ALLOWED
@@ -34,17 +36,11 @@ LOWERING = (OVERRIDE_ID, "directional", "statistic")
 CONSENT = "Obtain the consent of the authority having jurisdiction."
 
 
-def override_rows(data: ProjectInput) -> tuple[Row, ...]:
+def override_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     """Return what requires less than the rule set: each override that does, and each departure."""
     rules = RULE_SETS[data.site.rule_set]
-    overrides = (row for row in data.overrides if _lowers(rules, row))
-    return (*(_override(rules, row) for row in overrides), *_departures(data, rules))
-
-
-def override_title(row: Override) -> str:
-    """Return the title of the row of an override."""
-    name = provision_name(row.provision)
-    return f"Override of the {name[:1].lower()}{name[1:]}"
+    overrides = (pair for pair in enumerate(data.overrides) if _lowers(rules, pair[1]))
+    return (*(_override(rules, *pair) for pair in overrides), *_departures(data, rules))
 
 
 def as_adopted(data: ProjectInput) -> ProjectInput:
@@ -67,20 +63,21 @@ def _lowers(rules: RuleSet, row: Override) -> bool:
     return given is not None and ALLOWED[row.provision].lowers(row.value, given.value)
 
 
-def _override(rules: RuleSet, row: Override) -> Row:
+def _override(rules: RuleSet, index: int, row: Override) -> Requirement:
     given, unit = rules.values[row.provision], provision_unit(row.provision)
     value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, given.value))
     sign = "≤" if ALLOWED[row.provision].is_maximum else "≥"
     return _row(
-        title=override_title(row),
+        title=f"Override of the {lowered(provision_name(row.provision))}",
         id=OVERRIDE_ID,
         found=f"{value}{OVERRIDDEN}, {row.reason}",
         limit=f"{sign} {adopted}",
         basis=given.clause,
+        place=Place("overrides", index, "value"),
     )
 
 
-def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Row]:
+def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Requirement]:
     options = data.options
     if options.directional:
         yield _row(
@@ -89,6 +86,7 @@ def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Row]:
             found=f"displacement toward each clearance{OVERRIDDEN}, {options.directional_reason}",
             limit="design displacement in full in every direction",
             basis=rules.name,
+            place=Place("options", 0, "directional"),
         )
     if _takes_plain_mean(data):
         yield _row(
@@ -97,6 +95,7 @@ def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Row]:
             found=f"{options.statistic}{OVERRIDDEN}",
             limit="statistic of the rule set, with its factor",
             basis=rules.values["analysis_factor"].clause,
+            place=Place("options", 0, "statistic"),
         )
 
 
@@ -106,4 +105,4 @@ def _takes_plain_mean(data: ProjectInput) -> bool:
     return is_stated and data.options.statistic.value == Basis.MEAN.value
 
 
-_row = partial(Row, is_satisfied=False, consequence=Consequence.CONDITION, remedy=CONSENT)
+_row = partial(Requirement, is_satisfied=False, consequence=Consequence.CONDITION, remedy=CONSENT)

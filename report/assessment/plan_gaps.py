@@ -77,19 +77,18 @@ def plan_gaps(assessment: Assessment) -> Iterator[PlanGap]:
                 mark=gap.mark,
                 verdict=gap.verdict,
             )
-    for pair in assessment.neighbors:
-        if pair.is_short:
-            yield PlanGap(
-                number=0,
-                array=pair.array,
-                other=pair.other,
-                near=pair.near,
-                far=pair.far,
-                provided_m=pair.gap_m,
-                required_m=pair.required_m,
-                mark="",
-                verdict=Verdict.NG,
-            )
+    for pair in assessment.missing_gaps:
+        yield PlanGap(
+            number=0,
+            array=pair.array,
+            other=pair.other,
+            near=pair.near,
+            far=pair.far,
+            provided_m=pair.gap_m,
+            required_m=pair.required_m,
+            mark=pair.mark,
+            verdict=Verdict.NG,
+        )
 
 
 def shapes_of(assessment: Assessment) -> dict[str, Shape]:

@@ -7,19 +7,12 @@ Runs nothing. `report.assessment.project` decides the verdict after the runs. Re
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import Route, limits_of, statistic_basis
-from report.assessment.conditions import (
-    fire_lanes,
-    interconnection,
-    motion_row,
-    project_rows,
-)
-from report.assessment.friction_rows import friction_rows
-from report.assessment.overrides import OVERRIDE_ID, override_title
-from report.assessment.verdict import Row, Verdict
+from report.assessment.conditions import motion_rows, project_rows, rows_before_runs
+from report.assessment.verdict import Requirement, Verdict
 from report.motions.plausible import record_findings
 from report.motions.prepare import Shaking
 from report.motions.targets import targets
@@ -29,6 +22,7 @@ from report.sheet.plausible import implausible
 from report.sheet.read import Sheet
 from report.sheet.schema import Array, ProjectInput
 from report.sheet.unseen import warnings
+from report.words.counts import lowered
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
@@ -44,19 +38,6 @@ _FIELDS: Mapping[str, str] = {
     "max_stories": "stories",
 }
 """The cell that a limit compares, by the key of the limit."""
-
-_PLACES: Mapping[str, Place] = {
-    "peer_review": Place("options", 0, "peer_reviewer"),
-    "hazard_source": Place("site", 0, "hazard_source"),
-    "sdc": Place("site", 0, "sdc"),
-    "site_class": Place("site", 0, "site_class"),
-    "site_specific_hazard": Place("site", 0, "hazard"),
-    "directional": Place("options", 0, "directional"),
-    "statistic": Place("options", 0, "statistic"),
-    "friction_tests": Place("friction_tests", 0, "report"),
-    "motions": Place("motions"),
-}
-"""The cell that a requirement concerns, by its id; others concern a row."""
 
 
 def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
@@ -113,8 +94,7 @@ def limit_words(check: Limit, us_first: bool) -> str:
     """Return a limit that is not satisfied: quantity, value, what would do, clause."""
     value, most = (limit_value(check, v, us_first) for v in (check.found, check.limit))
     wanted = f"at least {most} is required" if check.is_at_least else f"at most {most} is permitted"
-    title = check.title[0].lower() + check.title[1:]
-    return f"{title}: {value}; {wanted} ({check.provision.clause})"
+    return f"{lowered(check.title)}: {value}; {wanted} ({check.provision.clause})"
 
 
 def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
@@ -143,14 +123,8 @@ def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Findin
         for check in limits.on_route:
             yield from _limit(check, "arrays", index, us_first)
         yield from _prescriptive(data, index, limits.route, limits.analysis, us_first, lacking)
-    takes_analysis = any(limits.route is Route.ANALYSIS for limits in routes)
-    rows = [
-        *project_rows(data, shaking.prepared),
-        *friction_rows(data),
-        *(motion_row(missed, takes_analysis=takes_analysis) for missed in acceptance.missed),
-    ]
-    for row in rows:
-        yield from _requirement(row, _of(row, data))
+    yield from _requirements(project_rows(data, shaking.prepared))
+    yield from _requirements(motion_rows(acceptance, (limits.route for limits in routes)))
     for index, array in enumerate(data.arrays):
         yield from _of_array(data, rules, index, array)
 
@@ -186,34 +160,19 @@ def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
     return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
 
 
-def _of(row: Row, data: ProjectInput) -> Place:
-    if row.id in _PLACES:
-        return _PLACES[row.id]
-    for index, override in enumerate(data.overrides):
-        if row.id == OVERRIDE_ID and row.title == override_title(override):
-            return Place("overrides", index, "value")
-    for index, motion in enumerate(data.motions):
-        if motion.id == row.subject:
-            return Place("motions", index, "record")
-    return Place("motions")
-
-
 def _of_array(data: ProjectInput, rules: RuleSet, index: int, array: Array) -> Iterator[Finding]:
     """Yield what an array alone requires."""
     required_n = provisions.interconnection_strength_n(
         rules, s_ds_g=data.site.s_ds, w1_n=array.weight_n / 2.0
     )
-    yield from _requirement(fire_lanes(data, array), Place("arrays", index, "x_from_m"))
-    strength = interconnection(data, array, required_n)
-    yield from _requirement(strength, Place("arrays", index, "interconnection_n"))
+    yield from _requirements(rows_before_runs(data, array, required_n))
     if array.slack_m is None:
         text = f"{array.id}, electrical slack: not given; provide at least the design displacement"
         yield limit(Place("arrays", index, "slack_m"), f"{text}: {Verdict.CONDITIONS.word}")
 
 
-def _requirement(row: Row, place: Place) -> Iterator[Finding]:
-    if not row.is_satisfied:
+def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
+    for row in (row for row in rows if not row.is_satisfied):
         subject = f"{row.subject}, " if row.subject else ""
-        title = row.title[0].lower() + row.title[1:]
-        text = f"{subject}{title}: {row.found}; {row.limit} required ({row.basis}): "
-        yield limit(place, f"{text}{row.verdict.word}. {row.remedy}")
+        text = f"{subject}{lowered(row.title)}: {row.found}; {row.limit} required ({row.basis}): "
+        yield limit(row.place, f"{text}{row.verdict.word}. {row.remedy}")

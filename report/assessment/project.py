@@ -16,7 +16,7 @@ from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
-from report.assessment.clearances import ClearanceCheck, check_clearance, minimum_gap_m
+from report.assessment.clearances import ClearanceCheck, check_clearance, minimum_gap
 from report.assessment.conditions import (
     MOTIONS_ID,
     array_rows,
@@ -27,7 +27,6 @@ from report.assessment.conditions import (
     route_row,
 )
 from report.assessment.friction import SHIFT, with_friction
-from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_velocity import (
     NOT_BY_VELOCITY,
     LowVelocityAssessment,
@@ -42,7 +41,7 @@ from report.assessment.precheck import rule_set_of
 from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
-from report.assessment.verdict import BY_CONSEQUENCE, Row, Verdict, worst
+from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.read import Sheet
@@ -77,7 +76,7 @@ class Assessment:
         What the plan shows near each array, with its clearances.
     acceptance : Acceptance
         Limits on the motions as run, at the roof.
-    rows : tuple of Row
+    rows : tuple of Requirement
         Requirements beside the numeric limits, of the project, its motions and its arrays.
     at_reduced_friction : Assessment or None
         The same with less friction, from runs that tell whether clearances are satisfied
@@ -100,7 +99,7 @@ class Assessment:
     linked: tuple[LinkedArray, ...]
     neighbors: tuple[PlanNeighbor, ...]
     acceptance: Acceptance
-    rows: tuple[Row, ...]
+    rows: tuple[Requirement, ...]
     at_reduced_friction: Assessment | None
     low_velocity: LowVelocityAssessment
     solver_seconds: float
@@ -156,18 +155,27 @@ class Assessment:
         )
 
     @property
-    def conditions(self) -> tuple[Row, ...]:
+    def conditions(self) -> tuple[Requirement, ...]:
         """The rows that are not satisfied, whatever follows from them."""
         return tuple(row for row in self.rows if not row.is_satisfied)
 
     @property
     def is_overridden(self) -> bool:
         """Whether an override or a departure changes a design displacement or a separation."""
-        return any(item.design_mark for item in self.arrays) or any(
-            gap.mark for gap in self.clearances
+        return any(
+            (
+                *(item.design_mark for item in self.arrays),
+                *(gap.mark for gap in self.clearances),
+                *(gap.mark for gap in self.missing_gaps),
+            )
         )
 
-    def rows_of(self, subject: str) -> Sequence[Row]:
+    @property
+    def missing_gaps(self) -> tuple[PlanNeighbor, ...]:
+        """The gaps of the plan without a clearance that are not known to be sufficient."""
+        return tuple(near for near in self.neighbors if near.is_short)
+
+    def rows_of(self, subject: str) -> Sequence[Requirement]:
         """Return the rows about an array or a motion."""
         return [row for row in self.rows if row.subject == subject]
 
@@ -305,7 +313,7 @@ def _assess(
         qualify = acceptance.qualifies
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    required = partial(minimum_gap_m, data, rules, arrays)
+    required = partial(minimum_gap, data, rules, arrays)
     nearby = neighbors(data, arrays, sheet.addresses, required)
     return Assessment(
         sheet=sheet,
@@ -327,8 +335,7 @@ def _assess(
         acceptance=acceptance,
         rows=(
             *project_rows(data, shaking.prepared),
-            *friction_rows(data),
-            *motion_rows(acceptance, arrays),
+            *motion_rows(acceptance, (item.route for item in arrays)),
             *(row for item in arrays for row in array_rows(data, item)),
             *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
             *plan_rows(data, nearby),
@@ -342,7 +349,7 @@ def _assess(
 
 def _friction_rows(
     arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], reduced: Assessment
-) -> Sequence[Row]:
+) -> Sequence[Requirement]:
     """Return the routes and clearances whose verdict less friction changes."""
     routes = zip(arrays, reduced.arrays, strict=True)
     gaps = zip(clearances, reduced.clearances, strict=True)

@@ -1,14 +1,18 @@
-"""The three verdicts, and the rows that lead to them beside the numeric limits of the rule set.
+"""The three verdicts, and the requirements that lead to them beside the numeric limits.
 
-Which row leads to which verdict is stated where the row is made. Read `Row`, then `worst`.
+What follows from a requirement is stated where it is made. Read `Requirement`, then `worst`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
+from pydantic import BaseModel, ConfigDict, Field
+from pydantic.json_schema import SkipJsonSchema
+
+from report.sheet.fields import Place
 from solver.rules.limit import Consequence
 
 
@@ -37,14 +41,25 @@ class Verdict(StrEnum):
 BY_CONSEQUENCE = {Consequence.NG: Verdict.NG, Consequence.CONDITION: Verdict.CONDITIONS}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Row:
-    """A requirement compared with the project.
+KNOWN_AFTER_RUNS = Place("")
+"""The cell of a requirement that `check` does not know."""
+
+
+def _all_are_written(schema: dict[str, Any]) -> None:
+    schema["required"] = list(schema["properties"])
+
+
+def _verdict(given: dict[str, Any]) -> Verdict:
+    return Verdict.OK if given["is_satisfied"] else BY_CONSEQUENCE[given["consequence"]]
+
+
+class Requirement(BaseModel):
+    """A requirement compared with the project, as results.json has it.
 
     Attributes
     ----------
     id : str
-        Key in results.json.
+        Kind of requirement.
     title, found, limit : str
         As printed.
     subject : str
@@ -56,7 +71,13 @@ class Row:
         Where it is not satisfied.
     remedy : str
         What the engineer must do where it is not satisfied, as a sentence.
+    verdict : Verdict
+        Of this requirement alone.
+    place : Place
+        The cell to look at.
     """
+
+    model_config = ConfigDict(frozen=True, json_schema_extra=_all_are_written)
 
     id: str
     title: str
@@ -67,11 +88,8 @@ class Row:
     consequence: Consequence
     subject: str = ""
     remedy: str = ""
-
-    @property
-    def verdict(self) -> Verdict:
-        """Verdict of this row alone."""
-        return Verdict.OK if self.is_satisfied else BY_CONSEQUENCE[self.consequence]
+    verdict: Verdict = Field(default_factory=_verdict)
+    place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)
 
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:

@@ -17,7 +17,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -32,6 +32,9 @@ from report.cli.terminal import (
     no_collections,
     system_problem,
 )
+
+if TYPE_CHECKING:
+    from solver.model import Problem
 
 INTERNAL_ERROR = 1
 
@@ -60,7 +63,7 @@ class BatchOutcome:
     verdict: str = ""
     ratios: tuple[float, ...] = ()
     package: str = ""
-    problems: tuple[str, ...] = ()
+    problems: tuple[Problem, ...] = ()
     internal: str = ""
     seconds: float = 0.0
 
@@ -125,7 +128,7 @@ def document(outcomes: Sequence[BatchOutcome]) -> Mapping[str, Any]:
                 "verdict": outcome.verdict or None,
                 "demand_capacity": next(filter(math.isfinite, outcome.largest), None),
                 "package": outcome.package or None,
-                "errors": outcome.problems,
+                "errors": list(map(str, outcome.problems)),
                 "is_internal_error": bool(outcome.internal),
                 "seconds": round(outcome.seconds, 3),
             }
@@ -170,7 +173,7 @@ def package(source: Path, make: Callable[[Path], BatchOutcome] | None = None) ->
         is_input = isinstance(error, InputError)
         done = BatchOutcome(
             source=source,
-            problems=error.problems if isinstance(error, InputError) else (),
+            problems=error.parts if isinstance(error, InputError) else (),
             internal="" if is_input else traceback.format_exc(),
         )
     return BatchOutcome(

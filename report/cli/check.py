@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import datetime as dt
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -131,30 +131,15 @@ def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:
         yield f"{finding.level}: {line.cells}: {finding.text}{name}{answered}"
 
 
-def as_data(sheet: Sheet, found: Iterable[Finding]) -> list[Mapping[str, str]]:
-    """Return findings for JSON."""
-    from report.sheet.findings import located
-
-    found = tuple(found)
-    return [
-        {
-            "level": finding.level.value,
-            "id": finding.id,
-            "cell": cell,
-            "text": finding.text,
-            "reason": finding.reason,
-        }
-        for finding, cell in zip(found, located(found, sheet.addresses), strict=True)
-    ]
-
-
 def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
-    data = sheet.project
+    from report.entities.requirement import finding_results
+
+    data, rows = sheet.project, finding_results(found, sheet.addresses)
     return {
         "schema_version": SCHEMA_VERSION,
         "workbook": str(sheet.path),
         "errors": [],
-        "findings": as_data(sheet, found),
+        "findings": [row.model_dump(mode="json") for row in rows],
         "arrays": len(data.arrays),
         "clearances": len(data.clearances),
         "motions": len(data.motions),

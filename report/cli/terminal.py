@@ -18,9 +18,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NoReturn, TextIO
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
+
+if TYPE_CHECKING:
+    from solver.model import Problem
 
 
 class UnitChoice(click.Choice[str]):
@@ -84,19 +87,20 @@ def input_errors(source: Path, *, as_json: bool = False) -> Iterator[None]:
 
         if not isinstance(error, InputError):
             raise
-        _refuse(source, error.problems, as_json=as_json)
+        _refuse(source, error.parts, as_json=as_json)
 
 
-def _refuse(source: Path, problems: Sequence[str], *, as_json: bool) -> NoReturn:
+def _refuse(source: Path, problems: Sequence[Problem], *, as_json: bool) -> NoReturn:
     if as_json:
         about = {"schema_version": SCHEMA_VERSION, "workbook": str(source)}
-        click.echo(json.dumps(about | {"errors": problems}, ensure_ascii=False))
+        about["errors"] = list(map(str, problems))
+        click.echo(json.dumps(about, ensure_ascii=False))
         sys.exit(INPUT_ERROR)
     say_problems(source, problems)
     sys.exit(INPUT_ERROR)
 
 
-def say_problems(source: Path, problems: Sequence[str]) -> None:
+def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     """Print the problems of an input, one per line; those of several cells once."""
     from report.sheet.grouped import grouped
 
@@ -106,17 +110,20 @@ def say_problems(source: Path, problems: Sequence[str]) -> None:
         click.echo(f"  {plain(problem.line)}", err=True)
 
 
-def system_problem(error: OSError) -> str:
+def system_problem(error: OSError) -> Problem:
     """Return what the system refuses, as a problem of an input."""
+    from solver.model import Problem
+
     reason = error.strerror or error
     if not error.filename:
-        return (
-            f"a file cannot be written or read ({reason}); free disk space, also for temporary "
-            f"files{_place()}, or raise the limit on the size of files"
+        return Problem(
+            f"a file cannot be written or read ({reason})",
+            f"free disk space, also for temporary files{_place()}, or raise the limit on the size "
+            "of files",
         )
-    return (
-        f"{error.filename}: the system refuses it ({reason}); correct the path, its rights or the "
-        "space on its disk"
+    return Problem(
+        f"{error.filename}: the system refuses it ({reason})",
+        "correct the path, its rights or the space on its disk",
     )
 
 
@@ -218,7 +225,7 @@ class Progress:
     def __enter__(self) -> Progress:
         return self
 
-    def __call__(self, doing: str) -> None:
+    def __call__(self, doing: object) -> None:
         """Print the current step."""
         seconds = time.monotonic() - self._started
         if self._quiet:

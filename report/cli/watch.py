@@ -105,7 +105,7 @@ class Round:
         try:
             files = self._made()
         except (InputError, OSError) as error:
-            problems = [system_problem(error)] if isinstance(error, OSError) else error.problems
+            problems = [system_problem(error)] if isinstance(error, OSError) else error.parts
             say_problems(self._workbook, problems)
             if any((self._folder / name).exists() for name in OUTPUTS):
                 click.echo(

@@ -20,7 +20,7 @@ from report.assessment.precheck import limit_value
 from report.document.tables import Table, stamp, table_of
 from report.entities.marks import dagger
 from report.typeset.equations import data_uri, symbol
-from report.words.counts import capitalized, counted, joined, spelled
+from report.words.counts import capitalized, counted, joined, lowered, spelled
 from report.words.formats import general, percent, scientific, seconds
 from report.words.letters import below_mm, lettered, power_above
 from report.words.units import Quantity, digits_down, digits_up, number
@@ -75,7 +75,7 @@ def _environment(folder: Path) -> Environment:
         "general": general,
         "joined": joined,
         "lettered": lettered,
-        "lowered": lambda text: text[:1].lower() + text[1:],
+        "lowered": lowered,
         "mark": _mark,
         "number": number,
         "percent": percent,

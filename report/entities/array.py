@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field
 
@@ -17,7 +17,7 @@ from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.entities.marks import Marked
-from report.entities.requirement import limit
+from report.entities.requirement import LimitResult, limit_result
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
 from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
 from report.sheet.schema import Direction, ModelChoice
@@ -130,9 +130,9 @@ class ArrayResult(LowVelocityResult):
     tipping: TippingResult
     uplift: UpliftResult
     route: Route
-    checks: tuple[Mapping[str, Any], ...]
-    analysis_checks: tuple[Mapping[str, Any], ...]
-    prescriptive_checks: tuple[Mapping[str, Any], ...]
+    checks: tuple[LimitResult, ...]
+    analysis_checks: tuple[LimitResult, ...]
+    prescriptive_checks: tuple[LimitResult, ...]
     runs: tuple[RunResult, ...]
     source: Annotated[str, words("Governs", 1.55)] = Field(default="", exclude=True)
     limits: Annotated[
@@ -204,9 +204,9 @@ def array_result(
         directions={direction: _direction(item, direction) for direction in item.directions},
         peaks=tuple(map(peak_result, item.motions)),
         uplift=UpliftResult.of(item.uplift),
-        checks=tuple(map(limit, item.checks)),
-        analysis_checks=tuple(map(limit, item.analysis_checks)),
-        prescriptive_checks=tuple(map(limit, item.prescriptive_checks)),
+        checks=tuple(map(limit_result, item.checks)),
+        analysis_checks=tuple(map(limit_result, item.analysis_checks)),
+        prescriptive_checks=tuple(map(limit_result, item.prescriptive_checks)),
         runs=tuple(run_result(motion, run) for motion in item.motions for run in motion.runs),
     )
 

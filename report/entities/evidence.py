@@ -6,33 +6,39 @@ Computes nothing: see `report.assessment.evidence`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated
 
 from report.assessment.cumulative import Cumulative
 from report.assessment.neighbors import NearbyKind, PlanNeighbor
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
-from report.entities.shown import Entity, Number, at
+from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, at
 from solver.model import Status
 
 _UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m", RemedyKind.S_DS: "_g"}
 
 
-def remedy(item: Remedy) -> dict[str, Any]:
-    """Return a remedy, with the unit of its quantity in the keys."""
-    unit = _UNITS[item.kind]
-    return {
-        "quantity": item.kind,
-        "clearance": f"{item.clearance}" if item.clearance else None,
-        "array": item.array,
-        "exists": item.exists,
-        f"given{unit}": item.given,
-        f"value{unit}": item.value,
-        f"resolution{unit}": item.resolution,
-        f"verified{unit}": item.verified,
-        "n_values": item.n_values,
-        "basis": item.basis,
-    }
+class RemedyResult(Entity):
+    """A change that would satisfy a clearance or an array, under the keys of its unit."""
+
+    quantity: RemedyKind
+    clearance: str | None
+    array: str
+    exists: bool
+    given: OfUnit
+    given_m: OfUnit
+    given_g: OfUnit
+    value: OfUnit
+    value_m: OfUnit
+    value_g: OfUnit
+    resolution: OfUnit
+    resolution_m: OfUnit
+    resolution_g: OfUnit
+    verified: RangeOfUnit
+    verified_m: RangeOfUnit
+    verified_g: RangeOfUnit
+    n_values: int
+    basis: str
 
 
 class GivenResult(Entity):
@@ -111,6 +117,20 @@ class CumulativeResult(Entity):
     sums_m: Mapping[str, Number]
     mean_m: Number
     largest_m: Number
+
+
+def remedy_result(item: Remedy) -> RemedyResult:
+    """Return a remedy."""
+    names = ("given", "value", "resolution", "verified")
+    return RemedyResult(
+        quantity=item.kind,
+        clearance=f"{item.clearance}" if item.clearance else None,
+        array=item.array,
+        exists=item.exists,
+        **{f"{name}{_UNITS[item.kind]}": getattr(item, name) for name in names},
+        n_values=item.n_values,
+        basis=item.basis,
+    )
 
 
 def uncertainty_result(item: Uncertainty) -> UncertaintyResult:

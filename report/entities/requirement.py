@@ -1,18 +1,16 @@
 """Requirements, limits and warnings as they are written and shown.
 
-Computes nothing. Read `RequirementResult`.
+Computes nothing. Read `LimitResult`; a requirement is written as it is
+(`report.assessment.verdict`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from report.assessment.precheck import findings
-from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
-from report.entities.shown import Entity
-from report.sheet.fields import Level
+from report.entities.shown import Entity, OfUnit
+from report.sheet.fields import Finding, Level, Place
 from report.sheet.findings import located
 from solver.rules.limit import Consequence, Limit
 
@@ -27,49 +25,69 @@ class FindingResult(Entity):
     reason: str
 
 
-class RequirementResult(Entity):
-    """A requirement beside the numeric limits, with its verdict."""
+class _FoundAndLimit(Entity):
+    """A value found and its limit, each under the key of its unit."""
 
-    id: str
     title: str
-    found: str
-    limit: str
-    basis: str
-    is_satisfied: bool
+    found: OfUnit
+    found_deg: OfUnit
+    found_m: OfUnit
+    found_s: OfUnit
+    limit: OfUnit
+    limit_deg: OfUnit
+    limit_m: OfUnit
+    limit_s: OfUnit
+
+
+class LimitResult(_FoundAndLimit):
+    """A limit of the rule set, with the value found."""
+
+    clause: str
+    is_overridden: bool
+    ok: bool
+    by_exception: bool
+
+
+class AcceptanceResult(_FoundAndLimit):
+    """A limit on the motions, with the value found."""
+
+    is_at_least: bool
+    worst: str
+    is_in_no_code: bool
+    ok: bool
     consequence: Consequence
-    subject: str
-    remedy: str
-    verdict: Verdict
 
 
-def finding_results(assessment: Assessment) -> Iterator[FindingResult]:
-    """Yield the warnings and notes on the input, each with its cell."""
-    found = findings(assessment.sheet, assessment.shaking)
-    for finding, cell in zip(found, located(found, assessment.sheet.addresses), strict=True):
+def finding_results(
+    findings: Iterable[Finding], addresses: Mapping[Place, str]
+) -> Iterator[FindingResult]:
+    """Yield warnings and notes on the input, each with its cell."""
+    found = tuple(findings)
+    for finding, cell in zip(found, located(found, addresses), strict=True):
         yield FindingResult.of(finding, cell=cell)
 
 
-def limit(row: Limit) -> dict[str, Any]:
+def limit_result(row: Limit) -> LimitResult:
     """Return a limit of the rule set."""
-    return {
+    return LimitResult(
         **_compared(row),
-        "clause": row.provision.clause,
-        "is_overridden": bool(row.provision.reason),
-        "ok": row.ok,
-        "by_exception": row.passes_by_exception,
-    }
+        clause=row.provision.clause,
+        is_overridden=bool(row.provision.reason),
+        ok=row.ok,
+        by_exception=row.passes_by_exception,
+    )
 
 
-def acceptance(row: Limit) -> dict[str, Any]:
+def acceptance_result(row: Limit) -> AcceptanceResult:
     """Return a limit on the motions."""
-    return {
+    return AcceptanceResult(
         **_compared(row),
-        "is_at_least": row.is_at_least,
-        "worst": row.worst,
-        "is_in_no_code": row.is_program_limit,
-        "ok": row.ok,
-        "consequence": row.consequence,
-    }
+        is_at_least=row.is_at_least,
+        worst=row.worst,
+        is_in_no_code=row.is_program_limit,
+        ok=row.ok,
+        consequence=row.consequence,
+    )
 
 
 def _compared(row: Limit) -> dict[str, Any]:

@@ -5,32 +5,34 @@ Computes nothing. Read `Results`; `report.results.json` writes it, `report.resul
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any, ClassVar
 
 from report.assessment.evidence import Evidence
+from report.assessment.precheck import findings
 from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import Requirement, Verdict
 from report.entities.array import ArrayResult, LowVelocityResult, array_result
 from report.entities.clearance import ClearanceResult
 from report.entities.evidence import (
     CumulativeResult,
     NeighborResult,
+    RemedyResult,
     UncertaintyResult,
     cumulative_result,
     neighbor_result,
-    remedy,
+    remedy_result,
     uncertainty_result,
 )
 from report.entities.linked import LinkedResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, motion_result
 from report.entities.requirement import (
+    AcceptanceResult,
     FindingResult,
-    RequirementResult,
-    acceptance,
+    LimitResult,
+    acceptance_result,
     finding_results,
-    limit,
+    limit_result,
 )
 from report.entities.shown import Entity, WrittenSchema
 from report.sheet.schema import ProjectInput
@@ -61,7 +63,7 @@ class Compared(Entity):
     input: ProjectInput
     rule_set: str
     verdict: Verdict
-    requirements: tuple[RequirementResult, ...]
+    requirements: tuple[Requirement, ...]
     arrays: tuple[ArrayResult, ...]
     clearances: tuple[ClearanceResult, ...]
 
@@ -81,12 +83,12 @@ class Results(Compared):
     sdc_is_confirmed: bool
     warnings: tuple[str, ...]
     findings: tuple[FindingResult, ...]
-    building_checks: tuple[Mapping[str, Any], ...]
+    building_checks: tuple[LimitResult, ...]
     low_velocity: LowVelocity
     linked: tuple[LinkedResult, ...]
-    acceptance: tuple[Mapping[str, Any], ...]
+    acceptance: tuple[AcceptanceResult, ...]
     neighbors: tuple[NeighborResult, ...]
-    remedies: tuple[Mapping[str, Any], ...]
+    remedies: tuple[RemedyResult, ...]
     certainty: UncertaintyResult
     cumulative: tuple[CumulativeResult, ...]
 
@@ -124,16 +126,16 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         motions=tuple(map(motion_result, shaking.motions, shaking.prepared)),
         s_ds_g=site.s_ds,
         sdc_is_confirmed=not site.sdc_lacks,
-        findings=tuple(finding_results(assessment)),
-        building_checks=tuple(map(limit, assessment.building_checks)),
+        findings=tuple(finding_results(findings(sheet, shaking), sheet.addresses)),
+        building_checks=tuple(map(limit_result, assessment.building_checks)),
         low_velocity=LowVelocity(
             arrays=tuple(map(LowVelocityResult.of, slow.arrays)),
             clearances=tuple(map(ClearanceResult.of, slow.clearances.values())),
         ),
         linked=tuple(map(linked_result, assessment.linked)),
-        acceptance=tuple(map(acceptance, assessment.acceptance.rows)),
+        acceptance=tuple(map(acceptance_result, assessment.acceptance.rows)),
         neighbors=tuple(map(neighbor_result, assessment.neighbors)),
-        remedies=tuple(map(remedy, evidence.remedies)),
+        remedies=tuple(map(remedy_result, evidence.remedies)),
         certainty=uncertainty_result(evidence.uncertainty),
         cumulative=tuple(map(cumulative_result, evidence.cumulative)),
     )

@@ -34,6 +34,13 @@ Number = Annotated[
 ]
 """A number; NaN is none, which is null in JSON."""
 
+_IF_GIVEN = Field(default=None, exclude_if=lambda value: value is None)
+OfUnit = Annotated[int | Number, _IF_GIVEN]
+"""A number whose key has the unit: of the keys that differ in it, one is given and written."""
+
+RangeOfUnit = Annotated[tuple[Number, Number], _IF_GIVEN]
+"""The ends of a range, likewise."""
+
 
 def _as_it_is(value: Any) -> str:
     return value if isinstance(value, str) else str(value)

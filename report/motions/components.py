@@ -148,7 +148,8 @@ def _shortest(records: Mapping[str, Record]) -> int:
 def _faults(index: int, field: str, error: InputError) -> list[Finding]:
     place = Place("motions", index, field)
     return [
-        Finding.error(place, f"{LABELS[field]} record: {problem}") for problem in error.problems
+        Finding.error(place, f"{LABELS[field]} record: {problem.found}", problem.remedy)
+        for problem in error.parts
     ]
 
 
@@ -175,10 +176,10 @@ def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
         label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
         if abs(record.dt_s - dt_s) > 1e-9 * dt_s:
             text = (
-                f"{label} has a time step of {record.dt_s:g} s, but the horizontal record has"
-                f" {dt_s:g} s; make them equal"
+                f"{label} has a time step of {record.dt_s:g} s, but the horizontal record has "
+                f"{dt_s:g} s"
             )
-            yield Finding.error(Place("motions", index, field), text)
+            yield Finding.error(Place("motions", index, field), text, "make them equal")
 
 
 HORIZONTAL = ("record", "transverse")
@@ -195,9 +196,8 @@ def _unscalable(
         if field in records and not records[field].a_mps2.any():
             goal = "a PPA" if scaling is Scaling.PPA else "a target spectrum"
             text = f"{LABELS[field]} record is all zeros and cannot be scaled to {goal}"
-            yield Finding.error(
-                Place("motions", index, field), f"{text}; change the record or scaling"
-            )
+            wanted = "change the record or scaling"
+            yield Finding.error(Place("motions", index, field), text, wanted)
 
 
 def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
@@ -207,13 +207,12 @@ def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
     place = Place("motions", index, "record")
     if duration_s < SHORTEST_S * (1.0 - 1e-9):
         text = (
-            f"horizontal record lasts {duration_s:.4g} s as run ({len(horizontal.a_mps2)} samples);"
-            f" give a record of {SHORTEST_S:g} s or more"
+            f"horizontal record lasts {duration_s:.4g} s as run ({len(horizontal.a_mps2)} samples)"
         )
-        yield Finding.error(place, text)
+        yield Finding.error(place, text, f"give a record of {SHORTEST_S:g} s or more")
     elif not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
         which = "and transverse records are" if "transverse" in records else "record is"
-        yield Finding.error(place, f"horizontal {which} all zeros; give a record of the shaking")
+        yield Finding.error(place, f"horizontal {which} all zeros", "give a record of the shaking")
 
 
 def _processed(

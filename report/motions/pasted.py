@@ -17,7 +17,7 @@ from report.sheet.positions import MAX_COLUMNS, CellPosition, cells_below, found
 from solver.formats.headings import Heading, Kind, parse
 from solver.formats.source import Source
 from solver.formats.times import Sampled, sampled
-from solver.model import Floats, InputError
+from solver.model import Floats, InputError, Problem
 from solver.records.record import Record, record_from_values
 from solver.records.units import unit_size
 
@@ -172,9 +172,9 @@ def _numbers(cells: list[Found], unit: str) -> list[float]:
         try:
             values.append(_number(cell, unit))
         except CellError as error:
-            problems.append(f"{cell.address} {error.problems[0]}")
+            problems.append(error.problem.at("", cell.address))
     if len(problems) > MAX_TOLD:
-        problems[MAX_TOLD:] = [f"... and {len(problems) - MAX_TOLD} more cells"]
+        problems[MAX_TOLD:] = [Problem(f"... and {len(problems) - MAX_TOLD} more cells")]
     if problems:
         raise InputError(problems)
     return values
@@ -182,6 +182,6 @@ def _numbers(cells: list[Found], unit: str) -> list[float]:
 
 def _number(cell: Found, unit: str) -> float:
     if cell.is_blank:
-        raise CellError("is blank, beside or above values; fill it in, or delete its row")
+        raise CellError("is blank, beside or above values", "fill it in, or delete its row")
     check_saved(cell)
     return number(cell, unit=unit)

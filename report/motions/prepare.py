@@ -45,8 +45,8 @@ class Shaking:
 
 
 _TOO_MUCH = (
-    f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together; give fewer motions, "
-    "or convert the records (roofslip motion convert)"
+    f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together",
+    "give fewer motions, or convert the records (roofslip motion convert)",
 )
 
 
@@ -71,7 +71,7 @@ def read_records(sheet: Sheet) -> tuple[Components, ...]:
         if faults and total > MAX_BESIDE_FAULTS:
             break
         if total > MAX_TOGETHER:
-            faults.append(Finding.error(Place("motions", index, "record"), _TOO_MUCH))
+            faults.append(Finding.error(Place("motions", index, "record"), *_TOO_MUCH))
             break
         match read_components(sheet.book, index, row):
             case Components() as components:

@@ -56,11 +56,11 @@ def repeated(
         new, old = next(pairs, (None, None))
         if new is not None and old is not None:
             text = (
-                f"{LABELS[new.place.field]} record repeats the {LABELS[old.place.field]} record at"
-                f" {where(old.place)} (equal samples, apart from scale and sign):"
-                f" {new.row['id']} is {old.row['id']} again; give each motion once"
+                f"{LABELS[new.place.field]} record repeats the {LABELS[old.place.field]} record at "
+                f"{where(old.place)} (equal samples, apart from scale and sign): {new.row['id']} "
+                f"is {old.row['id']} again"
             )
-            yield Finding.error(new.place, text)
+            yield Finding.error(new.place, text, "give each motion once")
         for key, item in given:
             seen.setdefault(key, []).append(item)
 

@@ -25,9 +25,10 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
         if links.stiffness_n_per_m > most:
             yield Finding.error(
                 Place("links", index, "stiffness_n_per_m"),
-                f"link stiffness is {_said(links.stiffness_n_per_m)}, too stiff to integrate in "
-                f"{MOST_STEPS:.0e} steps; give {_said(0.9 * most)} or less (a stiffer row moves as "
-                "one rigid block with the mean coefficient)",
+                f"link stiffness is {_said(links.stiffness_n_per_m)}, too stiff to "
+                f"integrate in {MOST_STEPS:.0e} steps",
+                f"give {_said(0.9 * most)} or less (a stiffer row moves as one rigid "
+                "block with the mean coefficient)",
             )
 
 

@@ -14,7 +14,7 @@ from report.assessment.evidence import Plotted
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra, departures
 from report.assessment.uncertainty import Uncertainty
-from report.assessment.verdict import Row, Verdict
+from report.assessment.verdict import Requirement, Verdict
 from report.document.blocks import Picture
 from report.pages import accuracy, friction_tests, limits, section, uncertainty
 from report.pages.parts import PackageData
@@ -127,7 +127,7 @@ def _conditions_in(package: PackageData) -> float:
     return 0.3 + sum(0.16 * math.ceil(_letters(row) / 110) for row in rows) if rows else 0.0
 
 
-def _letters(row: Row) -> int:
+def _letters(row: Requirement) -> int:
     """Return how long a condition is, with the words between its parts."""
     of_subject = len(f"array {row.subject}, ") if row.subject else 0
     texts = (row.consequence.value, row.title, row.found, row.limit, row.remedy)

@@ -23,6 +23,7 @@ from report.sheet.fields import Level
 from report.sheet.findings import lines
 from report.sheet.legacy_notes import what_is_new
 from report.sheet.schema import ModelChoice
+from report.words.counts import lowered
 from report.words.units import Quantity, compared, no_less, pair, ratio, rounding
 from solver.model import Status
 
@@ -110,7 +111,7 @@ def attention(assessment: Assessment) -> Iterator[Concern]:
     us_first = assessment.project.project.units_first.is_us
     for text in assessment.warnings:
         wanted = next(do for status, do in _WHAT_WOULD_DO.items() if status.sentence in text)
-        yield Concern("NG", f"{_lowered(text.rstrip('.'))}; {wanted}")
+        yield Concern("NG", f"{lowered(text.rstrip('.'))}; {wanted}")
     yield from _models(assessment)
     for check in (check for check in assessment.building_checks if not check.ok):
         yield Concern("NG", f"building, {limit_words(check, us_first)}")
@@ -121,7 +122,7 @@ def attention(assessment: Assessment) -> Iterator[Concern]:
         yield Concern("NG", _short(gap, us_first))
     for row in assessment.conditions:
         where = f"{row.subject}, " if row.subject else ""
-        text = f"{where}{_lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
+        text = f"{where}{lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
         yield Concern(row.consequence.value, text)
     for finding in what_is_new(assessment.sheet.book):
         yield Concern(finding.level.value, finding.text)
@@ -161,7 +162,3 @@ def _short(gap: ClearanceCheck, us_first: bool) -> str:
     required = pair(gap.required_m, Quantity.SIZE, us_first, shown)
     up = rounding(gap.required_m, row.provided_m, Quantity.SIZE)
     return f"{name}; {required}{gap.mark} required{up} (D/C {gap.ratio_words}); provide {enough}"
-
-
-def _lowered(text: str) -> str:
-    return text[0].lower() + text[1:]

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
-from report.assessment.verdict import Row
+from report.assessment.verdict import Requirement
 from report.results.sheets import Pages, write_headings
 from solver.rules.limit import Limit
 
@@ -40,7 +40,7 @@ def _rows(assessment: Assessment) -> Iterator[tuple[str, ...]]:
         yield _limit(assessment, "Motions", check)
 
 
-def _requirement(row: Row) -> tuple[str, ...]:
+def _requirement(row: Requirement) -> tuple[str, ...]:
     subject = row.subject or "Project"
     return (subject, row.title, row.found, row.limit, row.basis, row.verdict.word, row.remedy)
 

@@ -22,7 +22,7 @@ from report.sheet.fields import Entry, Frozen, YesNo, adapter
 from report.sheet.number_format import is_percentage, misleading
 from report.words.letters import UNPRINTABLE, trimmed
 from report.words.units import Quantity
-from solver.model import InputError
+from solver.model import InputError, Problem
 
 SHOWN = 60
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
@@ -39,6 +39,14 @@ LARGEST = 1e15
 
 class CellError(InputError):
     """A cell with invalid content; the message has the form `is ...; give ...`."""
+
+    def __init__(self, found: str, remedy: str = "") -> None:
+        super().__init__(Problem(found, remedy))
+
+    @property
+    def problem(self) -> Problem:
+        """The only one."""
+        return self.parts[0]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -163,22 +171,22 @@ def read_cell(
     if isinstance(value, float):
         value *= si
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
-        raise CellError(f"{_is(cell, entry)}; {wanted}, below {LARGEST:g} in size")
+        raise CellError(_is(cell, entry), f"{wanted}, below {LARGEST:g} in size")
     try:
         return adapter(model, entry.name).validate_python(value)
     except ValidationError as error:
-        raise CellError(f"{_is(cell, entry)}; {wanted}") from error
+        raise CellError(_is(cell, entry), wanted) from error
 
 
 def check_saved(cell: Found) -> None:
     """Raise if a cell contains an Excel error, or a formula that was never computed."""
     if cell.is_error:
         cause = f" (from {cut(cell.formula)})" if cell.formula else ""
-        raise CellError(f"is {cell.value}{cause}; correct the formula, or type a value")
+        raise CellError(f"is {cell.value}{cause}", "correct the formula, or type a value")
     if cell.formula and cell.value is None:
         raise CellError(
-            f"is a formula with no saved value ({cut(cell.formula)}); open the workbook in Excel"
-            " or LibreOffice and save it"
+            f"is a formula with no saved value ({cut(cell.formula)})",
+            "open the workbook in Excel or LibreOffice and save it",
         )
 
 
@@ -254,21 +262,21 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
     if isinstance(value, str):
         return _number_in_text(value.strip(), wanted)
     if isinstance(value, bool):
-        raise CellError(f"is {plain(value)}, a logical value; {wanted}")
+        raise CellError(f"is {plain(value)}, a logical value", wanted)
     if isinstance(value, date | time | timedelta):
-        raise CellError(f"is a date or time ({plain(value)}); {wanted}, formatted as a number")
+        raise CellError(f"is a date or time ({plain(value)})", f"{wanted}, formatted as a number")
     # Whole numbers of any length are read as such; `float` has no value for 400 digits.
     if not abs(value) <= sys.float_info.max:
-        raise CellError(f"is {_quoted(value)}; {wanted}")
+        raise CellError(f"is {_quoted(value)}", wanted)
     if is_percentage(cell.number_format):
         raise CellError(
-            f"is a percentage ({100 * value:g}%, which Excel holds as {value:g}); {wanted},"
-            " formatted as a number"
+            f"is a percentage ({100 * value:g}%, which Excel holds as {value:g})",
+            f"{wanted}, formatted as a number",
         )
     if how := misleading(cell.number_format, unit):
         raise CellError(
-            f"is {plain(value)}, shown {how} by its number format ({cut(cell.number_format)});"
-            f" {wanted}, formatted as a number"
+            f"is {plain(value)}, shown {how} by its number format ({cut(cell.number_format)})",
+            f"{wanted}, formatted as a number",
         )
     return float(value)
 
@@ -278,12 +286,12 @@ def _number_in_text(text: str, wanted: str) -> float:
         return float(text)
     if _THOUSANDS.fullmatch(text):
         whole = text.replace(",", "")
-        raise CellError(f"is '{cut(text)}'; write {whole}, without a comma")
+        raise CellError(f"is '{cut(text)}'", f"write {whole}, without a comma")
     if match := _DECIMAL_COMMA.fullmatch(text):
-        raise CellError(f"is '{cut(text)}'; write {match[1] or '0'}.{match[2]}")
+        raise CellError(f"is '{cut(text)}'", f"write {match[1] or '0'}.{match[2]}")
     if _WITH_UNIT.fullmatch(text):
-        raise CellError(f"is '{cut(text)}'; {wanted}, with no unit in the cell")
-    raise CellError(f"is '{cut(text)}'; {wanted}")
+        raise CellError(f"is '{cut(text)}'", f"{wanted}, with no unit in the cell")
+    raise CellError(f"is '{cut(text)}'", wanted)
 
 
 def _date(cell: Found, wanted: str) -> date:
@@ -296,10 +304,10 @@ def _date(cell: Found, wanted: str) -> date:
         try:
             found = date.fromisoformat(str(value).strip() if isinstance(value, str) else "")
         except ValueError as error:
-            raise CellError(f"is {_quoted(value)}; {wanted}") from error
+            raise CellError(f"is {_quoted(value)}", wanted) from error
     # A spreadsheet shows a small number, such as 3.5, as a day of 1900.
     if found < EARLIEST:
-        raise CellError(f"is {found}, before {EARLIEST}; {wanted}")
+        raise CellError(f"is {found}, before {EARLIEST}", wanted)
     return found
 
 
@@ -311,16 +319,16 @@ def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
     for choice in entry.choices:
         if choice.casefold() == said:
             return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
-    raise CellError(f"is {_quoted(cell.value)}; {wanted}")
+    raise CellError(f"is {_quoted(cell.value)}", wanted)
 
 
 def _text(cell: Found) -> str:
     if isinstance(cell.value, date | time | timedelta | bool):
         raise CellError(
-            f"is {plain(cell.value)}, which is not text; format the cell as text and retype it"
+            f"is {plain(cell.value)}, which is not text", "format the cell as text and retype it"
         )
     # Excel writes characters that XML does not allow, and a pasted CR, as _x000D_.
     text = trimmed(unescape(plain(cell.value)).replace("\r\n", "\n").replace("\r", "\n"))
     if UNPRINTABLE.search(text):
-        raise CellError(f"is '{cut(text)}', with control characters; retype it")
+        raise CellError(f"is '{cut(text)}', with control characters", "retype it")
     return text

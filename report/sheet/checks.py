@@ -76,7 +76,7 @@ def faults(draft: Draft, where: Where) -> list[Finding]:
 def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
     for section, noun in (("arrays", "array"), ("motions", "motion")):
         if not draft[section]:
-            yield Finding.error(Place(section), f"no {noun} is given; fill in at least one row")
+            yield Finding.error(Place(section), f"no {noun} is given", "fill in at least one row")
 
 
 def _missing(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -90,8 +90,8 @@ def _ids(draft: Draft, where: Where) -> Iterator[Finding]:
         for place, value in _column(draft, sections, "id"):
             first = seen.setdefault(value.casefold(), place)
             if first is not place:
-                text = f"ID is '{value}', already used at {where(first)}; give a unique ID"
-                yield Finding.error(place, text)
+                text = f"ID is '{value}', already used at {where(first)}"
+                yield Finding.error(place, text, "give a unique ID")
 
 
 def _column(draft: Draft, sections: Sequence[str], field: str) -> Iterator[tuple[Place, Any]]:
@@ -112,8 +112,8 @@ def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
     if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
         return
     most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
-    text = f"slope is {value:g} {unit}; give 0 to less than {most} {unit}"
-    yield Finding.error(Place("arrays", index, "slope_value"), text)
+    wanted = f"give 0 to less than {most} {unit}"
+    yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", wanted)
 
 
 def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
@@ -123,12 +123,13 @@ def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
         return
     mu, static, model = row["mu"], row["mu_static"], row["model"]
     if static is not None and static < mu:
-        text = f"static friction is {static:g}; give the friction coefficient, {mu:g}, or more"
-        yield Finding.error(Place("arrays", index, "mu_static"), text)
+        text = f"static friction is {static:g}"
+        wanted = f"give the friction coefficient, {mu:g}, or more"
+        yield Finding.error(Place("arrays", index, "mu_static"), text, wanted)
     if _by_speed(row) and model is not ModelChoice.CHOOSE:
-        text = f"model is '{model}', which neglects velocity-dependent and static friction; select"
-        more = f"{text} '{ModelChoice.CHOOSE}', or leave high-velocity and static friction blank"
-        yield Finding.error(Place("arrays", index, "model"), more)
+        text = f"model is '{model}', which neglects velocity-dependent and static friction"
+        wanted = f"select '{ModelChoice.CHOOSE}', or leave high-velocity and static friction blank"
+        yield Finding.error(Place("arrays", index, "model"), text, wanted)
 
 
 def _by_speed(array: DraftRow) -> list[str]:
@@ -153,8 +154,8 @@ def _unknown(draft: Draft, where: Where) -> Iterator[Finding]:
         sheets = " or ".join(table.capitalize() for table in tables)
         for place, value in _column(draft, (section,), field):
             if value not in ids:
-                text = f"{field} is '{value}', which is not in {sheets}; {suggestion(value, ids)}"
-                yield Finding.error(place, text)
+                text = f"{field} is '{value}', which is not in {sheets}"
+                yield Finding.error(place, text, suggestion(value, ids))
 
 
 def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -166,8 +167,8 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
         first = seen.setdefault(key, index)
         if first != index:
             at = where(Place("clearances", first, "array"))
-            text = f"array is '{key[0]}', with the same object and direction as at {at}; delete one"
-            yield Finding.error(Place("clearances", index, "array"), text)
+            text = f"array is '{key[0]}', with the same object and direction as at {at}"
+            yield Finding.error(Place("clearances", index, "array"), text, "delete one")
 
 
 def _room(
@@ -175,8 +176,9 @@ def _room(
 ) -> Iterator[Finding]:
     array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == other:
-        text = f"object is '{other}', the array itself; give an object or another array"
-        yield Finding.error(Place("clearances", index, "object"), text)
+        text = f"object is '{other}', the array itself"
+        wanted = "give an object or another array"
+        yield Finding.error(Place("clearances", index, "object"), text, wanted)
         return
     a, b = (shapes.get(str(name)) for name in (array, other))
     if a is None or b is None or provided is None:
@@ -188,12 +190,12 @@ def _room(
     given = pair(provided, Quantity.SIZE, is_us)
     at = places_of(draft, (str(array), str(other)), where)
     if gap < -1e-9:
-        text = f"provided clearance is {given}, but {array} and {other} overlap in plan; correct"
-        yield Finding.error(place, f"{text} their {noun} in {at}")
+        text = f"provided clearance is {given}, but {array} and {other} overlap in plan"
+        yield Finding.error(place, text, f"correct their {noun} in {at}")
     elif provided > gap + gap_tolerance_m(gap):
         most = pair(max(gap, 0.0), Quantity.SIZE, is_us)
         text = f"provided clearance is {given}, but {array} and {other} are {most} apart in plan"
-        yield Finding.error(place, f"{text}; reduce it, or correct the {noun} in {at}")
+        yield Finding.error(place, text, f"reduce it, or correct the {noun} in {at}")
 
 
 def _links(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -203,7 +205,7 @@ def _links(draft: Draft, where: Where) -> Iterator[Finding]:
         first = seen.setdefault(name, place)
         if first is not place:
             yield Finding.error(
-                place, f"array is '{name}', already given at {where(first)}; delete one"
+                place, f"array is '{name}', already given at {where(first)}", "delete one"
             )
         if name in arrays:
             yield from _one_coefficient(place, name, draft["arrays"][arrays[name].row])
@@ -214,8 +216,8 @@ def _links(draft: Draft, where: Where) -> Iterator[Finding]:
 
 def _one_coefficient(place: Place, name: str, array: DraftRow) -> Iterator[Finding]:
     if "mu" in array and _by_speed(array):
-        text = f"array is '{name}', which has high-velocity or static friction; leave both blank on"
-        yield Finding.error(place, f"{text} the sheet Arrays, or delete this row")
+        text = f"array is '{name}', which has high-velocity or static friction"
+        yield Finding.error(place, text, "leave both blank on the sheet Arrays, or delete this row")
 
 
 def _blocks(
@@ -224,18 +226,14 @@ def _blocks(
     """Yield errors in the coefficients of a row, and inconsistencies with its array."""
     mus = coefficients(text)
     if not mus:
-        wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points"
-        yield Finding.error(
-            place, f"block friction is '{text}'; {wanted}, such as 0.40, 0.45, 0.50"
-        )
+        wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
+        yield Finding.error(place, f"block friction is '{text}'", f"{wanted}, 0.50")
         return
     mu = draft["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
-        start = f"block friction is '{text}', all {'above' if mu < min(mus) else 'below'} the"
-        at = where(home._replace(field="mu"))
-        yield Finding.error(
-            place, f"{start} {mu:g} at {at}; give a range that includes it, or change it"
-        )
+        side, at = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
+        found = f"block friction is '{text}', all {side} the {mu:g} at {at}"
+        yield Finding.error(place, found, "give a range that includes it, or change it")
 
 
 def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -245,7 +243,8 @@ def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
             wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
             yield Finding.error(
                 Place("options", 0, "smaller_events"),
-                f"smaller events is '{cut(text)}'; {wanted}, such as 0.50, 0.25",
+                f"smaller events is '{cut(text)}'",
+                f"{wanted}, such as 0.50, 0.25",
             )
 
 
@@ -254,15 +253,15 @@ def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
     for place, key in _column(draft, ("overrides",), "provision"):
         first = seen.setdefault(key, place)
         if key not in PROVISION_KEYS:
-            text = f"provision is '{key}'; choose one of {', '.join(PROVISION_KEYS)}"
-            yield Finding.error(place, text)
+            text = f"provision is '{key}'"
+            yield Finding.error(place, text, f"choose one of {', '.join(PROVISION_KEYS)}")
         elif first is not place:
             yield Finding.error(
-                place, f"provision is '{key}', already given at {where(first)}; delete one"
+                place, f"provision is '{key}', already given at {where(first)}", "delete one"
             )
     for row, override in enumerate(draft["overrides"]):
         key, value = override.get("provision", ""), override.get("value")
         allowed = ALLOWED.get(key)
         if allowed and value is not None and not allowed.has(value):
-            text = f"value is {value:g} for {key}; give {allowed.words}"
-            yield Finding.error(Place("overrides", row, "value"), text)
+            text = f"value is {value:g} for {key}"
+            yield Finding.error(Place("overrides", row, "value"), text, f"give {allowed.words}")

@@ -185,7 +185,7 @@ def missing(draft: Draft) -> Iterator[Finding]:
             is_blank = field in row and row[field] in (None, "")
             if is_blank and required.when.holds(row, draft):
                 yield Finding.error(
-                    Place(section, index, field), f"{label} is missing; {required.wish}"
+                    Place(section, index, field), f"{label} is missing", required.wish
                 )
 
 

@@ -19,6 +19,7 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter
 from pydantic.fields import FieldInfo
 
 from report.words.units import Quantity
+from solver.model import Problem
 
 
 class Place(NamedTuple):
@@ -50,7 +51,9 @@ class Finding:
     place : Place
         The cell to look at.
     text : str
-        What was found, and what would do.
+        What was found; of a warning also what would do.
+    remedy : str
+        What would do, of an error.
     reason : str
         From the sheet Acknowledged; empty if not acknowledged.
     cell : str
@@ -60,14 +63,19 @@ class Finding:
     level: Level
     place: Place
     text: str
+    remedy: str = ""
     id: str = ""
     reason: str = ""
     cell: str = ""
 
     @classmethod
-    def error(cls, place: Place, text: str) -> Finding:
+    def error(cls, place: Place, found: str, remedy: str = "") -> Finding:
         """Return an input error: what was found, and what would be accepted."""
-        return cls(level=Level.ERROR, place=place, text=text)
+        return cls(level=Level.ERROR, place=place, text=found, remedy=remedy)
+
+    def problem(self, where: str) -> Problem:
+        """Return the error with its address."""
+        return Problem(self.text, self.remedy, where)
 
 
 DraftRow = Mapping[str, Any]

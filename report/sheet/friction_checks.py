@@ -44,8 +44,9 @@ def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
         first = seen.setdefault(key, index)
         if first != index:
             at = where(Place("friction_runs", first, "number"))
-            text = f"run is {number}, {surface}, already given at {at}; give another number"
-            yield Finding.error(Place("friction_runs", index, "number"), text)
+            text = f"run is {number}, {surface}, already given at {at}"
+            wanted = "give another number"
+            yield Finding.error(Place("friction_runs", index, "number"), text, wanted)
 
 
 def _tested(draft: Draft) -> tuple[Series, ...]:
@@ -89,8 +90,8 @@ def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Findi
         text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
         runs = f" of {len(tests.runs)} from {at})"
         wanted = "reduce it" if by_velocity else f"give {tested:.3g} or less"
-        yield Finding.error(Place("arrays", index, "mu"), f"{text}{runs}; {wanted}")
+        yield Finding.error(Place("arrays", index, "mu"), text + runs, wanted)
     if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
-        text = f"static friction is {law.mu_static:g}; the tests give {tests.static_mean:.3g}"
-        more = f"({tests.surface}); give {tests.static_mean:.3g} or less"
-        yield Finding.error(Place("arrays", index, "mu_static"), f"{text} {more}")
+        most = f"{tests.static_mean:.3g}"
+        text = f"static friction is {law.mu_static:g}; the tests give {most} ({tests.surface})"
+        yield Finding.error(Place("arrays", index, "mu_static"), text, f"give {most} or less")

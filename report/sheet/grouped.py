@@ -1,54 +1,57 @@
-"""The lines of an input error, taken apart: equal ones of several cells become one.
+"""The problems of an input: equal ones of several cells become one.
 
 Writes no text of its own but the count. Read `grouped`.
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+
+from solver.model import Problem
 
 MOST_LISTED = 3
 """Cells and ids named of equal errors and findings."""
 
-_LINE = re.compile(r"(?P<sheet>[^!:]+)!(?P<cell>[A-Z]{1,3}[0-9]{1,7}): (?P<text>.+)", re.DOTALL)
-
 
 @dataclass(frozen=True, slots=True)
-class Problem:
-    """An error of one cell, of several of a sheet, or of none.
+class Group:
+    """A problem of one cell, of several of a sheet, or of none.
 
     Attributes
     ----------
+    first : Problem
     sheet : str
-        Empty for an error of no cell.
+        Empty for a problem of no cell.
     cells : tuple of str
-    text : str
-        What was found, and what would do.
     """
 
+    first: Problem
     sheet: str
     cells: tuple[str, ...]
-    text: str
+
+    @property
+    def found(self) -> str:
+        """What was found; with the sheet where there is no cell to name it."""
+        at = "" if self.sheet or not self.first.where else f"{self.first.where}: "
+        return f"{at}{self.first.found}"
 
     @property
     def line(self) -> str:
-        """The error with its cells, as it is printed."""
+        """The problem with its cells, as it is printed."""
         addresses = listed(f"{self.sheet}!{cell}" for cell in self.cells)
-        return f"{addresses}: {self.text}" if addresses else self.text
+        return f"{addresses}: {self.first.text}" if addresses else str(self.first)
 
 
-def grouped(lines: Iterable[str]) -> Iterator[Problem]:
-    """Yield the errors of lines in order; equal ones of a sheet once, where the first is."""
-    alike: dict[tuple[str, str, int], list[str]] = {}
-    for number, line in enumerate(lines):
-        if match := _LINE.fullmatch(line):
-            alike.setdefault((match["sheet"], match["text"], 0), []).append(match["cell"])
-        else:
-            alike["", line, number] = []
-    for (sheet, text, _), cells in alike.items():
-        yield Problem(sheet, tuple(cells), text)
+def grouped(problems: Iterable[Problem]) -> Iterator[Group]:
+    """Yield problems in order; equal ones of a sheet once, where the first is."""
+    alike: dict[tuple[str, str, int], list[Problem]] = {}
+    for number, problem in enumerate(problems):
+        sheet, has_cell, _ = problem.where.rpartition("!")
+        alike.setdefault((sheet, problem.text, 0 if has_cell else number), []).append(problem)
+    for (sheet, _, _), those in alike.items():
+        cells = [each.where.removeprefix(f"{sheet}!") for each in those] if sheet else []
+        yield Group(those[0], sheet, tuple(cells))
 
 
 def listed(names: Iterable[str]) -> str:

@@ -23,13 +23,13 @@ from report.sheet.positions import (
     heading_parts,
     label_key,
     labels_of,
-    merged_line,
+    merged,
     scanned,
     sheet_titled,
     sheets_of,
     unit_size,
 )
-from solver.model import InputError
+from solver.model import InputError, Problem
 
 MAX_ROWS = 2000
 
@@ -72,7 +72,7 @@ class TableFound:
     absent : tuple of str
         Optional fields without a column, as in workbooks of earlier versions or after a column was
         deleted.
-    problems : tuple of str
+    problems : tuple of Problem
         Finished lines about headings and merged cells.
     """
 
@@ -81,7 +81,7 @@ class TableFound:
     rows: Sequence[int]
     others: tuple[CellPosition, ...]
     absent: tuple[str, ...]
-    problems: tuple[str, ...]
+    problems: tuple[Problem, ...]
 
 
 def find_table(book: OpenBook, section: SheetSection) -> TableFound:
@@ -173,7 +173,10 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
         far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
     if far:
         raise InputError(
-            [f"{sheet.title}!{cell}: contains data {where}; clear it" for cell, where in far]
+            [
+                Problem(f"contains data {where}", "clear it", f"{sheet.title}!{cell}")
+                for cell, where in far
+            ]
         )
 
 
@@ -186,13 +189,13 @@ def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
 
 def _columns(
     book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
-) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[str]]:
+) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[Problem]]:
     fields = {
         label: entry for entry in entries(section.model) for label in labels_of(section, entry)
     }
     columns: dict[str, FieldColumn] = {}
     others: list[CellPosition] = []
-    problems: list[str] = []
+    problems: list[Problem] = []
     seen: set[str] = set()
     for position in headings:
         text = found_at(book, position).value
@@ -200,15 +203,14 @@ def _columns(
         if entry is None:
             others += [position] if text is not None else []
         elif entry.name in seen:
-            problems.append(
-                f"{position.address}: heading '{entry.cell.label}' appears twice; keep one"
-            )
+            twice = f"heading '{entry.cell.label}' appears twice"
+            problems.append(Problem(twice, "keep one", position.address))
         else:
             seen.add(entry.name)
             try:
                 columns[entry.name] = _column(position, entry, heading_parts(text)[1])
             except InputError as error:
-                problems += error.problems
+                problems += error.parts
     return columns, others, seen, problems
 
 
@@ -218,7 +220,7 @@ def _unseen(
     headings: Sequence[CellPosition],
     seen: set[str],
     others: Sequence[CellPosition],
-) -> tuple[tuple[str, ...], list[str]]:
+) -> tuple[tuple[str, ...], list[Problem]]:
     """Return optional fields that have no column, and a problem for each other missing field.
 
     If a table has an unknown heading, no field counts as absent: the heading may be a renamed one.
@@ -232,8 +234,9 @@ def _unseen(
             position = places[entry.name]
             text = found_at(book, position).value
             instead = f", '{text}' found" if position in others else ""
-            missing = f"{position.address}: heading '{entry.cell.label}' is missing{instead};"
-            problems.append(f"{missing} write it here in its own column, or {FRESH}")
+            missing = f"heading '{entry.cell.label}' is missing{instead}"
+            wanted = f"write it here in its own column, or {FRESH}"
+            problems.append(Problem(missing, wanted, position.address))
     return tuple(absent), problems
 
 
@@ -260,7 +263,7 @@ def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:
     try:
         symbol, si = unit_size(entry, unit)
     except InputError as error:
-        raise InputError(f"{position.address}: {error.problems[0]}") from error
+        raise InputError(error.parts[0].at(position.address)) from error
     return FieldColumn(number=position.column, unit=symbol, si=si, heading=position)
 
 
@@ -274,12 +277,12 @@ def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
     return min(starts)
 
 
-def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[str]:
+def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[Problem]:
     problems = []
     for area in sorted(sheet.merged_cells.ranges, key=str):
         reaches = any(area.min_col <= column <= area.max_col for column in columns)
         if reaches and area.min_row <= last_row and area.max_row >= top:
-            problems.append(merged_line(sheet.title, area.coord))
+            problems.append(merged(sheet.title, area.coord))
     return problems
 
 

@@ -37,26 +37,27 @@ def _same_component(index: int, row: DraftRow) -> Iterator[Finding]:
         first = seen.setdefault(" ".join(row[field].split()), label)
         if first != label:
             text = f"{label} record is '{row[field]}', the same as the {first} record"
-            yield Finding.error(Place("motions", index, field), f"{text}; give another record")
+            yield Finding.error(Place("motions", index, field), text, "give another record")
 
 
 def _scale_value(index: int, row: DraftRow) -> Iterator[Finding]:
     scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
     value = row.get("scale_value")
     if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
-        text = f"factor or PPA is {value:g}, but scaling is '{scaling}'; change the scaling or"
-        yield Finding.error(place, f"{text} leave this blank")
+        text = f"factor or PPA is {value:g}, but scaling is '{scaling}'"
+        yield Finding.error(place, text, "change the scaling or leave this blank")
 
 
 def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
-        text = f"end time is {end:g} s; give more than the start time, {start or 0.0:g} s"
-        yield Finding.error(Place("motions", index, "to_s"), text)
+        wanted = f"give more than the start time, {start or 0.0:g} s"
+        yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", wanted)
     high, low = row.get("highpass_hz"), row.get("lowpass_hz")
     if high is not None and low is not None and low <= high:
-        text = f"low-pass corner is {low:g} Hz; give more than the high-pass corner, {high:g} Hz"
-        yield Finding.error(Place("motions", index, "lowpass_hz"), text)
+        text = f"low-pass corner is {low:g} Hz"
+        wanted = f"give more than the high-pass corner, {high:g} Hz"
+        yield Finding.error(Place("motions", index, "lowpass_hz"), text, wanted)
 
 
 def _building(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -65,8 +66,9 @@ def _building(draft: Draft, where: Where) -> Iterator[Finding]:
         first, second = row.get("period_s"), row.get("period_2_s")
         if second is not None and (first is None or second > first):
             longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
-            text = f"period T2 is {second:g} s; give {longest}, or leave it blank"
-            yield Finding.error(Place("building", 0, "period_2_s"), text)
+            text = f"period T2 is {second:g} s"
+            wanted = f"give {longest}, or leave it blank"
+            yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
     if ground is not None:
         yield from _stories(draft)
 
@@ -78,7 +80,7 @@ def _stories(draft: Draft) -> Iterator[Finding]:
             text = (
                 f"number of stories is {count}, more than the {MOST_STORIES} of the building model"
             )
-            yield Finding.error(Place("site", 0, "stories"), f"{text}; give roof motions")
+            yield Finding.error(Place("site", 0, "stories"), text, "give roof motions")
 
 
 def _first_row(draft: Draft, field: str, value: object) -> int | None:
@@ -90,18 +92,19 @@ def _first_row(draft: Draft, field: str, value: object) -> int | None:
 def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
     rows = draft["spectrum"]
     if len(rows) == 1:
-        yield Finding.error(Place("spectrum"), "one row is given; give at least two, or none")
+        yield Finding.error(Place("spectrum"), "one row is given", "give at least two, or none")
     given = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
     for (before, first), (after, second) in pairwise(sorted(given)):
         if after - before <= 1e-9 * after:
             at = where(Place("spectrum", first, "period_s"))
-            text = f"period is {after:g} s, already given at {at}; give each period once"
-            yield Finding.error(Place("spectrum", second, "period_s"), text)
+            text = f"period is {after:g} s, already given at {at}"
+            wanted = "give each period once"
+            yield Finding.error(Place("spectrum", second, "period_s"), text, wanted)
     verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
     if any(verticals) and not all(verticals):
         index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
-        text = "vertical is missing; give it in every row, or in none"
-        yield Finding.error(Place("spectrum", index, "vertical_g"), text)
+        wanted = "give it in every row, or in none"
+        yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", wanted)
 
 
 def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -111,8 +114,9 @@ def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
     if start is None or end is None:
         return
     if end <= start:
-        text = f"longest scaling period is {end:g} s; give more than the shortest, {start:g} s"
-        yield Finding.error(Place("target", 0, "to_s"), text)
+        text = f"longest scaling period is {end:g} s"
+        wanted = f"give more than the shortest, {start:g} s"
+        yield Finding.error(Place("target", 0, "to_s"), text, wanted)
         return
     scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
     for index in scaled:
@@ -128,10 +132,10 @@ def _within_passband(draft: Draft, index: int, end_s: float) -> Iterator[Finding
     corner = draft["motions"][index].get("highpass_hz")
     if corner is not None and corner * end_s > 1.0 + 1e-9:
         text = (
-            f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the longest"
-            f" scaling period is {end_s:g} s; reduce one of them"
+            f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the longest "
+            f"scaling period is {end_s:g} s"
         )
-        yield Finding.error(Place("motions", index, "highpass_hz"), text)
+        yield Finding.error(Place("motions", index, "highpass_hz"), text, "reduce one of them")
 
 
 def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
@@ -139,10 +143,10 @@ def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
     if len(periods) < 2 or (min(periods) <= start_s and end_s <= max(periods)):
         return
     text = (
-        f"periods range from {min(periods):g} to {max(periods):g} s, but motions are scaled over"
-        f" {start_s:g} to {end_s:g} s; add rows, or change the scaling periods"
+        f"periods range from {min(periods):g} to {max(periods):g} s, but motions are scaled over "
+        f"{start_s:g} to {end_s:g} s"
     )
-    yield Finding.error(Place("spectrum"), text)
+    yield Finding.error(Place("spectrum"), text, "add rows, or change the scaling periods")
 
 
 def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[Finding]:
@@ -157,8 +161,13 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
     for place, (label, value) in parts.items():
         if ground and value is None:
             at = where(Place("motions", ground[0], "scaling"))
-            text = f"{label} is missing; {at} scales a ground motion to the design spectrum, which"
-            yield Finding.error(place, f"{text} requires S_D1, or S_1 and F_v, and T_L")
+            text = f"{label} is missing"
+            yield Finding.error(
+                place,
+                text,
+                f"{at} scales a ground motion to the design spectrum, which requires "
+                "S_D1, or S_1 and F_v, and T_L",
+            )
     if all(value is not None and value == value for _, value in parts.values()):
         yield from _transition(site, target)
 
@@ -167,8 +176,9 @@ def _transition(site: DraftRow, target: DraftRow) -> Iterator[Finding]:
     parameters = site_parameters(site)
     t_s = None if parameters is None else parameters.t_s
     if t_s is not None and target["t_l_s"] <= t_s:
-        text = f"long-period transition T_L is {target['t_l_s']:g} s; give more than T_S"
-        yield Finding.error(Place("target", 0, "t_l_s"), f"{text} = S_D1/S_DS = {t_s:.3g} s")
+        text = f"long-period transition T_L is {target['t_l_s']:g} s"
+        wanted = f"give more than T_S = S_D1/S_DS = {t_s:.3g} s"
+        yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
 
 
 def _s_d1(site: DraftRow) -> float | None:

@@ -140,8 +140,8 @@ def _in_order(
             continue
         given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
         at = where(Place(section, index, first))
-        text = f"{_label(last)} is {given}; give more than {_label(first)} in {at}, {least}"
-        yield Finding.error(Place(section, index, last), text)
+        wanted = f"give more than {_label(first)} in {at}, {least}"
+        yield Finding.error(Place(section, index, last), f"{_label(last)} is {given}", wanted)
 
 
 def _label(side: str) -> str:
@@ -154,12 +154,12 @@ def _outline_rows(draft: Draft, where: Where) -> Iterator[Finding]:
         if outline.name not in (ROOF, *ids):
             yield Finding.error(
                 outline.place,
-                f"outline of '{outline.name}', which is not in Arrays or Objects;"
-                f" {suggestion(outline.name, [*ids, ROOF])}",
+                f"outline of '{outline.name}', which is not in Arrays or Objects",
+                suggestion(outline.name, [*ids, ROOF]),
             )
         if outline.name == ROOF and ROOF in map(str.casefold, ids):
             text = "outline of 'roof', which is also the ID of an array or object"
-            yield Finding.error(outline.place, f"{text}; give that another ID")
+            yield Finding.error(outline.place, text, "give that another ID")
         yield from _ring_faults(outline, us_first(draft))
     yield from _scattered(draft, where)
 
@@ -171,14 +171,12 @@ def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Finding]:
     if len(set(points)) < LEAST_VERTICES:
         count = len(set(points))
         text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
-        yield Finding.error(outline.place, f"{text}; give at least {LEAST_VERTICES}, one to a row")
+        yield Finding.error(outline.place, text, f"give at least {LEAST_VERTICES}, one to a row")
         return
     at = crossing(points)
     if at is not None:
         text = f"outline of {outline.name} touches or crosses itself near {spot(at, is_us)}"
-        yield Finding.error(
-            outline.place, f"{text}; give its vertices in order, none of them twice"
-        )
+        yield Finding.error(outline.place, text, "give its vertices in order, none of them twice")
 
 
 def spot(at: Point, is_us: bool) -> str:
@@ -197,8 +195,9 @@ def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
         before = last.get(name.casefold(), index - 1)
         if before != index - 1:
             at = where(Place("outlines", before, "name"))
-            text = f"outline of '{name}' goes on here after {at}; put all of its rows together"
-            yield Finding.error(Place("outlines", index, "name"), text)
+            text = f"outline of '{name}' goes on here after {at}"
+            wanted = "put all of its rows together"
+            yield Finding.error(Place("outlines", index, "name"), text, wanted)
         last[name.casefold()] = index
 
 
@@ -211,10 +210,10 @@ def _doubled(draft: Draft, where: Where) -> Iterator[Finding]:
     for section, index, row, name in named:
         if name in outlines and any(row.get(side) is not None for side in SIDES):
             side = next(side for side in SIDES if row.get(side) is not None)
-            text = f"{_label(side)} is given, and {name} has an outline at"
             at = where(outlines[name].place)
+            text = f"{_label(side)} is given, and {name} has an outline at {at}"
             wanted = "leave the four sides blank, or delete the outline"
-            yield Finding.error(Place(section, index, side), f"{text} {at}; {wanted}")
+            yield Finding.error(Place(section, index, side), text, wanted)
 
 
 def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -234,9 +233,8 @@ def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
             if found is not None:
                 text = f"{array.get('id')} is outside the roof near {spot(found, us_first(draft))}"
                 place = Place("arrays", index, "x_from_m") if own is None else own.place
-                yield Finding.error(
-                    place, f"{text}; correct it, or the outline of the roof at {where(at)}"
-                )
+                wanted = f"correct it, or the outline of the roof at {where(at)}"
+                yield Finding.error(place, text, wanted)
 
 
 def _beyond(
@@ -248,9 +246,10 @@ def _beyond(
         if value is None or (value >= edge if is_low else value <= edge):
             continue
         given, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
-        wanted = f"give {limit} or {'more' if is_low else 'less'}"
-        text = f"{_label(side)} is {given}, outside the roof; {wanted}, or correct the outline at"
-        yield Finding.error(Place("arrays", index, side), f"{text} {where(Place('roof', 0, side))}")
+        inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
+        text = f"{_label(side)} is {given}, outside the roof"
+        wanted = f"give {limit} or {inside}, or correct the outline at {at}"
+        yield Finding.error(Place("arrays", index, side), text, wanted)
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,7 +276,7 @@ def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
                 continue
             if gap_m(one.bounds, other.bounds) < 0.0 and gap_m(one.shape, other.shape) < -NEAR_M:
                 text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
-                yield Finding.error(first.place, f"{text}; correct one of them")
+                yield Finding.error(first.place, text, "correct one of them")
 
 
 def _bodies(draft: Draft) -> Iterator[_Body]:

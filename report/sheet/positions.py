@@ -18,7 +18,7 @@ from report.sheet import legacy_labels
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found
 from report.sheet.fields import Entry, SheetSection
-from solver.model import InputError
+from solver.model import InputError, Problem
 
 MAX_COLUMNS = 200
 SCANNED_ROWS = 200
@@ -69,19 +69,19 @@ def check_uncovered(book: OpenBook, *positions: CellPosition) -> None:
     ------
     InputError
     """
-    lines = []
+    found = []
     for at in positions:
         sheet = book.book[at.sheet]
         if isinstance(sheet.cell(at.row, at.column), MergedCell):
             areas = (area.coord for area in sheet.merged_cells.ranges if at.cell in area)
-            lines.append(merged_line(at.sheet, next(areas, at.cell)))
-    if lines:
-        raise InputError(list(dict.fromkeys(lines)))
+            found.append(merged(at.sheet, next(areas, at.cell)))
+    if found:
+        raise InputError(list(dict.fromkeys(found)))
 
 
-def merged_line(title: str, area: str) -> str:
+def merged(title: str, area: str) -> Problem:
     """Return the error for merged cells."""
-    return f"{title}!{area}: cells are merged; unmerge them"
+    return Problem(f"{title}!{area}: cells are merged", "unmerge them")
 
 
 def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:

@@ -42,7 +42,7 @@ from report.sheet.positions import (
 )
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.sheet.unseen import Unseen, by_cell, unseen
-from solver.model import InputError
+from solver.model import InputError, Problem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,8 +96,7 @@ class Sheet:
         Rows of each section by field; a field that could not be read is absent.
     echo : tuple of EchoRow
         Every field in the order of the template.
-    problems : tuple of (Place, str)
-        Finished lines.
+    problems : tuple of (Place, Problem)
     addresses : mapping of Place to str
     unfound : frozenset of str
         Sections that could not be found.
@@ -113,7 +112,7 @@ class Sheet:
     book: OpenBook
     draft: Mapping[str, Sequence[Mapping[str, Any]]]
     echo: tuple[EchoRow, ...]
-    problems: tuple[tuple[Place, str], ...]
+    problems: tuple[tuple[Place, Problem], ...]
     addresses: Mapping[Place, str]
     unfound: frozenset[str]
     unseen: tuple[Unseen, ...]
@@ -143,7 +142,7 @@ class Sheet:
         InputError
             In the order of the template.
         """
-        problems = [*self.problems, *_lines(faults, self.addresses, self.unfound)]
+        problems = [*self.problems, *_located(faults, self.addresses, self.unfound)]
         if problems:
             raise InputError(ordered(problems, SECTIONS))
 
@@ -195,19 +194,21 @@ def _where(place: Place, addresses: Mapping[Place, str]) -> str:
     return addresses.get(place, whole)
 
 
-def _lines(
+def _located(
     faults: Iterable[Finding], addresses: Mapping[Place, str], unfound: Set[str]
-) -> Iterator[tuple[Place, str]]:
-    """Yield faults as lines, except those that only follow from a missing table."""
+) -> Iterator[tuple[Place, Problem]]:
+    """Yield faults with their addresses, except those that only follow from a missing table."""
     sources = {"clearances": {"arrays", "objects"}, "links": {"arrays"}}
     for fault in faults:
-        place, text = fault.place, fault.text
+        place = fault.place
         if place.section not in unfound and not sources.get(place.section, set()) & unfound:
-            yield place, f"{_where(place, addresses)}: {text}"
+            yield place, fault.problem(_where(place, addresses))
 
 
-def ordered(problems: Sequence[tuple[Place, str]], sections: Sequence[SheetSection]) -> list[str]:
-    """Return the lines in the order of the template."""
+def ordered(
+    problems: Sequence[tuple[Place, Problem]], sections: Sequence[SheetSection]
+) -> list[Problem]:
+    """Return the problems in the order of the template."""
     order = {section.key: i for i, section in enumerate(sections)}
     fields = {
         (section.key, entry.name): i
@@ -215,20 +216,20 @@ def ordered(problems: Sequence[tuple[Place, str]], sections: Sequence[SheetSecti
         for i, entry in enumerate(entries(section.model))
     }
 
-    def rank(problem: tuple[Place, str]) -> tuple[int, int, int]:
+    def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
         place = problem[0]
         return order[place.section], place.row, fields.get((place.section, place.field), -1)
 
-    return list(dict.fromkeys(line for _, line in sorted(problems, key=rank)))
+    return list(dict.fromkeys(problem for _, problem in sorted(problems, key=rank)))
 
 
 @dataclass(slots=True)
 class Gathered:
-    """What has been read so far; problems are lines with the place used for sorting."""
+    """What has been read so far; problems have the place used for sorting."""
 
     draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
     echo: list[EchoRow] = field(default_factory=list)
-    problems: list[tuple[Place, str]] = field(default_factory=list)
+    problems: list[tuple[Place, Problem]] = field(default_factory=list)
     addresses: dict[Place, str] = field(default_factory=dict)
     unfound: set[str] = field(default_factory=set)
     used: list[tuple[Place, Found]] = field(default_factory=list)
@@ -242,13 +243,13 @@ class Gathered:
         if not cell.is_blank:
             self.used.append((place, cell))
 
-    def add(self, place: Place, lines: Iterable[str]) -> None:
-        """Add finished lines."""
-        self.problems += [(place, line) for line in lines]
+    def add(self, place: Place, problems: Iterable[Problem]) -> None:
+        """Add problems of a place."""
+        self.problems += [(place, problem) for problem in problems]
 
     def take(self, faults: Iterable[Finding]) -> None:
         """Add faults."""
-        self.problems += _lines(faults, self.addresses, self.unfound)
+        self.problems += _located(faults, self.addresses, self.unfound)
 
 
 def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
@@ -268,7 +269,7 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
             _read_block(book, section, gathered)
     except InputError as error:
         gathered.unfound.add(section.key)
-        gathered.add(Place(section.key), error.problems)
+        gathered.add(Place(section.key), error.parts)
 
 
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
@@ -285,7 +286,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
             gathered.addresses[place] = position.address
             column = _block_column(book, section, entry, position)
         except InputError as error:
-            gathered.add(place, error.problems)
+            gathered.add(place, error.parts)
             continue
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
@@ -306,7 +307,7 @@ def _block_column(
     try:
         symbol, si = unit_size(entry, text)
     except InputError as error:
-        raise InputError(f"{unit.address}: {error.problems[0]}") from error
+        raise InputError(error.parts[0].at(unit.address)) from error
     return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
 
 
@@ -360,7 +361,7 @@ def _read_field(
     try:
         row[entry.name] = _value(section, entry, cell, column, stated)
     except CellError as error:
-        gathered.add(place, [f"{cell.address}: {entry.spoken} {error.problems[0]}"])
+        gathered.add(place, [error.problem.at(cell.address, entry.spoken)])
         return
     gathered.echo.append(_echoed(entry, cell, column, row[entry.name]))
 
@@ -371,7 +372,7 @@ def _value(
     if not cell.is_blank:
         return read_cell(cell, entry, section.model, column.unit, column.si, stated)
     if entry.is_required:
-        raise CellError(f"is missing; {wish_for_missing(entry, column.unit, column.si)}")
+        raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
     return entry.default
 
 

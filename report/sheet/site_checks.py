@@ -72,11 +72,8 @@ def _importance(row: DraftRow) -> Iterator[Finding]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
-    yield Finding.error(
-        Place("site", 0, "i_e"),
-        f"importance factor I_e is {i_e:g}; give at least {LEAST_I_E[risk_category]:g} for risk"
-        f" category {risk_category}",
-    )
+    wanted = f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
+    yield Finding.error(Place("site", 0, "i_e"), f"importance factor I_e is {i_e:g}", wanted)
 
 
 def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
@@ -84,17 +81,15 @@ def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     rule_set = row["rule_set"]
     if rule_set in hazard.EDITIONS and rule_set != edition.name:
         text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"
-        yield Finding.error(
-            Place("site", 0, "edition_name"), f"{text}; leave it blank, or correct one"
-        )
+        wanted = "leave it blank, or correct one"
+        yield Finding.error(Place("site", 0, "edition_name"), text, wanted)
     if edition.has_site_coefficients:
         return
-    for field, label, wanted in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
+    for field, label, other in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
         if row.get(field) is not None:
-            text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients; leave"
-            yield Finding.error(
-                Place("site", 0, field), f"{text} it blank and give {wanted} from a hazard tool"
-            )
+            text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients"
+            wanted = f"leave it blank and give {other} from a hazard tool"
+            yield Finding.error(Place("site", 0, field), text, wanted)
 
 
 def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
@@ -106,7 +101,7 @@ def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     field = missing[0] if len(missing) == 1 else "s_ds_g"
     label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
     wanted = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
-    yield Finding.error(Place("site", 0, field), f"{label} is missing; {wanted}")
+    yield Finding.error(Place("site", 0, field), f"{label} is missing", wanted)
 
 
 def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Finding]:
@@ -124,8 +119,9 @@ def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Findi
         (design_name, design_label, design, f"2/3 {factors}", _design(product)),
     ):
         if given is not None and derived is not None and abs(given - derived) > AGREES_G:
-            text = f"{label} is {given:g} g, but {words} is {derived:.4f} g; leave one of them"
-            yield Finding.error(Place("site", 0, name), f"{text} blank, or correct it")
+            text = f"{label} is {given:g} g, but {words} is {derived:.4f} g"
+            wanted = "leave one of them blank, or correct it"
+            yield Finding.error(Place("site", 0, name), text, wanted)
             return
 
 
@@ -136,8 +132,9 @@ def _design(maximum_g: float | None) -> float | None:
 def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     site_class = row.get("site_class")
     if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
-        text = f"site class is '{site_class}', which {edition.name} does not have; give one of"
-        yield Finding.error(Place("site", 0, "site_class"), f"{text} {', '.join(F_A.rows)}")
+        text = f"site class is '{site_class}', which {edition.name} does not have"
+        wanted = f"give one of {', '.join(F_A.rows)}"
+        yield Finding.error(Place("site", 0, "site_class"), text, wanted)
 
 
 def _below_table(
@@ -156,18 +153,16 @@ def _below_table(
     of_class += "" if row["site_class"] else ", assumed because none is given"
     if given is not None:
         if given < tabulated - ROUNDING_OF_COEFFICIENTS:
-            text = f"{factor} is {given:g}; give at least {tabulated:.4g} {of_class} and {symbol}"
+            wanted = f"give at least {tabulated:.4g} {of_class} and {symbol} of {mapped_g:g} g in"
             at = where(Place("site", 0, mapped))
-            yield _or_study(coefficient, f"{text} of {mapped_g:g} g in {at}", table)
+            yield _or_study(coefficient, f"{factor} is {given:g}", f"{wanted} {at}", table)
         return
     for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
         value, least = row.get(name), share * tabulated * mapped_g
         if value is not None and value < least - AGREES_G:
-            text = (
-                f"{label} is {value:g} g; give at least {math.ceil(1e3 * least) / 1e3:g} g, which"
-            )
-            text += f" is {words}{factor} {symbol} with {factor} of {tabulated:.4g}"
-            yield _or_study(name, f"{text} {of_class}", table)
+            wanted = f"give at least {math.ceil(1e3 * least) / 1e3:g} g, which is {words}{factor}"
+            wanted += f" {symbol} with {factor} of {tabulated:.4g} {of_class}"
+            yield _or_study(name, f"{label} is {value:g} g", wanted, table)
 
 
 def _tabulated(
@@ -185,10 +180,10 @@ def _tabulated(
     return math.nan if has_none else site_coefficient(table, site_class, mapped_g)
 
 
-def _or_study(field: str, text: str, table: CoefficientTable) -> Finding:
+def _or_study(field: str, found: str, wanted: str, table: CoefficientTable) -> Finding:
     """Return a value below its table, with the way out."""
     out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
-    return Finding.error(Place("site", 0, field), f"{text} ({table.clause}†), {out}")
+    return Finding.error(Place("site", 0, field), found, f"{wanted} ({table.clause}†), {out}")
 
 
 def _sdc(row: DraftRow) -> Iterator[Finding]:
@@ -211,8 +206,5 @@ def _sdc(row: DraftRow) -> Iterator[Finding]:
         key=lambda table: table[0],
     )
     if sdc < least:
-        yield Finding.error(
-            Place("site", 0, "sdc"),
-            f"seismic design category is '{sdc}'; {reason} in risk category {risk_category}"
-            f" requires {least} or higher ({clause})",
-        )
+        wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
+        yield Finding.error(Place("site", 0, "sdc"), f"seismic design category is '{sdc}'", wanted)

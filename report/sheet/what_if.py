@@ -39,7 +39,7 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
         try:
             draft[place.section][place.row][place.field] = _read(place, value, units[address])
         except CellError as error:
-            gathered.add(place, [f"{address}: {entry.spoken} {error.problems[0]}"])
+            gathered.add(place, [error.problem.at(address, entry.spoken)])
     gathered.take(faults(draft, gathered.where))
     return replace(sheet, draft=draft, problems=tuple(gathered.problems))
 

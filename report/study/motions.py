@@ -100,7 +100,9 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     folder = (top / name).resolve()
     cell = Place("study", 0, "folder")
     if not folder.is_relative_to(top.resolve()) or not folder.is_dir():
-        sheet.refuse([Finding.error(cell, f"'{name}' is no folder beside this workbook; give one")])
+        sheet.refuse(
+            [Finding.error(cell, f"'{name}' is no folder beside this workbook", "give one")]
+        )
     groups: dict[str, dict[str, str]] = {}
     for path in sorted(folder.iterdir()):
         if path.name.startswith(".") or not path.is_file() or path.suffix in _NO_RECORDS:
@@ -113,14 +115,14 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     if lost or not groups:
         wrong = f"'{name}' has no record" + (f" {lost[0]}-x" if lost else "")
         sheet.refuse(
-            [Finding.error(cell, f"{wrong}; add it, or list the motions on the sheet Motions")]
+            [Finding.error(cell, wrong, "add it, or list the motions on the sheet Motions")]
         )
     return list(groups.values())
 
 
 def _of_folder(faults: Sequence[Finding]) -> Iterator[Finding]:
     for fault in faults:
-        yield Finding.error(Place("study", 0, "folder"), fault.text)
+        yield Finding.error(Place("study", 0, "folder"), fault.text, fault.remedy)
 
 
 def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -> Iterator[Finding]:
@@ -131,15 +133,16 @@ def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -
             place = Place("motions", index, "record") if given.motions else _FOLDER
             yield Finding.error(
                 place,
-                f"motion {row.id} has {len(components.records)} components, the first has "
-                f"{len(wanted)}; a study compares motions with the same components",
+                f"motion {row.id} has {len(components.records)} components, the first "
+                f"has {len(wanted)}",
+                "a study compares motions with the same components",
             )
     samples = sum(r.a_mps2.size for _, c in read for r in c.records.values())
     samples *= max(1, len(given.buildings))
     if samples > MOST_SAMPLES:
         place = Place("motions") if given.motions else _FOLDER
         yield Finding.error(
-            place, f"the records have {samples:,} samples in all; give at most {MOST_SAMPLES:,}"
+            place, f"the records have {samples:,} samples in all", f"give at most {MOST_SAMPLES:,}"
         )
 
 

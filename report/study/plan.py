@@ -158,11 +158,10 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
 def _too_many(campaign: Campaign) -> Iterator[Finding]:
     place = Place("study", 0, "intensities")
     if len(campaign.cases) > MOST_CASES:
-        yield Finding.error(
-            place, f"make {len(campaign.cases):,} cases; give at most {MOST_CASES:,}"
-        )
+        wanted = f"give at most {MOST_CASES:,}"
+        yield Finding.error(place, f"make {len(campaign.cases):,} cases", wanted)
     elif campaign.rows > MOST_RUNS:
-        yield Finding.error(place, f"make {campaign.rows:,} runs; give at most {MOST_RUNS:,}")
+        yield Finding.error(place, f"make {campaign.rows:,} runs", f"give at most {MOST_RUNS:,}")
 
 
 def _seed(seed: int, number: int) -> int:

@@ -156,7 +156,7 @@ def read_study(path: Path) -> StudySheet:
 
 def _refuse(gathered: Gathered, faults: Sequence[Finding]) -> None:
     problems = list(gathered.problems)
-    problems += [(one.place, f"{gathered.where(one.place)}: {one.text}") for one in faults]
+    problems += [(one.place, one.problem(gathered.where(one.place))) for one in faults]
     if problems:
         raise InputError(ordered(problems, SECTIONS))
 
@@ -174,7 +174,7 @@ def _faults(draft: Draft) -> Iterator[Finding]:
             study, "mus", "friction coefficients", lambda v: 0.0 < v <= 2.0, "above 0, to 2"
         )
     elif "mus" in study and not mats:
-        yield _at("mus", "friction coefficients are missing and there is no mat; give either")
+        yield _at("mus", "friction coefficients are missing and there is no mat", "give either")
     yield from _about_size(study, mats, draft["buildings"])
     yield from _about_intensity(study)
     yield from _about_dispersion(study)
@@ -186,8 +186,8 @@ def _faults(draft: Draft) -> Iterator[Finding]:
     yield from _about_arrays(study, draft)
 
 
-def _at(field: str, text: str) -> Finding:
-    return Finding.error(Place("study", 0, field), text)
+def _at(field: str, found: str, remedy: str = "") -> Finding:
+    return Finding.error(Place("study", 0, field), found, remedy)
 
 
 def _axis(
@@ -198,9 +198,9 @@ def _axis(
     text = str(study[field])
     found = values(text)
     if not found:
-        yield _at(field, f"{name} are '{text[:60]}'; {HOW}")
+        yield _at(field, f"{name} are '{text[:60]}'", HOW)
     elif wrong := [v for v in found if not (np.isfinite(v) and fits(v))]:
-        yield _at(field, f"{name} have {wrong[0]:g}; give numbers {allowed}")
+        yield _at(field, f"{name} have {wrong[0]:g}", f"give numbers {allowed}")
 
 
 def _about_size(study: Any, mats: Any, buildings: Any) -> Iterator[Finding]:
@@ -208,43 +208,44 @@ def _about_size(study: Any, mats: Any, buildings: Any) -> Iterator[Finding]:
     cases = max(counts[0], 1) * max(counts[1], 1) * (counts[2] + len(mats)) * max(len(buildings), 1)
     if cases > MOST_CASES:
         yield _at(
-            "intensities", f"make {cases:,} cases with the other lists; at most {MOST_CASES:,}"
+            "intensities", f"make {cases:,} cases with the other lists", f"at most {MOST_CASES:,}"
         )
 
 
 def _about_intensity(study: Any) -> Iterator[Finding]:
     kind = study.get("intensity")
     if kind is Intensity.S_DS and "s_ds_g" in study and study["s_ds_g"] is None:
-        yield _at("s_ds_g", "S_DS of the motions is missing; the intensity measure needs it")
+        yield _at("s_ds_g", "S_DS of the motions is missing", "the intensity measure needs it")
     if kind is Intensity.PGA and study.get("recorded_at") is RecordedAt.ROOF:
-        yield _at("intensity", "is PGA, but the motions are roof motions; choose PPA or PPV")
+        yield _at("intensity", "is PGA, but the motions are roof motions", "choose PPA or PPV")
 
 
 def _about_dispersion(study: Any) -> Iterator[Finding]:
     if "record_source" not in study or "record_beta" not in study:
         return
     if study["record_beta"] is not None and not study["record_source"]:
-        yield _at("record_source", "the record-to-record dispersion needs its source; give it")
+        yield _at("record_source", "the record-to-record dispersion needs its source", "give it")
     if study["record_source"] and study["record_beta"] is None:
-        yield _at("record_beta", "a source is given without the dispersion; give it, or clear both")
+        yield _at(
+            "record_beta", "a source is given without the dispersion", "give it, or clear both"
+        )
 
 
 def _about_motions(study: Any, draft: Draft) -> Iterator[Finding]:
     if "folder" in study and bool(study["folder"]) == bool(draft["motions"]):
-        both = "a folder is named and the sheet Motions has rows; keep one"
-        yield _at(
-            "folder", both if study["folder"] else "no folder and no row on the sheet Motions"
-        )
+        if study["folder"]:
+            yield _at("folder", "a folder is named and the sheet Motions has rows", "keep one")
+        else:
+            yield _at("folder", "no folder and no row on the sheet Motions")
     is_ground = study.get("recorded_at") is RecordedAt.GROUND
     if is_ground and not draft["buildings"]:
-        yield Finding.error(
-            Place("buildings"), "ground motions need at least one building; fill in a row"
-        )
+        wanted = "fill in a row"
+        yield Finding.error(Place("buildings"), "ground motions need at least one building", wanted)
     if "recorded_at" in study and not is_ground and draft["buildings"]:
         yield Finding.error(
             Place("buildings", 0, "id"),
-            "a building is given, but the motions are roof motions; clear the row, or set Recorded "
-            "at to ground",
+            "a building is given, but the motions are roof motions",
+            "clear the row, or set Recorded at to ground",
         )
 
 
@@ -254,7 +255,7 @@ def _repeated(draft: Draft, section: str) -> Iterator[Finding]:
         name = str(fields.get("id", "")).casefold()
         if name and name in seen:
             yield Finding.error(
-                Place(section, row, "id"), f"ID '{fields['id']}' appears twice; rename one"
+                Place(section, row, "id"), f"ID '{fields['id']}' appears twice", "rename one"
             )
         seen.add(name)
 
@@ -265,12 +266,14 @@ def _about_mat(row: int, mat: Any) -> Iterator[Finding]:
     if text and (len(found) < 3 or not all(0.0 < v <= 2.0 for v in found)):
         yield Finding.error(
             Place("mats", row, "tested"),
-            f"tested values are '{text[:60]}'; give three or more numbers above 0, to 2, with a "
-            "blank after each comma",
+            f"tested values are '{text[:60]}'",
+            "give three or more numbers above 0, to 2, with a blank after each comma",
         )
     if "mu" in mat and mat["mu"] is None and not text:
         yield Finding.error(
-            Place("mats", row, "mu"), "friction coefficient and tested values are missing; give one"
+            Place("mats", row, "mu"),
+            "friction coefficient and tested values are missing",
+            "give one",
         )
 
 
@@ -280,10 +283,12 @@ def _about_arrays(study: Any, draft: Draft) -> Iterator[Finding]:
         mat = str(array.get("mat", ""))
         if mat and mat.casefold() not in names:
             yield Finding.error(
-                Place("study_arrays", row, "mat"), f"mat '{mat}' is not on the sheet Mats; add it"
+                Place("study_arrays", row, "mat"), f"mat '{mat}' is not on the sheet Mats", "add it"
             )
     if study.get("site_intensity") and not draft["study_arrays"]:
-        yield _at("site_intensity", "is given, but no array is; fill in a row of the sheet Arrays")
+        yield _at(
+            "site_intensity", "is given, but no array is", "fill in a row of the sheet Arrays"
+        )
     if (
         study.get("sampling") is Sampling.ALL_COMBINATIONS
         and study.get("site_intensity")
@@ -291,5 +296,6 @@ def _about_arrays(study: Any, draft: Draft) -> Iterator[Finding]:
     ):
         yield _at(
             "intensity_beta",
-            "all combinations take the median intensity; choose Latin hypercube, or leave it blank",
+            "all combinations take the median intensity",
+            "choose Latin hypercube, or leave it blank",
         )

@@ -17,7 +17,7 @@ from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import CellError, Found, check_saved, number
 from report.sheet.positions import CellPosition, found_at
 from solver.meant import meant
-from solver.model import Floats, InputError
+from solver.model import Floats, InputError, Problem
 from solver.synthesis import BAND_HZ, Target
 
 MAX_ROWS = 2000
@@ -199,7 +199,7 @@ def _text(path: Path) -> str:
 def _table(source: str, rows: _Rows) -> TargetTable:
     top, columns = _headings(source, rows)
     below = [row for row in rows[top + 1 :] if not all(cell.is_blank for cell in row)]
-    problems: list[str] = []
+    problems: list[Problem] = []
     values = {
         kind: np.array([_value(row, column, kind, problems) for row in below])
         for kind, column in columns.items()
@@ -208,7 +208,8 @@ def _table(source: str, rows: _Rows) -> TargetTable:
         problems = list(_range_problems(source, _frequencies(values)))
     if problems:
         more = len(problems) - MAX_TOLD
-        raise InputError(problems[:MAX_TOLD] + ([f"... and {more} more"] if more > 0 else []))
+        others = [Problem(f"... and {more} more")] if more > 0 else []
+        raise InputError(problems[:MAX_TOLD] + others)
     return _sorted(source, values)
 
 
@@ -236,35 +237,36 @@ def _columns(row: Sequence[_Cell], kinds: Sequence[str]) -> Mapping[str, int]:
         whole = _HEADING.fullmatch(cell.text.casefold())
         unit = whole[2] if whole else ""
         if unit not in ("", _UNITS[kind]):
-            problems.append(f"{cell.place}: is '{cell.text}'; give {kind} [{_SHOWN[kind]}]")
+            wanted = f"give {kind} [{_SHOWN[kind]}]"
+            problems.append(Problem(f"is '{cell.text}'", wanted, cell.place))
         if kind in columns:
-            problems.append(f"{cell.place}: a second {kind} column; delete one")
+            problems.append(Problem(f"a second {kind} column", "delete one", cell.place))
         columns[kind] = column
     if _FREQUENCY in columns and _PERIOD in columns:
         place = row[columns[_PERIOD]].place
-        problems.append(f"{place}: both frequency and period; delete one of them")
+        problems.append(Problem("both frequency and period", "delete one of them", place))
     if problems:
         raise InputError(problems)
     return columns
 
 
-def _value(row: Sequence[_Cell], column: int, kind: str, problems: list[str]) -> float:
+def _value(row: Sequence[_Cell], column: int, kind: str, problems: list[Problem]) -> float:
     """Return a number greater than 0; NaN, with a problem added, if there is none."""
     if column >= len(row) or row[column].is_blank:
         place = row[min(column, len(row) - 1)].place
-        problems.append(f"{place}: {kind} is blank; give a number greater than 0")
+        problems.append(Problem(f"{kind} is blank", "give a number greater than 0", place))
         return float("nan")
     cell, wanted = row[column], f"give a number greater than 0 [{_SHOWN[kind]}]"
     try:
         check_saved(cell.content)
         value = number(cell.content, wanted, _SHOWN[kind])
     except CellError as error:
-        problems.append(f"{cell.place}: {kind} {error.problems[0]}")
+        problems.append(error.problem.at(cell.place, kind))
         return float("nan")
     least, most = _LIMITS[kind]
     if not least <= value <= most:
         wanted = f"give a number from {least:g} to {most:g} [{_SHOWN[kind]}]"
-        problems.append(f"{cell.place}: {kind} is {value:g}; {wanted}")
+        problems.append(Problem(f"{kind} is {value:g}", wanted, cell.place))
     return value
 
 
@@ -272,21 +274,21 @@ def _frequencies(values: Mapping[str, Floats]) -> Floats:
     return values[_FREQUENCY] if _FREQUENCY in values else 1.0 / values[_PERIOD]
 
 
-def _range_problems(source: str, freq_hz: Floats) -> Iterator[str]:
+def _range_problems(source: str, freq_hz: Floats) -> Iterator[Problem]:
     if len(freq_hz) < 2:
         count = "1 row" if len(freq_hz) else "no rows"
-        yield f"{source}: has {count} of numbers; give at least 2"
+        yield Problem(f"has {count} of numbers", "give at least 2", source)
         return
     apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
     if not apart.all():
         at = float(np.sort(freq_hz)[1:][~apart][0])
-        yield f"{source}: {at:g} Hz ({1 / at:g} s) appears twice; give each frequency once"
+        found = f"{at:g} Hz ({1 / at:g} s) appears twice"
+        yield Problem(found, "give each frequency once", source)
     low, high = BAND_HZ[0] * (1.0 + _ROUNDED), BAND_HZ[1] * (1.0 - _ROUNDED)
     if freq_hz.min() > low or freq_hz.max() < high:
-        yield (
-            f"{source}: covers {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz; give "
-            f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
-        )
+        wanted = f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
+        found = f"covers {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz"
+        yield Problem(found, f"give {wanted}", source)
 
 
 def _sorted(source: str, values: Mapping[str, Floats]) -> TargetTable:

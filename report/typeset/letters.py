@@ -10,7 +10,7 @@ import subprocess
 from functools import cache
 
 from report.sheet.read import Sheet
-from solver.model import InputError
+from solver.model import InputError, Problem
 
 _LISTED = 5
 
@@ -77,9 +77,8 @@ def check_letters(sheet: Sheet) -> None:
     """
     problems = []
     if missing := undrawable(sheet.path.name):
-        problems.append(
-            f"the file name: no font of this machine has {named(missing)}; rename the workbook"
-        )
+        found = f"the file name: no font of this machine has {named(missing)}"
+        problems.append(Problem(found, "rename the workbook"))
     for row in sheet.echo:
         is_in_figures = row.label == _ID
         if missing := undrawable(row.typed, is_in_figures=is_in_figures):
@@ -88,7 +87,7 @@ def check_letters(sheet: Sheet) -> None:
                 if is_in_figures
                 else ("no font of this machine has", "install one that does, or use other letters")
             )
-            problems.append(f"{row.sheet}!{row.cell}: {where} {named(missing)}; {remedy}")
+            problems.append(Problem(f"{where} {named(missing)}", remedy, f"{row.sheet}!{row.cell}"))
     if problems:
         raise InputError(problems)
 

@@ -208,7 +208,7 @@ def _rule_sets(given: Opened) -> Mapping[str, Any]:
 def _why_not(given: Opened, values: Values) -> str:
     """Return the first problem that the workbook would have with values; empty for none."""
     changed = retyped(given.sheet, typed(given.sheet, given.scales, values))
-    return next((line for _, line in changed.problems), "")
+    return next((str(problem) for _, problem in changed.problems), "")
 
 
 def _grouped(arrays: Sequence[Array], text_of: Any) -> str:

@@ -53,7 +53,7 @@ def _performed(job: Json) -> Json:
     try:
         return {"answer": _JOBS[job["do"]](workbook, job)}
     except InputError as error:
-        return {"problems": problems(workbook, error.problems)}
+        return {"problems": problems(workbook, error)}
 
 
 def state(workbook: Path, job: Json) -> Json:
@@ -61,7 +61,7 @@ def state(workbook: Path, job: Json) -> Json:
     try:
         given = _open(workbook)
     except InputError as error:
-        return _nothing_but(problems(workbook, error.problems))
+        return _nothing_but(problems(workbook, error))
     answered = answer_at(workbook, {"values": {}, "moving": False})
     project = given.sheet.project.project
     return {

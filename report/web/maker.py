@@ -10,9 +10,12 @@ import json
 import sys
 import traceback
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
+from report.making import Step
 from report.web.limits import FULL, give_way, is_full, limit_files, limit_memory, limit_processor
+from report.words.counts import capitalized
 
 MEMORY_BYTES = 8 << 30
 FILE_BYTES = 1 << 30
@@ -33,7 +36,7 @@ def main() -> None:
 
     def made() -> None:
         with started_worker() as worker:
-            make(workbook, out, None, lambda stage: _say(stage=in_words(stage)), worker)
+            make(workbook, out, None, lambda step: _say(stage=in_words(step)), worker)
 
     _say(**outcome(made))
 
@@ -60,10 +63,9 @@ def _failed(message: str) -> Mapping[str, str]:
     return {"stage": "failed", "message": message}
 
 
-def in_words(stage: str) -> str:
-    """Return a step as a sentence of the page, where the solver is compiled by then."""
-    words = stage.removesuffix(" (the first run compiles the solver)")
-    return f"{words[0].upper()}{words[1:]}"
+def in_words(step: Step) -> str:
+    """Return a step as a sentence of the page; its hint is of the terminal."""
+    return capitalized(str(replace(step, hint="")))
 
 
 def _say(**said: str) -> None:

@@ -88,7 +88,9 @@ def _gaps(
             "from": _point(start),
             "to": _point(end),
             "provided": row.short("provided_m", fmt) if row else _short(gap.provided_m, fmt),
-            "required": row.short("required_m", fmt) if row else _short(gap.required_m, fmt),
+            "required": row.short("required_m", fmt)
+            if row
+            else _short(gap.required_m, fmt) + gap.mark,
             "verdict": show(gap.verdict),
         }
 

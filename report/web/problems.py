@@ -14,7 +14,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.archive import OpenBook, open_book
 from report.sheet.cells import cut, plain
-from report.sheet.grouped import Problem, grouped, listed
+from report.sheet.grouped import Group, grouped, listed
 from report.sheet.locate_tables import find_table
 from report.sheet.positions import CellPosition, found_at
 from report.sheet.schema import SECTIONS
@@ -23,26 +23,25 @@ from solver.model import InputError
 _MOST_COLUMNS = 40
 
 
-def problems(path: Path, lines: Sequence[str]) -> list[Mapping[str, Any]]:
-    """Return the errors of lines, each with the row of its first cell."""
+def problems(path: Path, error: InputError) -> list[Mapping[str, Any]]:
+    """Return the problems of a workbook, each with the row of its first cell."""
     try:
         book = [open_book(path)]
     except InputError:
         book = []
-    return [_shown(path, book, problem) for problem in grouped(lines)]
+    return [_shown(path, book, problem) for problem in grouped(error.parts)]
 
 
-def _shown(path: Path, book: Sequence[OpenBook], problem: Problem) -> Mapping[str, Any]:
-    found, _, remedy = problem.text.partition("; ")
-    first = next(iter(problem.cells), "")
-    rows = [_row(each, problem.sheet, first) for each in book if first]
+def _shown(path: Path, book: Sequence[OpenBook], problem: Group) -> Mapping[str, Any]:
+    cell = next(iter(problem.cells), "")
+    rows = [_row(each, problem.sheet, cell) for each in book if cell]
     return {
         "file": path.name,
         "text": problem.line,
-        "found": found,
-        "remedy": remedy,
+        "found": problem.found,
+        "remedy": problem.first.remedy,
         "sheet": problem.sheet,
-        "cell": first,
+        "cell": cell,
         "cells": listed(problem.cells),
         "row": next((row for row in rows if row), None),
     }

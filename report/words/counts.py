@@ -22,6 +22,11 @@ def capitalized(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def lowered(text: str) -> str:
+    """Return a text with its first letter in lower case, as within a sentence."""
+    return text[:1].lower() + text[1:]
+
+
 def joined(names: Sequence[str]) -> str:
     """Return `a, b and c`."""
     *first, last = names

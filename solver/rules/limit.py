@@ -16,10 +16,11 @@ _EQUAL = 1e-9
 """Relative difference of a value from its limit that is rounding: 1 in 20 is typed as 5 percent."""
 
 
-MOTIONS = Provision(value=math.nan, clause="motions for analysis", confidence=Confidence.CONFIRMED)
+MOTIONS = Provision(value=math.nan, clause="motions for analysis", confidence=Confidence.KNOWN)
 """Of the limits on motions that AC156 and practice give, which no rule set states."""
 
 PROGRAM = Provision(value=math.nan, clause="limit of this program", confidence=Confidence.CONFIRMED)
+"""Of the limits that stand in no code: there is nothing to verify there."""
 
 
 class Consequence(StrEnum):

@@ -74,5 +74,5 @@ def test_a_report_says_it_before_the_runs(tmp_path, monkeypatch):
     with SameProcess() as here, pytest.raises(InputError, match="the runs begin"):
         make(path, None, None, said.append, here)
     cost_words = "about 2 minutes of processor time for 200 arrays, 3 motions and 600 samples"
-    assert said[-1] == f"running the motions ({cost_words})"
+    assert str(said[-1]) == f"running the motions ({cost_words})"
     assert LONG_S == 60.0

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import scenes
 import stand_in
 from inputs import FT, INCH, NO_SIDES, sides
-from report.assessment.clearances import minimum_gap_m
+from report.assessment.clearances import minimum_gap
 from report.assessment.neighbors import NearbyKind, bare_edges, neighbors, unplaced
 from report.assessment.project import assess
 from report.motions.prepare import prepare
@@ -26,7 +26,7 @@ OUTLINE = sides(0, 220, 0, 170)
 def of(assessment):
     """The neighbors of an assessment, which a test may have changed."""
     data, arrays = assessment.project, assessment.arrays
-    required = partial(minimum_gap_m, data, assessment.rules, arrays)
+    required = partial(minimum_gap, data, assessment.rules, arrays)
     return neighbors(data, arrays, assessment.sheet.addresses, required)
 
 

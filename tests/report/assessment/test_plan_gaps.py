@@ -61,6 +61,42 @@ def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     assert (gap["provided"], gap["required"]) == ("12.0 in", "40.8 in")
 
 
+def lowered(**changes):
+    overrides = [{"provision": key, "value": 0.75, "reason": "Agreed"}
+                 for key in ("separation_fixed", "separation_edge")]  # fmt: skip
+    options = {"clearances": [], "overrides": overrides}
+    return scenes.package(**options | changes).assessment
+
+
+@pytest.mark.parametrize(
+    "near",
+    [
+        {"arrays": [stand_in.array("A1", 0.5)], "objects": [NEAR]},
+        {
+            "arrays": [stand_in.array("A1", 0.5, x=1)],
+            "objects": [],
+            "roof": {"x_from_m": 0.0, "x_to_m": 120.0, "y_from_m": -60.0, "y_to_m": 120.0},
+        },
+    ],
+    ids=["object", "bare edge"],
+)
+def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_too(near):
+    done = lowered(**near)
+    (gap,) = plan_gaps(done)
+    assert (gap.number, gap.mark) == (0, "‡")
+    (row,) = (row for row in done.rows if row.id == "neighbors")
+    assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", row.limit)
+    assert done.is_overridden
+    fmt = Marked(assessment=done, has_daggers=False).fmt
+    (shown,) = plan(done, (), fmt, lambda verdict: verdict.word)["gaps"]
+    assert shown["required"].endswith(" in‡")
+    load_charts()
+    assert re.search(r"required [\d.]+ in‡", charts.roof_plan(done, LANDSCAPE))
+    words = [t.words for t in plan_drawing(done).texts if t.layer is Layer.CLEARANCE_NG]
+    assert any("mm) (overridden), NG" in text for text in words)
+    assert not any(gap.mark for gap in plan_gaps(lowered(**near, overrides=[])))
+
+
 def test_a_parapet_says_where_it_does_not_qualify(done):
     notes = {item.id: parapet_note(done, item) for item in done.project.objects}
     assert notes == {"RTU-9": "", "N": ", does not qualify", "S": ""}

@@ -33,7 +33,7 @@ def test_a_name_that_is_too_long_is_an_input_error(arguments, tmp_path, monkeypa
 
 
 def test_a_name_that_is_too_long_is_a_problem_of_its_project_in_a_batch(tmp_path):
-    (problem,) = package(tmp_path / LONG).problems
+    (problem,) = map(str, package(tmp_path / LONG).problems)
     assert f"the system refuses it ({TOO_LONG})" in problem
 
 

@@ -35,10 +35,16 @@ def test_the_schema_names_every_key_that_is_written_and_no_other(content):
     schema = json.loads(done.output)
     written = json.loads(content)
     assert set(written) == set(schema["properties"])
-    for name in ("Array", "Run", "Clearance", "Motion", "Record", "Requirement", "Neighbor"):
-        key = f"{name.lower()}s"
-        rows = written["arrays"][0]["runs"] if name == "Run" else written[key]
-        assert set(rows[0]) == set(schema["$defs"][f"{name}Result"]["properties"]), name
+    models = {**schema["properties"], "runs": schema["$defs"]["ArrayResult"]["properties"]["runs"]}
+    rows = {**written, "runs": written["arrays"][0]["runs"]}
+    for key in ("arrays", "runs", "clearances", "motions", "records", "requirements", "neighbors"):
+        model = schema["$defs"][models[key]["items"]["$ref"].rpartition("/")[2]]
+        assert set(rows[key][0]) == set(model["properties"]), key
+        assert set(rows[key][0]) == set(model["required"]), key
+    for key in ("building_checks", "acceptance", "remedies"):
+        model = schema["$defs"][models[key]["items"]["$ref"].rpartition("/")[2]]
+        for row in written[key]:
+            assert set(model["required"]) <= set(row) <= set(model["properties"]), key
     assert schema["$defs"]["RunResult"]["properties"]["prd_m"]["type"] == ["number", "null"]
 
 

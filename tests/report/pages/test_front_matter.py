@@ -12,6 +12,7 @@ import packages
 import scenes
 import stand_in
 from printed import printed
+from report.assessment.verdict import Requirement
 from report.pages.symbols import SYMBOLS
 from report.typeset.pdf import lay_out
 from solver.rules.limit import Consequence
@@ -72,7 +73,8 @@ def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_seve
     done = scenes.package().assessment
     row = done.conditions[0]
     assert row.consequence is Consequence.CONDITION
-    rows = (row,) * n_conditions + (replace(row, consequence=Consequence.NG),) * n_severe
+    severe = Requirement(**row.model_dump(exclude={"verdict"}) | {"consequence": Consequence.NG})
+    rows = (row,) * n_conditions + (severe,) * n_severe
     assert printed(replace(done, rows=rows), "letter").line(text)
 
 

@@ -1,30 +1,41 @@
 """Equal errors of many cells are one line with their count, on the terminal and on the page."""
 
 import json
+import pickle
 
+import pytest
 from click.testing import CliRunner
 
 from report.cli.main import main
 from report.sheet.grouped import grouped
+from report.sheet.read import read
 from report.web.problems import problems
 from sheets import at, make, said, type_into
+from solver.model import InputError, Problem
 
-WRONG = "friction coefficient is 'wet'; give a number from 0 to 1.5"
+IS_WET, NUMBER = "friction coefficient is 'wet'", "give a number from 0 to 1.5"
+WRONG = f"{IS_WET}; {NUMBER}"
 OTHER = "weight is 0; give a number of more than 0 [lb]"
 
 
 def test_1500_equal_errors_are_one_line_with_their_count():
-    lines = [f"Arrays!E{row}: {WRONG}" for row in range(8, 1508)]
-    (line,) = grouped(lines)
+    (line,) = grouped(Problem(IS_WET, NUMBER, f"Arrays!E{row}") for row in range(8, 1508))
     assert line.line == f"Arrays!E8, Arrays!E9, Arrays!E10 and 1,497 more: {WRONG}"
     assert line.cells[-1] == "E1507"
 
 
 def test_errors_that_differ_stay_apart_in_their_order():
-    lines = ["no such file", f"Arrays!E8: {WRONG}", f"Arrays!H8: {OTHER}", f"Arrays!E9: {WRONG}",
-             f"Objects!E8: {WRONG}", "no such file"]  # fmt: skip
+    given = [
+        Problem("no such file"),
+        Problem(IS_WET, NUMBER, "Arrays!E8"),
+        Problem.of(OTHER).at("Arrays!H8"),
+        Problem(IS_WET, NUMBER, "Arrays!E9"),
+        Problem(IS_WET, NUMBER, "Objects!E8"),
+        Problem("no such file"),
+    ]
+    lines = list(map(str, given))
     together = f"Arrays!E8, Arrays!E9: {WRONG}"
-    assert [each.line for each in grouped(lines)] == [lines[0], together, lines[2], *lines[4:]]
+    assert [each.line for each in grouped(given)] == [lines[0], together, lines[2], *lines[4:]]
 
 
 MU = "Arrays/{}/Friction coefficient"
@@ -43,10 +54,33 @@ def test_check_prints_one_line_and_counts_all(tmp_path):
     assert len(data["errors"]) == 3
 
 
+def refused(path):
+    """The error of a workbook."""
+    with pytest.raises(InputError) as caught:
+        _ = read(path).project
+    return caught.value
+
+
+def test_the_page_shows_what_was_typed_whole_with_a_semicolon_in_it(tmp_path):
+    path = type_into(make(tmp_path), {MU.format("A1"): "wet; dry"})
+    (found,) = problems(path, refused(path))
+    assert (found["found"], found["remedy"]) == ("friction coefficient is 'wet; dry'", NUMBER)
+
+
+def test_a_problem_without_a_cell_names_its_sheet_on_the_page_and_in_a_line(tmp_path):
+    error = InputError([Problem("one row is given", "give two", "Spectrum"), "no file; give one"])
+    found = problems(tmp_path / "none.xlsx", error)
+    assert [(one["found"], one["remedy"]) for one in found] == [
+        ("Spectrum: one row is given", "give two"), ("no file", "give one"),
+    ]  # fmt: skip
+    assert error.problems == ("Spectrum: one row is given; give two", "no file; give one")
+    assert pickle.loads(pickle.dumps(error)).parts == error.parts
+
+
 def test_the_page_shows_the_cells_with_the_row_of_the_first(tmp_path):
     cells = said(*WET)
     path = type_into(make(tmp_path), WET)
-    (found,) = problems(path, [f"{cell}: {WRONG}" for cell in cells])
+    (found,) = problems(path, refused(path))
     first, second = (cell.partition("!")[2] for cell in cells)
     assert (found["cell"], found["cells"]) == (first, f"{first}, {second}")
     assert found["text"] == f"{', '.join(cells)}: {WRONG}"

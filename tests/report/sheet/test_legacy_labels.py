@@ -84,7 +84,7 @@ def test_a_workbook_from_before_the_report_on_the_hazard_is_read_as_it_is(tmp_pa
 
 def test_a_workbook_that_lost_one_of_the_cells_that_came_together_is_refused(tmp_path):
     (problem,) = read(edit(make(tmp_path), without("hazard_date"))).problems
-    assert "date of hazard is missing" in problem[1]
+    assert "date of hazard is missing" in problem[1].found
 
 
 def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):

@@ -20,7 +20,8 @@ def faults(**changes):
     row = Site.model_construct(**Site.model_validate(GIVEN).model_dump() | changes)
     draft = {"site": [dict(row)]}
     return [
-        (fault.place.field, fault.text) for fault in site_faults(draft, lambda place: place.field)
+        (fault.place.field, fault.problem("").text)
+        for fault in site_faults(draft, lambda place: place.field)
     ]
 
 

@@ -4,10 +4,12 @@ import asyncio
 import errno
 import sys
 from asyncio.subprocess import PIPE
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from report.making import Step
 from report.web.maker import in_words, outcome
 from report.web.packages import Packages, State
 from report.web.sessions import Session
@@ -46,9 +48,12 @@ def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process()
 
 
 def test_a_step_is_named_in_a_sentence_without_what_compiles():
-    step = "running the motions"
-    assert in_words(f"{step} (the first run compiles the solver)") == "Running the motions"
-    assert in_words(f"{step} (about 3 minutes)") == "Running the motions (about 3 minutes)"
+    step = Step("running the motions", hint="the first run compiles the solver")
+    assert str(step) == "running the motions (the first run compiles the solver)"
+    assert in_words(step) == "Running the motions"
+    long = replace(step, cost="about 3 minutes")
+    assert in_words(long) == "Running the motions (about 3 minutes)"
+    assert str(long) == "running the motions (about 3 minutes)"
 
 
 def full():

@@ -21,6 +21,11 @@ def test_a_limit_says_whether_it_is_of_this_program():
     assert not made(1.0, provision=MOTIONS).is_program_limit
 
 
+def test_a_limit_on_motions_is_to_be_verified_and_one_of_this_program_stands_in_no_code():
+    assert not MOTIONS.verified
+    assert PROGRAM.verified
+
+
 @pytest.mark.parametrize("is_at_least", [True, False])
 def test_a_value_equal_within_rounding_is_permitted(is_at_least):
     side = -1.0 if is_at_least else 1.0
