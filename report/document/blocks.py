@@ -1,4 +1,4 @@
-"""Blocks of a document: pictures, lines of a calculation, numbered parts.
+"""Blocks of a document: pictures, numbered parts.
 
 Templates print these. Owns no content.
 """
@@ -7,12 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from markupsafe import Markup
-
 from report.typeset.equations import data_uri
-
-SHORT_LETTERS = 64
-"""Length of numbers that fit beside an equation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,22 +22,6 @@ class Picture:
     def src(self) -> str:
         """Its `data:` address."""
         return data_uri(self.svg)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Line:
-    """A step of the calculation: equation, source, substituted numbers with results."""
-
-    latex: str
-    reference: str
-    steps: tuple[tuple[str, str], ...] = ()
-    note: str = ""
-
-    @property
-    def is_long(self) -> bool:
-        """Whether its numbers are too long to stand beside the equation."""
-        texts = (f"{Markup(left).striptags()} = {right}" for left, right in self.steps)
-        return any(len(text) > SHORT_LETTERS for text in texts)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -18,12 +18,13 @@ from markupsafe import Markup
 from report.assessment.friction import mu_words
 from report.assessment.precheck import limit_value
 from report.document.tables import Table, stamp, table_of
+from report.entities.linked import ratio_up
 from report.entities.marks import dagger
-from report.typeset.equations import data_uri, symbol
+from report.typeset.equations import data_uri, fraction, symbol
 from report.words.counts import capitalized, counted, joined, spelled
 from report.words.formats import general, percent, scientific, seconds
 from report.words.letters import below_mm, lettered, power_above
-from report.words.units import Quantity, digits_down, digits_up, number
+from report.words.units import Quantity, digits_down, digits_up, number, ratio
 from solver.rules.limit import Limit
 
 if TYPE_CHECKING:
@@ -77,10 +78,13 @@ def _environment(folder: Path) -> Environment:
         "lettered": lettered,
         "lowered": lambda text: text[:1].lower() + text[1:],
         "mark": _mark,
+        "needs_a_line": _needs_a_line,
         "number": number,
         "percent": percent,
         "power_above": power_above,
         "of_check": _of_check,
+        "ratio": ratio,
+        "ratio_up": ratio_up,
         "rule_length": _rule_length,
         "scientific": scientific,
         "seconds": seconds,
@@ -88,9 +92,19 @@ def _environment(folder: Path) -> Environment:
         "stamp": stamp,
         "symbol": symbol,
     }
-    environment.tests["nan"] = math.isnan
-    environment.globals["rows"] = _rows
+    environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
+    environment.globals |= {"fraction": fraction, "rows": _rows}
     return environment
+
+
+SHORT_LETTERS = 64
+"""Length of numbers that fit beside an equation."""
+
+
+def _needs_a_line(numbers: Markup) -> bool:
+    """Return whether the numbers of an equation are too long to stand beside it; notes wrap."""
+    rows = (row for row in numbers.split("</div>") if 'class="small"' not in row)
+    return any(len(row.striptags()) > SHORT_LETTERS for row in rows)
 
 
 @pass_context

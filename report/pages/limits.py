@@ -11,7 +11,7 @@ from report.entities.array import array_results
 from report.entities.marks import dagger
 from report.entities.shown import centered, text, words
 from report.pages.links import link_troubles
-from report.pages.model import model_troubles, tipping_troubles
+from report.pages.model import model_troubles
 from report.pages.parts import NG, OK, PackageData, check_value, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.fields import Level
@@ -45,11 +45,9 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
         "warnings": package.assessment.warnings,
         "few": [array for array in arrays if array.analysis.basis is Basis.TOO_FEW],
         "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
-        "models": [
-            *model_troubles(package),
-            *tipping_troubles(package),
-            *link_troubles(package),
-        ],
+        "models": tuple(model_troubles(package)),
+        "tipping": [array for array in arrays if not array.tipping.is_ok],
+        "links": tuple(link_troubles(package)),
         "limits": [(place, check) for place, check in package.checks if not check.ok],
     }
     return found if any(found.values()) else {}

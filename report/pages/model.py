@@ -50,27 +50,12 @@ def page(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def model_troubles(package: PackageData) -> Iterator[str]:
-    """Yield in words which requested models are not adequate."""
+def model_troubles(package: PackageData) -> Iterator[tuple[ArrayAssessment, Direction]]:
+    """Yield the arrays whose requested model is not adequate, and the worst direction."""
     for array in package.assessment.arrays:
-        if array.is_model_enough:
-            continue
-        worst = max(Direction, key=lambda d: array.chosen_toward_m(d) - array.design_toward_m(d))
-        yield (
-            f"Array {array.id}: the requested model, {array.array.model.value}, gives "
-            f"{package.fmt.both(array.design_toward_m(worst))} ({worst.value}); the adequate "
-            f"model gives {package.fmt.both(array.chosen_toward_m(worst))}."
-        )
-
-
-def tipping_troubles(package: PackageData) -> Iterator[str]:
-    """Yield in words which arrays begin to tip about an edge of their supports."""
-    for array in package.assessment.arrays:
-        if not array.tipping.is_ok:
-            yield (
-                f"Array {array.id} begins to tip ({array.tipping.governs}): the ratio of "
-                f"demand to b/(2c) is {ratio(array.tipping.ratio)}."
-            )
+        if not array.is_model_enough:
+            lack = {d: array.chosen_toward_m(d) - array.design_toward_m(d) for d in Direction}
+            yield array, max(Direction, key=lack.__getitem__)
 
 
 def _limited(demand: float) -> str:
