@@ -7,22 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from report.typeset.equations import data_uri
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Picture:
-    """A figure: SVG, caption and alternative text."""
-
-    svg: str
-    caption: str
-    alt: str
-
-    @property
-    def src(self) -> str:
-        """Its `data:` address."""
-        return data_uri(self.svg)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part:

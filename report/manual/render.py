@@ -56,7 +56,6 @@ def manual_html(
     context: dict[str, Any] = {
         "v": verification,
         "with_symbols": with_symbols,
-        "pictures": {},
         "verdict_line": verdict_line(verification),
         "validation": validation(verification.tables),
         "version": dict(machine.rows)["Roofslip"],

@@ -18,7 +18,7 @@ from report.pages import front, method
 from report.pages.cover import cover
 from report.pages.letter import letter
 from report.pages.parts import PackageData
-from report.pages.pictures import Pictures, draw_assessment, draw_plotted, draw_uncertainty
+from report.pages.pictures import Drawings, draw_assessment, draw_plotted, draw_uncertainty
 from report.pages.registry import Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
 from report.typeset.equations import Equations
@@ -32,7 +32,7 @@ class PendingPictures:
 
     package: PackageData
     worker: Executor
-    pictures: tuple[Future[Pictures], ...]
+    pictures: tuple[Future[Drawings], ...]
     equations: Future[Equations]
 
     def plot(self, shown: Plotted) -> PendingPictures:
@@ -80,13 +80,13 @@ def pages(
     )
     ids = (*_FRONT, *(page.id for page in pages_of(package)))
     content = _content(package, evidence, ids)
-    pictures = {id: some for done in drawn for id, some in done.result().items()}
-    return _html(package, content, pictures, pending.equations.result())
+    drawings = {id: some for done in drawn for id, some in done.result().items()}
+    return _html(package, content, drawings, pending.equations.result())
 
 
-def part(package: PackageData, evidence: Evidence, id: str, pictures: Pictures) -> str:
+def part(package: PackageData, evidence: Evidence, id: str, drawings: Drawings) -> str:
     """Return one part of the package as HTML: `cover`, `contents`, `letter` or a page by its id."""
-    return _html(package, _content(package, evidence, (id,)), pictures, Equations())
+    return _html(package, _content(package, evidence, (id,)), drawings, Equations())
 
 
 _FRONT: Mapping[str, Callable[[PackageData], Content]] = {
@@ -106,7 +106,7 @@ def _content(package: PackageData, evidence: Evidence, ids: Sequence[str]) -> di
 def _html(
     package: PackageData,
     content: Mapping[str, Content],
-    pictures: Pictures,
+    drawings: Drawings,
     equations: Equations,
 ) -> str:
     listed = {part.id: part for part in parts(package)}
@@ -120,7 +120,7 @@ def _html(
         "shown": [(f"{id}.html", listed.get(id)) for id in content],
         "ref": package.part,
         "equations": equations,
-        "pictures": pictures,
+        "drawings": drawings,
         "content": content,
     }
     return rendered(TEMPLATES, "package.html", {**context, **content})

@@ -11,7 +11,6 @@ from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, Rivals
-from report.document.blocks import Picture
 from report.document.tables import Column, Table, listed
 from report.entities.columns import NO_VALUE
 from report.entities.marks import dagger
@@ -44,20 +43,6 @@ def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
         ],
         "n_more_unfinished": _unfinished(accuracy.less) - _unfinished(accuracy.given),
     }
-
-
-def picture(rivals: Rivals, us_first: bool) -> Picture:
-    """Return the chart of the page."""
-    from report.figures.accuracy import work_precision
-
-    failed = sum(run.failed for run in rivals.runs)
-    lost = f" {failed} failed run{'s are' if failed > 1 else ' is'} not drawn." if failed else ""
-    return Picture(
-        svg=work_precision(rivals, us_first),
-        caption="Error in PRD for the governing run along the slope alone, each method from coarse "
-        f"to fine. Links stiffen to the right, with the steps required.{lost}",
-        alt="Chart of the error in PRD against the steps of each method",
-    )
 
 
 def _decade_ms(seconds: float) -> float:

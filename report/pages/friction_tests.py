@@ -23,7 +23,6 @@ from report.assessment.friction_rows import (
 )
 from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
 from report.assessment.verdict import NOT_GIVEN
-from report.document.blocks import Picture
 from report.document.tables import Table, Wide, listed, stamp
 from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words
@@ -54,6 +53,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "report": _report(package),
         "missing": [label.lower() for label, field in _STATED if not getattr(tests, field)],
         "runs": _runs(package),
+        "n_drawn": _n_drawn(data),
         "reports": [
             _means(package, [one for one in found if one.report == report])
             for report in dict.fromkeys(one.report for one in found)
@@ -73,25 +73,21 @@ def page(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def picture(package: PackageData) -> Sequence[Picture]:
+def drawings(package: PackageData) -> Sequence[str]:
     """Return the runs over velocity, where any run reports its velocity."""
     from report.figures.friction import friction_by_velocity
 
     data = package.data
-    runs = [run for one in tested(data) for run in one.runs]
-    shown = [run for run in runs if not math.isnan(run.velocity_mps)]
-    if not shown:
+    if not _n_drawn(data):
         return ()
+    runs = [run for one in tested(data) for run in one.runs]
     fits = {one.surface: fit for one, fit in _fits(package) if fit.is_determined}
-    fitted = " Dashed: laws fitted to the runs." if fits else ""
-    return (
-        Picture(
-            svg=friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first),
-            caption=f"Kinetic friction of {runs_text(len(shown))} against sliding velocity. Solid"
-            f" lines: friction of the arrays in this package.{fitted}",
-            alt="Kinetic friction coefficient against sliding velocity",
-        ),
-    )
+    return (friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first),)
+
+
+def _n_drawn(data: ProjectInput) -> int:
+    """Return the number of runs that report their velocity."""
+    return sum(not math.isnan(run.velocity_mps) for one in tested(data) for run in one.runs)
 
 
 def _report(package: PackageData) -> Table:

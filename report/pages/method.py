@@ -10,7 +10,8 @@ from collections.abc import Mapping
 
 from report.pages.parts import PackageData, nan_is_worst, statistic
 from report.pages.site import site_force
-from report.sheet.schema import Direction, RecordedAt
+from report.sheet.schema import Array, Direction, RecordedAt
+from report.words.units import Quantity
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 
@@ -29,6 +30,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     return {
         **_demand(package),
         **_motion(package),
+        **_weights(package),
         **_design(package),
         **_separations(package),
     }
@@ -54,11 +56,14 @@ def _demand(package: PackageData) -> Mapping[str, object]:
 
 def _motion(package: PackageData) -> Mapping[str, object]:
     """Return the forces with the roof at rest / m g, and the accelerations that begin sliding."""
+    from report.figures.section import drawn_slope_deg  # loads the plotting library
+
     array = package.governing.array
-    theta, law = array.slope_rad, array.friction
+    theta, law, drawn_deg = array.slope_rad, array.friction, drawn_slope_deg(array)
     phi = math.atan(law.mu_static)
     decay = math.exp(-0.1 * law.rate_s_per_m) if law.is_by_velocity else 1.0
     return {
+        "drawn_deg": None if math.isclose(math.degrees(theta), drawn_deg) else drawn_deg,
         "phi_rad": phi,
         "cos": math.cos(theta),
         "sin": math.sin(theta),
@@ -67,6 +72,23 @@ def _motion(package: PackageData) -> Mapping[str, object]:
         "down_g": -math.tan(phi - theta),
         "up_g": math.tan(phi + theta),
         "mu_at_tenth": law.mu_fast - (law.mu_fast - law.mu_slow) * decay,
+    }
+
+
+def weight_per_area_pa(array: Array) -> float:
+    """Return the weight of an array over its plan area [Pa]."""
+    return array.weight_n / array.shape.area_m2
+
+
+def _weights(package: PackageData) -> Mapping[str, object]:
+    """Return the weight over plan area of the governing array, and the range of the others."""
+    own, fmt = package.governing.array, package.fmt
+    others = [weight_per_area_pa(one) for one in package.data.arrays if one.id != own.id]
+    ends = [fmt.cells(end(others), Quantity.PRESSURE)[0] for end in (min, max) if others]
+    unit = fmt.units(Quantity.PRESSURE)[0].symbol
+    return {
+        "weight_pa": weight_per_area_pa(own),
+        "other_weights": " to ".join(dict.fromkeys(ends)) + f" {unit}" if others else "",
     }
 
 

@@ -102,7 +102,7 @@ PAGES = (
     Page(
         id="results",
         title="Results",
-        fill=lambda package, _: results.page(package),
+        fill=results.page,
         below=results.below,
     ),
     Page(

@@ -10,10 +10,11 @@ import numpy as np
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
 from report.assessment.uncertainty import TOLERANCE, Margin, Surface, Uncertainty
-from report.document.blocks import Picture
 from report.document.tables import Column, Table, listed
+from report.document.templates import sentence
 from report.entities.shown import length, text, words
 from report.pages.parts import PackageData
+from report.typeset.pdf import TEMPLATES
 from report.words.letters import power_of_ten
 from report.words.units import number
 from solver.rules.provisions import Neighbor
@@ -25,49 +26,15 @@ def page(package: PackageData, uncertainty: Uncertainty) -> dict[str, object]:
         "found": uncertainty,
         "surface": _at_governing(uncertainty.surface),
         "margin": _smallest(uncertainty.margins),
+        "tolerance": power_of_ten(round(math.log10(TOLERANCE))),
         "margins": _margin_table(package, uncertainty.margins),
         "turned": _turned_table(package, uncertainty) if uncertainty.turned else None,
     }
 
 
-def pictures(package: PackageData, surface: Surface) -> Sequence[Picture]:
-    """Return the contours; none where nothing slides on the whole grid."""
-    from report.figures.uncertainty import contours
-
-    if not (surface.mean_m > 0.0).any():
-        return ()
-    array, unit = surface.array, package.fmt.units()[0].symbol
-    return (
-        Picture(
-            svg=contours(surface, package.assessment.arrays, package.fmt.us_first),
-            caption=f"Mean PRD [{unit}] of the {len(array.motions)} motions over friction "
-            f"coefficient and slope, each motion in its governing heading for array {array.id}. "
-            f"Crosses: the grid, μ = {_listed(surface.mus.tolist(), 2)} by slope = "
-            f"{_listed([math.degrees(s) for s in surface.slopes_rad.tolist()], 1)} deg; contours "
-            f"interpolate its logarithm. Tolerance of a run: {power_of_ten(_exponent(TOLERANCE))} "
-            f"of its PRD. {dots(surface)}",
-            alt="Contours of the mean PRD over friction coefficient and slope",
-        ),
-    )
-
-
-def _exponent(value: float) -> int:
-    return round(math.log10(value))
-
-
-def _listed(values: Sequence[float], decimals: int) -> str:
-    return ", ".join(number(value, decimals) for value in values)
-
-
 def dots(surface: Surface) -> str:
     """Return which arrays are dots of the contours."""
-    if not surface.others:
-        return "Dots: the arrays."
-    law = "constant" if surface.array.array.friction.is_constant else "velocity-dependent"
-    return (
-        f"Dots: the arrays whose friction is that of {surface.array.id} ({law}), scaled as a whole:"
-        f" not {', '.join(surface.others)}."
-    )
+    return sentence(TEMPLATES, "dots", surface)
 
 
 def _at_governing(surface: Surface) -> Mapping[str, object]:
