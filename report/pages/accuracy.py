@@ -71,7 +71,6 @@ def _methods(package: PackageData, rivals: Rivals) -> Table:
     return listed(
         (exact, *others),
         columns,
-        "The governing run along the slope alone, by every method with default settings",
         package.fmt,
         kind="compact",
         style=lambda row: "total" if row is exact else "",
@@ -129,8 +128,7 @@ def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
             lambda row: _change(row.more.design_m, row.given.design_m),
         ),
     )
-    caption = "Design displacement with changed friction, all motions rerun"
-    return listed(arrays, columns, caption, package.fmt, kind="compact")
+    return listed(arrays, columns, package.fmt, kind="compact")
 
 
 def _design(package: PackageData, head: str, which: Callable[[_Varied], ArrayAssessment]) -> Column:

@@ -92,7 +92,6 @@ def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> Table:
     half = (len(given) + 1) // 2
     pairs = zip_longest(given[:half], given[half:])
     return Table(
-        caption="",
         columns=(*_SINGLE_COLUMNS, *_SINGLE_COLUMNS),
         rows=tuple(
             TableRow(
@@ -180,7 +179,6 @@ def _columns(
 ) -> Table:
     letters = [_column_letters(cells[0]) for cells in chunk]
     return Table(
-        caption="",
         columns=(
             TableColumn(head="Row", align="left", share=5.0),
             *(
@@ -262,7 +260,7 @@ def records(package: PackageData) -> Table:
         (words("File", 1.04), lambda row: row.name),
         (words("SHA-256", 4.15 - 0.55 * len(own)), lambda row: row.sha256),
     )
-    return listed(rows, columns, "Records as read", package.fmt, kind="compact digest")
+    return listed(rows, columns, package.fmt, kind="compact digest")
 
 
 _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {

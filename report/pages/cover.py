@@ -58,4 +58,4 @@ def _revisions(package: PackageData) -> Table:
         (words("Description", 4.0), lambda row: row.description),
         (words("By", 1.8), lambda row: row.by or "—"),
     )
-    return listed(package.data.revisions or [first], columns, "", package.fmt)
+    return listed(package.data.revisions or [first], columns, package.fmt)

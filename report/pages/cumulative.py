@@ -26,5 +26,4 @@ def _table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
         (length(f"{times}largest sum"), lambda item: factor * item.largest_m),
         (length("Design displacement"), lambda item: item.array.design_m),
     )
-    caption = "Cumulative displacement over the motions, for information"
-    return listed(sums, columns, caption, package.fmt, kind="compact")
+    return listed(sums, columns, package.fmt, kind="compact")

@@ -94,7 +94,7 @@ def _report(package: PackageData) -> Table:
     tests = package.data.friction_tests
     values = [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED]
     columns = ((words("Item"), itemgetter(0)), (words("As given", 3.0), itemgetter(1)))
-    return listed(values, columns, "Friction tests: the report", package.fmt)
+    return listed(values, columns, package.fmt)
 
 
 def _runs(package: PackageData) -> Table:
@@ -109,7 +109,6 @@ def _runs(package: PackageData) -> Table:
     return listed(
         (row for one in tested(package.data) for row in _run_rows(package.data, one)),
         columns,
-        "Friction tests: runs",
         package.fmt,
         kind="compact",
         style=lambda row: "total" if isinstance(row[0], Wide) else "",
@@ -142,8 +141,7 @@ def _velocities(package: PackageData) -> Table:
         (centered("Verdict", 1.8), itemgetter(6)),
     )
     rows = [_velocity(package.data, item) for item in package.assessment.arrays]
-    caption = "Friction at the sliding velocities of all runs"
-    return listed(rows, columns, caption, package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:

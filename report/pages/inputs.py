@@ -61,7 +61,7 @@ def _arrays(package: PackageData) -> Table:
         (words("Friction test report", 2.6), lambda array: array.mu_report or NOT_GIVEN),
         (words("Construction", 2.2), lambda array: array.construction),
     )
-    return listed(package.data.arrays, columns, "Arrays: slope and friction", package.fmt)
+    return listed(package.data.arrays, columns, package.fmt)
 
 
 def _sizes(package: PackageData) -> Table:
@@ -73,7 +73,7 @@ def _sizes(package: PackageData) -> Table:
         (_in_plan("Plan x"), lambda array: _sides(array.shape)[1] - _sides(array.shape)[0]),
         (_in_plan("Plan y"), lambda array: _sides(array.shape)[3] - _sides(array.shape)[2]),
     )
-    return listed(package.data.arrays, columns, "Arrays: weight and size", package.fmt)
+    return listed(package.data.arrays, columns, package.fmt)
 
 
 def _in_plan(head: str) -> Shown:
@@ -99,8 +99,7 @@ def _links(package: PackageData) -> Table:
         ),
         (plain("Link damping", 3, "of critical", 1.3), lambda row: row.damping_ratio),
     )
-    caption = "Arrays to be compared with a row of linked blocks"
-    return listed(package.data.links, columns, caption, package.fmt)
+    return listed(package.data.links, columns, package.fmt)
 
 
 def _objects(package: PackageData) -> Table:
@@ -113,8 +112,7 @@ def _objects(package: PackageData) -> Table:
         (_in_plan("y from"), lambda item: _sides(item.placed)[2]),
         (_in_plan("y to"), lambda item: _sides(item.placed)[3]),
     )
-    caption = "Objects and roof edges"
-    return listed(package.data.objects, columns, caption, package.fmt, kind="compact")
+    return listed(package.data.objects, columns, package.fmt, kind="compact")
 
 
 def _sides(shape: Shape | None) -> tuple[Any, ...]:

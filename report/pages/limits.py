@@ -63,12 +63,10 @@ def _requirements(package: PackageData) -> Table:
         (words("Basis", 1.5), lambda row: row.basis),
         (centered("Verdict", 1.8), lambda row: stamp(row.verdict)),
     )
-    caption = "Requirements beside the numeric limits"
-    return listed(package.assessment.rows, columns, caption, package.fmt)
+    return listed(package.assessment.rows, columns, package.fmt)
 
 
 def check_table(
-    caption: str,
     package: PackageData,
     checks: Sequence[tuple[str, Limit]],
     outcomes: tuple[str, str] = (OK, NG),
@@ -93,14 +91,14 @@ def check_table(
             ),
         ),
     )
-    return listed(checks, columns, caption, fmt)
+    return listed(checks, columns, fmt)
 
 
 def limits(package: PackageData) -> Mapping[str, object]:
     """Return the part on limits and interconnection strength."""
     excepted = [check for _, check in package.checks if check.passes_by_exception]
     return {
-        "checks": check_table("", package, package.checks),
+        "checks": check_table(package, package.checks),
         "excepted": excepted[:1],
         "routes": package.routes,
         "arrays": tuple(array_results(package)),
@@ -126,4 +124,4 @@ def _warnings(package: PackageData) -> Table:
         ),
     )
     rows = lines(warnings, sheet.addresses)
-    return listed(rows, columns, "Warnings on the input", package.fmt)
+    return listed(rows, columns, package.fmt)

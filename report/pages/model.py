@@ -78,13 +78,7 @@ def _stability_table(package: PackageData) -> Table:
         (text("Ratio, sliding", share=1.2), lambda item: ratio(item.tipping.sliding_ratio)),
         (centered("Verdict"), lambda item: verdict(item.tipping.is_ok and not item.uplift.lifts)),
     )
-    return listed(
-        package.assessment.arrays,
-        columns,
-        "Checks independent of the model: uplift and tipping",
-        package.fmt,
-        kind="compact",
-    )
+    return listed(package.assessment.arrays, columns, package.fmt, kind="compact")
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +138,7 @@ def _table(package: PackageData) -> Table:
         (words("Error of PRD", 1.6), lambda group: group.error),
     )
     groups = [group for array in package.assessment.arrays for group in _groups(array)]
-    return listed(groups, columns, "Model used, by array", package.fmt, kind="compact")
+    return listed(groups, columns, package.fmt, kind="compact")
 
 
 _Neglected = tuple[str, str, float | Wide | str, float | str, str]
@@ -160,8 +154,7 @@ def _neglected_table(package: PackageData) -> Table:
         (words("Basis", 3.6), itemgetter(4)),
     )
     effects = [row for array in package.assessment.arrays for row in _neglected(array)]
-    caption = "Neglected effects and the largest change that they could cause"
-    return listed(effects, columns, caption, package.fmt, kind="compact")
+    return listed(effects, columns, package.fmt, kind="compact")
 
 
 def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:

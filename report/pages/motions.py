@@ -65,8 +65,7 @@ def _motion_table(package: PackageData) -> Table:
         (centered("Polarity"), lambda row: _polarity(row[0])),
     )
     rows = zip(shaking.motions, shaking.prepared, strict=True)
-    caption = "Roof motions as run, after scaling"
-    return listed(rows, columns, caption, package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def _peak_g(values: Floats, scale: float) -> float:
@@ -100,9 +99,8 @@ def _drift_table(package: PackageData, unit: Unit) -> Table:
             lambda prepared: Markup("<b>drifts</b>") if drifts(prepared) else "none",
         ),
     )
-    caption = "Processing, and final velocity and displacement of each component"
     prepared = package.assessment.shaking.prepared
-    return listed(prepared, columns, caption, package.fmt, kind="compact")
+    return listed(prepared, columns, package.fmt, kind="compact")
 
 
 def _final(prepared: PreparedMotion, name: str, end: str, si: float) -> float:
@@ -132,14 +130,12 @@ def _highpass_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
         (length("Without it", 1.3), lambda run: run.unfiltered_m),
         (text("Removed", "%", 1.2), lambda run: number(100.0 * run.share, 0)),
     )
-    caption = f"Effect of the high-pass filter: PRD of array {package.governing.id}"
-    return listed(beyond, columns, caption, package.fmt, kind="compact")
+    return listed(beyond, columns, package.fmt, kind="compact")
 
 
 def spectrum_table(spectra: Sequence[Spectra]) -> Table:
     """Return target, achieved ordinates and their ratios at a few periods, by component."""
     return Table(
-        caption="Pseudo-acceleration, 5 % damping, achieved and target",
         columns=(
             TableColumn(head="Period", align="left", share=2.9),
             *(
@@ -179,7 +175,6 @@ def _ordinates(name: str, values: Floats, *, decimals: int = 3) -> TableRow:
 def achieved_table(spectra: Sequence[Spectra]) -> Table:
     """Return the ratios of the motions to the target over the band, a row per component."""
     return Table(
-        caption=f"Achieved / target, 0.1 to 33.3 Hz, at the {len(POINTS_HZ)} points of the limits",
         columns=(
             TableColumn(head="Component", align="left", share=1.7),
             TableColumn(head="Motions", share=0.9),

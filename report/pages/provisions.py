@@ -42,13 +42,12 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         (words("License", 1.2), lambda row: row.directional_license or _NONE),
         (words("Date"), lambda row: row.directional_date or _NONE),
     )
-    caption, overrides = f"Numbers of {rules.name} used in this package", package.data.overrides
     return {
-        "table": listed(named, columns, caption, fmt, kind="compact"),
+        "table": listed(named, columns, fmt, kind="compact"),
         "noted": [(name, provision) for name, provision in named if provision.note],
         "unverified": UNVERIFIED,
-        "overrides": listed(overrides, overridden, "Overridden for this project", fmt),
-        "departure": listed([package.data.options], departure, "Departure from the rule set", fmt),
+        "overrides": listed(package.data.overrides, overridden, fmt),
+        "departure": listed([package.data.options], departure, fmt),
     }
 
 

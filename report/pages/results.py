@@ -100,7 +100,6 @@ def _peaks(
     table = listed(
         array.motions,
         columns,
-        f"Array {array.id}: PRD of every motion in every run",
         fmt,
         kind="compact",
         whole_rows=PEAK_ROWS,
@@ -164,7 +163,5 @@ def comparison(package: PackageData) -> Mapping[str, object]:
     checks = [(f"Array {item.id}", check) for item in arrays for check in item.prescriptive_checks]
     return {
         "faults": {item.id: analysis_faults(package, item) for item in arrays},
-        "routes": check_table(
-            "Limits of the prescriptive route", package, checks, ("satisfied", "not satisfied")
-        ),
+        "routes": check_table(package, checks, ("satisfied", "not satisfied")),
     }

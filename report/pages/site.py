@@ -44,8 +44,7 @@ def site_table(package: PackageData) -> Table:
         (words("Reference", 2.55), lambda row: row.clause),
         (words("Source", 0.9), lambda row: "—" if row.value == NOT_GIVEN else row.origin),
     )
-    rows, caption = site_parameters(package), "Site and seismic parameters"
-    return listed(rows, columns, caption, package.fmt, kind="compact")
+    return listed(site_parameters(package), columns, package.fmt, kind="compact")
 
 
 def _symbols(text: str) -> Markup:

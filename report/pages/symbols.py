@@ -111,6 +111,6 @@ def page(package: PackageData) -> Mapping[str, object]:
         (words("Meaning", 3.0), lambda row: with_symbols(row[1][1])),
     )
     return {
-        "table": listed(rows, columns, "Symbols", package.fmt, kind="compact"),
+        "table": listed(rows, columns, package.fmt, kind="compact"),
         "references": references(package),
     }

@@ -106,8 +106,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
     )
-    caption = "Least friction coefficient of each array with which each clearance is satisfied"
-    return listed(margins, columns, caption, package.fmt, kind="compact")
+    return listed(margins, columns, package.fmt, kind="compact")
 
 
 def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
@@ -119,8 +118,4 @@ def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
         share = number(run.result.prd_m / used, 2) if used > 0.0 else "—"
         cells = (*fmt.cells(run.result.prd_m), share)
         columns.append((text(f"{number(run.angle_deg, 1)}°"), cells.__getitem__))
-    caption = (
-        f"Array {package.governing.id} under motion {uncertainty.motion.motion.id}, its horizontal "
-        "pair turned counterclockwise; at 0° the record acts downslope"
-    )
-    return listed(range(len(names)), columns, caption, fmt, kind="compact")
+    return listed(range(len(names)), columns, fmt, kind="compact")
