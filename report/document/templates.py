@@ -16,13 +16,14 @@ from jinja2 import pass_context
 from markupsafe import Markup
 
 from report.assessment.friction import mu_words
+from report.assessment.friction_rows import basis_words
 from report.assessment.precheck import limit_value
 from report.document.tables import Table, stamp, table_of
 from report.entities.linked import ratio_up
 from report.entities.marks import dagger
 from report.typeset.equations import data_uri, fraction, symbol
 from report.words.counts import capitalized, counted, joined, spelled
-from report.words.formats import general, percent, scientific, seconds
+from report.words.formats import general, percent, scientific, seconds, shortened
 from report.words.letters import below_mm, lettered, power_above
 from report.words.units import Quantity, digits_down, digits_up, number, ratio
 from solver.rules.limit import Limit
@@ -30,6 +31,8 @@ from solver.rules.limit import Limit
 if TYPE_CHECKING:
     from jinja2 import Environment
     from jinja2.runtime import Context
+
+    from report.sheet.schema import Array
 
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
@@ -73,6 +76,7 @@ def _environment(folder: Path) -> Environment:
         "digits_down": digits_down,
         "digits_up": digits_up,
         "friction": mu_words,
+        "friction_basis": _friction_basis,
         "general": general,
         "joined": joined,
         "lettered": lettered,
@@ -88,6 +92,7 @@ def _environment(folder: Path) -> Environment:
         "rule_length": _rule_length,
         "scientific": scientific,
         "seconds": seconds,
+        "shortened": shortened,
         "spelled": spelled,
         "stamp": stamp,
         "symbol": symbol,
@@ -112,6 +117,12 @@ def _both(context: Context, value_si: float, quantity: str = "DISPLACEMENT") -> 
     """Return a value in both systems of units: `81.6 in (2072 mm)`."""
     said: str = context["p"].fmt.both(value_si, Quantity[quantity])
     return said
+
+
+@pass_context
+def _friction_basis(context: Context, array: Array) -> str:
+    """Return where the friction of an array comes from."""
+    return basis_words(context["p"].data, array)
 
 
 @pass_context

@@ -14,9 +14,9 @@ from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence, Plotted
 from report.assessment.project import Assessment
 from report.document.templates import rendered
-from report.pages import front, method
+from report.pages import method
 from report.pages.cover import cover
-from report.pages.letter import letter
+from report.pages.front import letter
 from report.pages.parts import PackageData
 from report.pages.pictures import Drawings, draw_assessment, draw_plotted, draw_uncertainty
 from report.pages.registry import Content, package_data, pages_of, parts
@@ -114,7 +114,6 @@ def _html(
         "p": package,
         "with_symbols": with_symbols,
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
-        "sheet": front.sheet(package),
         "parts": tuple(listed.values()),
         "below": {subpart.id: subpart for part in listed.values() for subpart in part.parts},
         "shown": [(f"{id}.html", listed.get(id)) for id in content],

@@ -8,25 +8,25 @@ from dataclasses import dataclass, replace
 from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.evidence import Evidence
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, Rivals
 from report.document.tables import Column, Table, listed
 from report.entities.columns import NO_VALUE
-from report.entities.marks import dagger
 from report.entities.shown import length, text, words
-from report.pages.parts import PackageData, check_value
+from report.pages.parts import PackageData
 from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Status
-from solver.rules.limit import Limit
 from solver.sliding.least_model import Model
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
 
 
-def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the page needs beside its chart."""
+    accuracy = evidence.accuracy
     rivals, arrays = accuracy.rivals, tuple(_by_array(accuracy))
     return {
         "found": accuracy,
@@ -37,10 +37,6 @@ def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
         "arrays": arrays,
         "friction": _friction_table(package, arrays),
         "change": _change,
-        "limited": [
-            (array.id, check, *_value_and_limit(package, check))
-            for array, check in accuracy.newly_limited
-        ],
         "n_more_unfinished": _unfinished(accuracy.less) - _unfinished(accuracy.given),
     }
 
@@ -144,11 +140,6 @@ def _change(value: float, given: float) -> str:
         return NO_VALUE if math.isnan(value) or math.isnan(given) else "—"
     share = 100.0 * (value / given - 1.0)
     return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
-
-
-def _value_and_limit(package: PackageData, check: Limit) -> tuple[str, str]:
-    value, limit = (check_value(check, v, package.fmt) for v in (check.found, check.limit))
-    return value, limit + dagger(check.provision)
 
 
 def _unfinished(assessment: Assessment) -> int:

@@ -15,9 +15,10 @@ from report.document.tables import Table, TableRow, listed
 from report.entities.columns import TableColumn
 from report.entities.shown import plain, words
 from report.motions.components import RecordFile
-from report.pages.parts import BAR, PackageData, shortened
+from report.pages.parts import BAR, PackageData
 from report.provenance.software import sbom_sha256
 from report.sheet.read import IGNORED, EchoRow
+from report.words.formats import shortened
 
 LIBRARIES = (
     "numpy",

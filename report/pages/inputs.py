@@ -12,7 +12,6 @@ from report.assessment.verdict import NOT_GIVEN
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
 from report.pages import friction_tests
-from report.pages.model import friction
 from report.pages.parts import PackageData
 from report.pages.site import site_table, unused_s_ds
 from report.sheet.schema import Array, Polygon, RoofObject, Shape
@@ -36,11 +35,6 @@ def inputs(package: PackageData) -> Mapping[str, object]:
         "site": site_table(package),
         "s_ds": unused_s_ds(data.site),
         "arrays": _arrays(package),
-        "laws": {
-            array.id: friction(package, array)
-            for array in data.arrays
-            if not array.friction.is_constant
-        },
         "asked": [array.id for array in data.arrays if array.model in RUNGS],
         "takes_base": package.assessment.rules.low_profile_length is LowProfileLength.BASE,
         "sizes": _sizes(package),

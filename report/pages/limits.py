@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
-from report.assessment.precheck import findings
+from report.assessment.precheck import findings, limit_value
 from report.document.tables import Table, listed, stamp
 from report.entities.array import array_results
 from report.entities.marks import dagger
 from report.entities.shown import centered, text, words
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles
-from report.pages.parts import NG, OK, PackageData, check_value, verdict
+from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.fields import Level
 from report.sheet.findings import lines
@@ -75,12 +75,12 @@ def check_table(
     fmt = package.fmt
 
     def limit(check: Limit) -> str:
-        return check_value(check, check.limit, fmt) + dagger(check.provision)
+        return limit_value(check, check.limit, fmt.us_first) + dagger(check.provision)
 
     columns = (
         (words("Item", 0.9), lambda row: row[0]),
         (words("Quantity", 3.3), lambda row: row[1].title),
-        (text("Value", share=1.5), lambda row: check_value(row[1], row[1].found, fmt)),
+        (text("Value", share=1.5), lambda row: limit_value(row[1], row[1].found, fmt.us_first)),
         (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
         (text("Limit", share=1.6), lambda row: limit(row[1])),
         (words("Clause", 1.6), lambda row: row[1].provision.clause + dagger(row[1].provision)),

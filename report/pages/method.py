@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from report.pages.parts import PackageData, nan_is_worst, statistic
 from report.pages.site import site_force
-from report.sheet.schema import Array, Direction, RecordedAt
+from report.sheet.schema import Array, Direction
 from report.words.units import Quantity
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
@@ -40,7 +40,6 @@ def _demand(package: PackageData) -> Mapping[str, object]:
     """Return F_p / W_p with what its formula has beside given numbers."""
     site, force = package.data.site, site_force(package)
     i_p = max(array.i_p for array in package.data.arrays)
-    is_ground = any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
     amplified = math.nan
     if force and site.force_factor and site.force_divisor:
         demand = 0.4 * site.s_ds * i_p * site.force_factor / site.force_divisor
@@ -48,7 +47,6 @@ def _demand(package: PackageData) -> Mapping[str, object]:
     return {
         "force": force,
         "i_p": i_p,
-        "is_ground": is_ground,
         "amplified": amplified,
         "height_factor": amplified * site.edition.amplification.reduction_at(site.z_over_h),
     }

@@ -12,15 +12,13 @@ from itertools import groupby
 from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.friction import mu_words
-from report.assessment.friction_rows import basis_words
 from report.assessment.runs import RUNGS, OrientedRun
 from report.document.tables import Table, Wide, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import centered, length, plain, text, words
 from report.pages import links
 from report.pages.parts import PackageData, nan_is_worst, verdict
-from report.sheet.schema import Array, Direction
+from report.sheet.schema import Direction
 from report.words.letters import below_mm
 from report.words.units import number, ratio
 from solver.model import INCH_M
@@ -36,12 +34,10 @@ _NOT_KNOWN = Wide("not known", 4), ""
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
-    arrays = package.data.arrays
     return {
         "rungs": [rung for rung in Model if rung is not Model.ROW],
         "matters": DEFAULT,
         "matters_in": DEFAULT.matters_m / INCH_M,
-        "friction": {array.id: friction(package, array) for array in arrays},
         "table": _table(package),
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
@@ -209,12 +205,3 @@ def _requested(array: ArrayAssessment) -> _Neglected:
     floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
     basis = "exact: both models run" + ("; the floor governs both" if floor else "")
     return array.id, name, effect, change, basis
-
-
-def friction(package: PackageData, array: Array) -> str:
-    """Return friction that is no single coefficient in words; otherwise nothing."""
-    law = array.friction
-    if law.is_constant:
-        return ""
-    rate = f" (rate {number(law.rate_s_per_m, 1)} s/m)" if law.is_by_velocity else ""
-    return f" Friction: {mu_words(law)}{rate}; {basis_words(package.data, array)}."

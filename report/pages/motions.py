@@ -22,7 +22,6 @@ from report.pages.acceptance import acceptance_table, event_table, lowest_betwee
 from report.pages.building import building_part
 from report.pages.parts import PackageData
 from report.pages.symbols import with_symbols
-from report.sheet.schema import RecordedAt
 from report.words.units import G_MPS2, Unit, number
 from solver.model import Floats, Motion
 from solver.records.processing import AS_RECORDED
@@ -32,7 +31,7 @@ from solver.rules.spectra import Tail
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
-    ground = (("motions-building", "From ground to roof"),) if has_ground(package) else ()
+    ground = (("motions-building", "From ground to roof"),) if package.has_ground else ()
     return (
         ("motions-list", "Motions"),
         ("motions-limits", "Limits on the motions"),
@@ -42,11 +41,6 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     )
 
 
-def has_ground(package: PackageData) -> bool:
-    """Whether any motion is given at the ground."""
-    return any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
-
-
 def _motion_table(package: PackageData) -> Table:
     """Return the list of the motions as run."""
     shaking = package.assessment.shaking
@@ -54,7 +48,7 @@ def _motion_table(package: PackageData) -> Table:
     columns = (
         (words("Motion", 0.9), lambda row: row[0].id),
         (words("Source", 3.5), lambda row: with_symbols(row[0].source or "—")),
-        *([place] if has_ground(package) else []),
+        *([place] if package.has_ground else []),
         (plain("Peak [g]", 3, "record"), lambda row: _peak_g(row[0].ax_mps2, row[0].scale)),
         (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0].ay_mps2, row[0].scale)),
         (plain("Peak [g]", 3, "vertical", 1.1), lambda row: _peak_g(row[0].az_mps2, row[0].scale)),
@@ -238,7 +232,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "drift": _drift_table(package, unit),
         "drift_m": DRIFT_M,
         "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
-        "building": building_part(package) if has_ground(package) else None,
+        "building": building_part(package) if package.has_ground else None,
         "tail": Tail(package.data.target.tail).sentence,
         "departures": departures(spectra),
         "achieved": achieved_table(spectra),

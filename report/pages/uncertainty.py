@@ -1,4 +1,4 @@
-"""How sure: friction and slope, the margin of each clearance, directions of shaking not run."""
+"""How sure: friction and slope, margins of clearances, directions of shaking, smaller events."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from report.assessment.cumulative import Cumulative
+from report.assessment.evidence import Evidence
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
 from report.assessment.uncertainty import TOLERANCE, Margin, Surface, Uncertainty
@@ -20,8 +22,9 @@ from report.words.units import number
 from solver.rules.provisions import Neighbor
 
 
-def page(package: PackageData, uncertainty: Uncertainty) -> dict[str, object]:
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the page needs beside its chart."""
+    uncertainty, sums = evidence.uncertainty, evidence.cumulative
     return {
         "found": uncertainty,
         "surface": _at_governing(uncertainty.surface),
@@ -29,6 +32,7 @@ def page(package: PackageData, uncertainty: Uncertainty) -> dict[str, object]:
         "tolerance": power_of_ten(round(math.log10(TOLERANCE))),
         "margins": _margin_table(package, uncertainty.margins),
         "turned": _turned_table(package, uncertainty) if uncertainty.turned else None,
+        "sums": _sum_table(package, sums) if sums else None,
     }
 
 
@@ -119,3 +123,16 @@ def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
         cells = (*fmt.cells(run.result.prd_m), share)
         columns.append((text(f"{number(run.angle_deg, 1)}°"), cells.__getitem__))
     return listed(range(len(names)), columns, fmt, kind="compact")
+
+
+def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
+    """Return mean and largest sum of each array over the design event and smaller ones."""
+    factor = package.governing.analysis.factor  # that of every array
+    times = f"{number(factor, 2)} × "
+    columns = (
+        (words("Array"), lambda item: item.array.id),
+        (length(f"{times}mean sum"), lambda item: factor * item.mean_m),
+        (length(f"{times}largest sum"), lambda item: factor * item.largest_m),
+        (length("Design displacement"), lambda item: item.array.design_m),
+    )
+    return listed(sums, columns, package.fmt, kind="compact")
