@@ -13,7 +13,7 @@ from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
 from report.pages import friction_tests
 from report.pages.parts import PackageData
-from report.pages.site import site_table, unused_s_ds
+from report.pages.site import site, unused_s_ds
 from report.sheet.schema import Array, Polygon, RoofObject, Shape
 from report.words.units import Quantity, number
 from solver.rules.rulesets import LowProfileLength
@@ -32,7 +32,7 @@ def inputs(package: PackageData) -> Mapping[str, object]:
     """Return what the part on inputs needs beside the package."""
     data = package.data
     return {
-        "site": site_table(package),
+        "site": site(package),
         "s_ds": unused_s_ds(data.site),
         "arrays": _arrays(package),
         "asked": [array.id for array in data.arrays if array.model in RUNGS],
