@@ -14,6 +14,8 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.changes import NO_FORMER, Changes
+from report.assessment.verdict import Verdict
+from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.marks import Marked
@@ -40,7 +42,7 @@ def statistic(basis: Basis) -> str:
 def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
     """Return OK, or NG highlighted."""
     good, bad = words
-    return Markup('<b class="{}">{}</b>').format(*(("ok", good) if ok else ("ng", bad)))
+    return stamp(Verdict.OK, good) if ok else stamp(Verdict.NG, bad)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,7 @@ from typing import Any
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
-from report.document.blocks import Part
+from report.document.sections import Part
 from report.pages import (
     accuracy,
     appendix,
