@@ -45,7 +45,6 @@ class Table:
 
     columns: tuple[TableColumn, ...]
     rows: tuple[TableRow, ...]
-    notes: tuple[str, ...] = ()
     kind: str = ""
     whole_rows: int = WHOLE_ROWS
 

@@ -79,5 +79,5 @@ def known_errors() -> Section:
         id="known-errors",
         title="Known errors of released versions",
         template="manual/known-errors.html",
-        content={"columns": listed((), _ERROR)},
+        content={"columns": listed((), _ERROR, kind="compact")},
     )

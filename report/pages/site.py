@@ -29,7 +29,7 @@ def site(package: PackageData) -> Mapping[str, object]:
     site, building = package.data.site, package.data.building
     factors = sorted({array.i_p for array in package.data.arrays})
     return {
-        "columns": listed((), _COLUMNS),
+        "columns": listed((), _COLUMNS, kind="compact"),
         "i_p": tuple(dict.fromkeys((factors[0], factors[-1]))),
         "period_s": approximate_period_s(building.structure or "other", site.structure_height_m),
         "force": site_force(package),
