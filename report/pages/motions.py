@@ -16,7 +16,6 @@ from report.assessment.spectra import PRINTED_S, Spectra, departures
 from report.document.tables import Column, Table, TableRow, Wide, listed
 from report.entities.columns import TableColumn
 from report.entities.shown import centered, length, plain, text, words
-from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.pages.acceptance import acceptance_table, event_table, lowest_between, strength_table
 from report.pages.building import building_part
@@ -214,19 +213,15 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
     )
 
 
-def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
-    """Return the notes from reading the records, without repetition within a motion."""
-    notes = (f"Motion {row.motion_id}: {note}" for row in records for note in row.notes)
-    return tuple(dict.fromkeys(f"{text.rstrip('.')}." for text in notes))
-
-
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
     shaking, spectra = package.assessment.shaking, evidence.spectra
     unit = package.fmt.units()[0]
     return {
         "table": _motion_table(package),
-        "notes": _notes(shaking.records),
+        "notes": dict.fromkeys(
+            (row.motion_id, note.rstrip(".")) for row in shaking.records for note in row.notes
+        ),
         "unit": unit,
         "ends": _largest_ends(shaking.prepared),
         "drift": _drift_table(package, unit),
