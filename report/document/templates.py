@@ -24,7 +24,7 @@ from report.entities.marks import dagger
 from report.typeset.equations import data_uri, fraction, symbol
 from report.words.counts import capitalized, counted, joined, spelled
 from report.words.formats import general, percent, scientific, seconds, shortened
-from report.words.letters import below_mm, lettered, power_above
+from report.words.letters import below_mm, power_above
 from report.words.units import Quantity, digits_down, digits_up, number, ratio
 from solver.rules.limit import Limit
 
@@ -79,7 +79,6 @@ def _environment(folder: Path) -> Environment:
         "friction_basis": _friction_basis,
         "general": general,
         "joined": joined,
-        "lettered": lettered,
         "lowered": lambda text: text[:1].lower() + text[1:],
         "mark": _mark,
         "needs_a_line": _needs_a_line,
