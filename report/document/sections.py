@@ -1,4 +1,4 @@
-"""Sections of a document: each is a template with its words and what that prints.
+"""Sections of a document, numbered: each is a template with its words and what that prints.
 
 Owns no content. Read `filled`.
 """
@@ -12,8 +12,22 @@ from typing import Any
 
 from markupsafe import Markup
 
-from report.document.blocks import Part
 from report.document.templates import rendered
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    """A numbered part of the package; `parts` are those below it."""
+
+    id: str
+    number: str
+    title: str
+    parts: tuple[Part, ...] = field(default=())
+
+    @property
+    def set(self) -> str:
+        """Style of the list of its parts in the table of contents."""
+        return "many" if len(self.parts) > 6 else "few"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

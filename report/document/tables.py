@@ -41,12 +41,10 @@ class TableRow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Table:
-    """A table with its caption; equal headings of adjacent columns are merged."""
+    """A table, whose caption the template says; equal headings of adjacent columns are merged."""
 
-    caption: str
     columns: tuple[TableColumn, ...]
     rows: tuple[TableRow, ...]
-    notes: tuple[str, ...] = ()
     kind: str = ""
     whole_rows: int = WHOLE_ROWS
 
@@ -107,13 +105,11 @@ def stamp(value: Verdict, text: str = "") -> Markup:
 def table_of(
     rows: Sequence[Entity],
     names: str,
-    caption: str,
     fmt: UnitFormat,
     *,
     kind: str = "",
     heads: Mapping[str, str] = {},
     shares: Mapping[str, float] = {},
-    notes: Sequence[str] = (),
 ) -> Table:
     """Return rows of one entity as a table of the named fields.
 
@@ -131,7 +127,6 @@ def table_of(
         for column in shown.columns(fmt, heads.get(name, shown.head), shares.get(name, shown.share))
     ]
     return Table(
-        caption=caption,
         columns=tuple(columns),
         rows=tuple(
             TableRow(
@@ -140,7 +135,6 @@ def table_of(
             )
             for row in rows
         ),
-        notes=tuple(notes),
         kind=kind,
     )
 
@@ -156,11 +150,9 @@ A value that is `Wide` covers the columns that follow.
 def listed(
     items: Iterable[Any],
     columns: Sequence[Column],
-    caption: str = "",
     fmt: UnitFormat = PLAIN,
     *,
     kind: str = "",
-    notes: Sequence[str] = (),
     whole_rows: int = WHOLE_ROWS,
     style: Callable[[Any], str] = lambda _: "",
 ) -> Table:
@@ -172,7 +164,6 @@ def listed(
         Gives the style of the row of an item.
     """
     return Table(
-        caption=caption,
         columns=tuple(
             column
             for shown, *_ in columns
@@ -182,7 +173,6 @@ def listed(
             TableRow(cells=tuple(_listed_cells(columns, item, fmt)), kind=style(item))
             for item in items
         ),
-        notes=tuple(notes),
         kind=kind,
         whole_rows=whole_rows,
     )

@@ -16,19 +16,23 @@ from jinja2 import pass_context
 from markupsafe import Markup
 
 from report.assessment.friction import mu_words
+from report.assessment.friction_rows import basis_words
 from report.assessment.precheck import limit_value
 from report.document.tables import Table, stamp, table_of
+from report.entities.linked import ratio_up
 from report.entities.marks import dagger
-from report.typeset.equations import data_uri, symbol
+from report.typeset.equations import data_uri, fraction, symbol
 from report.words.counts import capitalized, counted, joined, lowered, spelled
-from report.words.formats import general, percent, scientific, seconds
-from report.words.letters import below_mm, lettered, power_above
-from report.words.units import Quantity, digits_down, digits_up, number
+from report.words.formats import general, percent, scientific, seconds, shortened
+from report.words.letters import below_mm, power_above
+from report.words.units import Quantity, digits_down, digits_up, number, ratio
 from solver.rules.limit import Limit
 
 if TYPE_CHECKING:
     from jinja2 import Environment
     from jinja2.runtime import Context
+
+    from report.sheet.schema import Array
 
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
@@ -36,10 +40,10 @@ def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
     return _environment(folder).get_template(name).render(context)
 
 
-def sentence(folder: Path, name: str, package: object) -> str:
-    """Return a sentence that pages and the screen share, from `sentences.html`."""
+def sentence(folder: Path, name: str, about: object) -> str:
+    """Return a sentence that pages and the screen share, from `sentences.html`, as plain text."""
     macros = _environment(folder).get_template("sentences.html").module
-    return " ".join(str(getattr(macros, name)(package)).split())
+    return " ".join(Markup(getattr(macros, name)(about)).unescape().split())
 
 
 def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
@@ -72,25 +76,39 @@ def _environment(folder: Path) -> Environment:
         "digits_down": digits_down,
         "digits_up": digits_up,
         "friction": mu_words,
+        "friction_basis": _friction_basis,
         "general": general,
         "joined": joined,
-        "lettered": lettered,
         "lowered": lowered,
         "mark": _mark,
+        "needs_a_line": _needs_a_line,
         "number": number,
         "percent": percent,
         "power_above": power_above,
         "of_check": _of_check,
+        "ratio": ratio,
+        "ratio_up": ratio_up,
         "rule_length": _rule_length,
         "scientific": scientific,
         "seconds": seconds,
+        "shortened": shortened,
         "spelled": spelled,
         "stamp": stamp,
         "symbol": symbol,
     }
-    environment.tests["nan"] = math.isnan
-    environment.globals["rows"] = _rows
+    environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
+    environment.globals |= {"fraction": fraction, "rows": _rows}
     return environment
+
+
+SHORT_LETTERS = 64
+"""Length of numbers that fit beside an equation."""
+
+
+def _needs_a_line(numbers: Markup) -> bool:
+    """Return whether the numbers of an equation are too long to stand beside it; notes wrap."""
+    rows = (row for row in numbers.split("</div>") if 'class="small"' not in row)
+    return any(len(row.striptags()) > SHORT_LETTERS for row in rows)
 
 
 @pass_context
@@ -98,6 +116,12 @@ def _both(context: Context, value_si: float, quantity: str = "DISPLACEMENT") -> 
     """Return a value in both systems of units: `81.6 in (2072 mm)`."""
     said: str = context["p"].fmt.both(value_si, Quantity[quantity])
     return said
+
+
+@pass_context
+def _friction_basis(context: Context, array: Array) -> str:
+    """Return where the friction of an array comes from."""
+    return basis_words(context["p"].data, array)
 
 
 @pass_context
@@ -128,6 +152,6 @@ def _rule_length(context: Context, key: str) -> str:
 
 
 @pass_context
-def _rows(context: Context, entities: Any, names: str, caption: str, **how: Any) -> Table:
+def _rows(context: Context, entities: Any, names: str, **how: Any) -> Table:
     """Return rows of an entity as a table of the named fields."""
-    return table_of(entities, names, caption, context["p"].fmt, **how)
+    return table_of(entities, names, context["p"].fmt, **how)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from importlib import metadata
 from itertools import groupby
 
 from report.document.sections import Section
-from report.document.tables import by_name, grouped, listed
+from report.document.tables import listed
 from report.entities.shown import text, words
-from report.manual.known_errors import KNOWN_ERRORS
 from report.manual.summary import judged
 from report.words.validation import validation
 from solver.verification.evidence import Verification
@@ -23,10 +21,11 @@ _FEATURE = (
 )
 
 _ERROR = (
-    (words("Error", 3.2), lambda error: error.what),
-    (words("Effect on a package", 2.5), lambda error: error.effect),
-    (words("Corrective action", 2.7), lambda error: error.action),
+    (words("Error", 3.2), str),
+    (words("Effect on a package", 2.5), str),
+    (words("Corrective action", 2.7), str),
 )
+"""Its rows are in the template."""
 
 
 def features(verification: Verification) -> Section:
@@ -76,17 +75,9 @@ def _limits(status: FeatureStatus) -> str:
 
 def known_errors() -> Section:
     """Return the errors of released versions, with what to do about them."""
-    by_version = by_name(KNOWN_ERRORS, lambda error: error.version)
-    groups = {
-        f"Version {version} as released: {len(errors)} errors": errors
-        for version, errors in by_version.items()
-    }
     return Section(
         id="known-errors",
         title="Known errors of released versions",
         template="manual/known-errors.html",
-        content={
-            "has_same_number": metadata.version("roofslip") in by_version,
-            "errors": grouped(groups, _ERROR, kind="compact"),
-        },
+        content={"columns": listed((), _ERROR, kind="compact")},
     )

@@ -16,7 +16,7 @@ from report.document.templates import rendered
 from report.figures.base import load_fonts
 from report.manual.machine import Machine, this_machine
 from report.manual.sections import sections
-from report.manual.summary import verdict_line
+from report.manual.summary import judged
 from report.manual.table import verification_csv
 from report.pages.symbols import with_symbols
 from report.typeset.pdf import TEMPLATES, lay_out
@@ -56,8 +56,8 @@ def manual_html(
     context: dict[str, Any] = {
         "v": verification,
         "with_symbols": with_symbols,
-        "pictures": {},
-        "verdict_line": verdict_line(verification),
+        "verdict": judged(verification.passed and len(verification.checks) > 0),
+        "n_passed": sum(row.passed for row in verification.checks),
         "validation": validation(verification.tables),
         "version": dict(machine.rows)["Roofslip"],
     }

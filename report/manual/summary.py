@@ -34,13 +34,6 @@ def judged(is_passed: bool) -> Markup:
     return verdict(is_passed, ("PASS", "FAIL"))
 
 
-def verdict_line(verification: Verification) -> Markup:
-    """Return PASS or FAIL with the count."""
-    checks = verification.checks
-    words = judged(verification.passed and len(checks) > 0)
-    return words + f" {sum(row.passed for row in checks)} of {len(checks)} checks passed."
-
-
 def summary(verification: Verification) -> Section:
     """Return verdict, key results and checks by section."""
     work, maps, links = verification.work, verification.maps, verification.links

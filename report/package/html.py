@@ -1,40 +1,39 @@
-"""The calculation package as HTML: formatted strings and pictures in templates.
+"""The calculation package as HTML: its pages and pictures in templates.
 
 Runs nothing. The pages are those of `report.pages.registry`; read it first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
-from typing import Any
 
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence, Plotted
 from report.assessment.project import Assessment
-from report.document.blocks import Line
 from report.document.templates import rendered
-from report.pages import front, inputs, method
+from report.pages import method
 from report.pages.cover import cover
-from report.pages.letter import letter
+from report.pages.front import letter
 from report.pages.parts import PackageData
-from report.pages.pictures import Pictures, draw_assessment, draw_plotted, draw_uncertainty
+from report.pages.pictures import Drawings, draw_assessment, draw_plotted, draw_uncertainty
 from report.pages.registry import Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
-from report.typeset.equations import FormulaPicture, formulas
+from report.typeset.equations import Equations
 from report.typeset.pdf import TEMPLATES
 from report.workers import SameProcess
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PendingPictures:
-    """What is drawn and typeset beside the computation; equations are by their LaTeX."""
+    """What is drawn and typeset beside the computation."""
 
     package: PackageData
     worker: Executor
-    pictures: tuple[Future[Pictures], ...]
-    equations: Future[dict[str, FormulaPicture]]
+    pictures: tuple[Future[Drawings], ...]
+    equations: Future[Equations]
 
     def plot(self, shown: Plotted) -> PendingPictures:
         """Begin with most figures."""
@@ -45,13 +44,19 @@ class PendingPictures:
 def begin(assessment: Assessment, changes: Changes, worker: Executor) -> PendingPictures:
     """Begin with what needs no evidence, while it is computed."""
     package = package_data(assessment, changes)
-    steps = _latex((method.page(package), inputs.inputs(package)))
     return PendingPictures(
         package=package,
         worker=worker,
         pictures=(worker.submit(draw_assessment, package),),
-        equations=worker.submit(formulas, steps),
+        equations=worker.submit(_typeset, package),
     )
+
+
+def _typeset(package: PackageData) -> Equations:
+    """Return the equations of the method, which are found by printing its page."""
+    equations = Equations()
+    _html(package, {"method": method.page(package)}, defaultdict(tuple), equations)
+    return equations
 
 
 def pages(
@@ -75,14 +80,13 @@ def pages(
     )
     ids = (*_FRONT, *(page.id for page in pages_of(package)))
     content = _content(package, evidence, ids)
-    ready = pending.equations.result()
-    pictures = {id: some for done in drawn for id, some in done.result().items()}
-    return _html(package, content, pictures, ready)
+    drawings = {id: some for done in drawn for id, some in done.result().items()}
+    return _html(package, content, drawings, pending.equations.result())
 
 
-def part(package: PackageData, evidence: Evidence, id: str, pictures: Pictures) -> str:
+def part(package: PackageData, evidence: Evidence, id: str, drawings: Drawings) -> str:
     """Return one part of the package as HTML: `cover`, `contents`, `letter` or a page by its id."""
-    return _html(package, _content(package, evidence, (id,)), pictures, {})
+    return _html(package, _content(package, evidence, (id,)), drawings, Equations())
 
 
 _FRONT: Mapping[str, Callable[[PackageData], Content]] = {
@@ -99,40 +103,23 @@ def _content(package: PackageData, evidence: Evidence, ids: Sequence[str]) -> di
     }
 
 
-def _latex(content: Any) -> list[str]:
-    return list(dict.fromkeys(line.latex for line in _lines(content)))
-
-
-def _lines(content: Any) -> Iterator[Line]:
-    """Yield the steps of the calculation, wherever they stand in the content of the pages."""
-    if isinstance(content, Line):
-        yield content
-    elif isinstance(content, Mapping):
-        yield from _lines(tuple(content.values()))
-    elif isinstance(content, list | tuple):
-        for item in content:
-            yield from _lines(item)
-
-
 def _html(
     package: PackageData,
     content: Mapping[str, Content],
-    pictures: Pictures,
-    ready: Mapping[str, FormulaPicture],
+    drawings: Drawings,
+    equations: Equations,
 ) -> str:
     listed = {part.id: part for part in parts(package)}
-    equations = {**ready, **formulas(set(_latex(content)) - ready.keys())}
     context = {
         "p": package,
         "with_symbols": with_symbols,
         "css": (TEMPLATES / "package.css").read_text(encoding="utf-8"),
-        "sheet": front.sheet(package),
         "parts": tuple(listed.values()),
         "below": {subpart.id: subpart for part in listed.values() for subpart in part.parts},
         "shown": [(f"{id}.html", listed.get(id)) for id in content],
         "ref": package.part,
         "equations": equations,
-        "pictures": pictures,
+        "drawings": drawings,
         "content": content,
     }
     return rendered(TEMPLATES, "package.html", {**context, **content})

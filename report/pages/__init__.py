@@ -1,1 +1,1 @@
-"""The pages of the package as finished strings, part by part."""
+"""What the pages of the package print, part by part; their words are in the templates."""

@@ -33,11 +33,7 @@ def acceptance_table(package: PackageData) -> Table:
         (words("Worst", 1.5), lambda row: row.worst or "—"),
         (words("Result", 1.05), lambda row: stamp(package.assessment.limit_verdict(row))),
     )
-    rows, caption = (
-        package.assessment.acceptance.rows,
-        "Limits on the motions for analysis, at the roof as run",
-    )
-    return listed(rows, columns, caption, package.fmt, kind="compact")
+    return listed(package.assessment.acceptance.rows, columns, package.fmt, kind="compact")
 
 
 def _limit(row: Limit) -> str:
@@ -90,10 +86,7 @@ def strength_table(package: PackageData) -> Table:
             lambda motion: number(motion.hold_s, 1) if motion.is_generated else "record",
         ),
     )
-    caption = "Strong motion and correlation of the motions as run"
-    return listed(
-        package.assessment.acceptance.motions, columns, caption, package.fmt, kind="compact"
-    )
+    return listed(package.assessment.acceptance.motions, columns, package.fmt, kind="compact")
 
 
 def event_table(package: PackageData) -> Table:
@@ -110,7 +103,7 @@ def event_table(package: PackageData) -> Table:
         (text(symbol("V_s30"), "m/s"), lambda row: given(row.v_s30_mps)),
     )
     rows = filter(_has_event, package.data.motions)
-    return listed(rows, columns, "Events of the records", package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def _has_event(row: MotionInput) -> bool:

@@ -8,26 +8,25 @@ from dataclasses import dataclass, replace
 from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.evidence import Evidence
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, Rivals
-from report.document.blocks import Picture
 from report.document.tables import Column, Table, listed
 from report.entities.columns import NO_VALUE
-from report.entities.marks import dagger
 from report.entities.shown import length, text, words
-from report.pages.parts import PackageData, check_value
+from report.pages.parts import PackageData
 from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Status
-from solver.rules.limit import Limit
 from solver.sliding.least_model import Model
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
 
 
-def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the page needs beside its chart."""
+    accuracy = evidence.accuracy
     rivals, arrays = accuracy.rivals, tuple(_by_array(accuracy))
     return {
         "found": accuracy,
@@ -38,27 +37,9 @@ def page(package: PackageData, accuracy: Accuracy) -> Mapping[str, object]:
         "arrays": arrays,
         "friction": _friction_table(package, arrays),
         "change": _change,
-        "limited": [
-            (array.id, check, *_value_and_limit(package, check))
-            for array, check in accuracy.newly_limited
-        ],
         "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
         - _unfinished(accuracy.given),
     }
-
-
-def picture(rivals: Rivals, us_first: bool) -> Picture:
-    """Return the chart of the page."""
-    from report.figures.accuracy import work_precision
-
-    failed = sum(run.failed for run in rivals.runs)
-    lost = f" {failed} failed run{'s are' if failed > 1 else ' is'} not drawn." if failed else ""
-    return Picture(
-        svg=work_precision(rivals, us_first),
-        caption="Error in PRD for the governing run along the slope alone, each method from coarse "
-        f"to fine. Links stiffen to the right, with the steps required.{lost}",
-        alt="Chart of the error in PRD against the steps of each method",
-    )
 
 
 def _decade_ms(seconds: float) -> float:
@@ -87,7 +68,6 @@ def _methods(package: PackageData, rivals: Rivals) -> Table:
     return listed(
         (exact, *others),
         columns,
-        "The governing run along the slope alone, by every method with default settings",
         package.fmt,
         kind="compact",
         style=lambda row: "total" if row is exact else "",
@@ -145,8 +125,7 @@ def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
             lambda row: _change(row.at_increased_friction.design_m, row.given.design_m),
         ),
     )
-    caption = "Design displacement with changed friction, all motions rerun"
-    return listed(arrays, columns, caption, package.fmt, kind="compact")
+    return listed(arrays, columns, package.fmt, kind="compact")
 
 
 def _design(package: PackageData, head: str, which: Callable[[_Varied], ArrayAssessment]) -> Column:
@@ -162,11 +141,6 @@ def _change(value: float, given: float) -> str:
         return NO_VALUE if math.isnan(value) or math.isnan(given) else "—"
     share = 100.0 * (value / given - 1.0)
     return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
-
-
-def _value_and_limit(package: PackageData, check: Limit) -> tuple[str, str]:
-    value, limit = (check_value(check, v, package.fmt) for v in (check.found, check.limit))
-    return value, limit + dagger(check.provision)
 
 
 def _unfinished(assessment: Assessment) -> int:

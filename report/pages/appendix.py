@@ -15,9 +15,10 @@ from report.document.tables import Table, TableRow, listed
 from report.entities.columns import TableColumn
 from report.entities.shown import plain, words
 from report.motions.components import RecordFile
-from report.pages.parts import BAR, PackageData, shortened
+from report.pages.parts import BAR, PackageData
 from report.provenance.software import sbom_sha256
 from report.sheet.read import IGNORED, EchoRow
+from report.words.formats import shortened
 
 LIBRARIES = (
     "numpy",
@@ -52,9 +53,13 @@ def records_page(package: PackageData) -> Mapping[str, object]:
     }
 
 
+_Echoed = tuple[Table, Sequence[str], Sequence[str]]
+"""A table, what all of its rows have alike, and what is left blank."""
+
+
 def echo(
     rows: Sequence[EchoRow], changed: Set[str] = frozenset()
-) -> tuple[tuple[str, tuple[Table, ...]], ...]:
+) -> tuple[tuple[str, tuple[_Echoed, ...]], ...]:
     """Return the name of each sheet, and its cells as tables: entered values once.
 
     Single cells stand in two columns of the page. A table of the workbook stands as it is there;
@@ -80,19 +85,18 @@ def _bar(cells: Iterable[EchoRow | None], changed: Set[str]) -> str:
     return BAR if any(_is_changed(row, changed) for row in cells) else ""
 
 
-def _tables(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[Table]:
+def _tables(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Echoed]:
     in_row = Counter(_row_number(row) for row in rows)
     for is_table, group in groupby(rows, key=lambda row: in_row[_row_number(row)] > 1):
         cells = tuple(group)
         yield from _parts_of_table(cells, changed) if is_table else (_single_cells(cells, changed),)
 
 
-def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> Table:
+def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> _Echoed:
     given = [row for row in rows if not _is_in_note(row, changed)]
     half = (len(given) + 1) // 2
     pairs = zip_longest(given[:half], given[half:])
-    return Table(
-        caption="",
+    table = Table(
         columns=(*_SINGLE_COLUMNS, *_SINGLE_COLUMNS),
         rows=tuple(
             TableRow(
@@ -101,9 +105,9 @@ def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> Table:
             )
             for left, right in pairs
         ),
-        notes=tuple(_blanks([row for row in rows if _is_in_note(row, changed)])),
         kind="compact",
     )
+    return table, (), [_blank(row, row.cell) for row in rows if _is_in_note(row, changed)]
 
 
 _SINGLE_COLUMNS = (
@@ -117,7 +121,7 @@ def _single(row: EchoRow | None, changed: Set[str]) -> tuple[str, str, str]:
     return ("", "", "") if row is None else (row.cell, row.label, _entered(row, row.unit, changed))
 
 
-def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[Table]:
+def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Echoed]:
     """Yield a table of the workbook, a few of its columns at a time, as it stands there."""
     lines = {
         number: {_column_letters(row): row for row in cells}
@@ -129,10 +133,12 @@ def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[Tabl
     given = [cells for cells in columns.values() if cells[0] not in blank]
     equal = [cells[0] for cells in given if _is_equal(cells, len(lines), changed)]
     shown = [cells for cells in given if cells[0] not in equal]
-    notes = (*_same(equal), *_blanks(blank, whole_column=True))
-    chunks = list(_chunks(shown)) or [[given[0]]]
-    for count, chunk in enumerate(chunks, start=1):
-        yield _columns(lines, chunk, changed, notes if count == len(chunks) else ())
+    alike = [f"{_column_letters(row)} {row.label} {_as_entered(row, row.unit)}" for row in equal]
+    *chunks, last = list(_chunks(shown)) or [[given[0]]]
+    for chunk in chunks:
+        yield _columns(lines, chunk, changed), (), ()
+    left_blank = [_blank(row, _column_letters(row)) for row in blank]
+    yield _columns(lines, last, changed), alike, left_blank
 
 
 def _is_equal(cells: Sequence[EchoRow], rows: int, changed: Set[str]) -> bool:
@@ -143,15 +149,6 @@ def _is_equal(cells: Sequence[EchoRow], rows: int, changed: Set[str]) -> bool:
         and len(entered) == 1
         and not any(_is_changed(row, changed) for row in cells)
     )
-
-
-def _same(cells: Sequence[EchoRow]) -> Iterator[str]:
-    """Yield what every row has alike, in one line."""
-    if cells:
-        names = (
-            f"{_column_letters(row)} {row.label} {_as_entered(row, row.unit)}" for row in cells
-        )
-        yield f"In every row: {'; '.join(names)}."
 
 
 def _chunks(columns: Sequence[Sequence[EchoRow]]) -> Iterator[Sequence[Sequence[EchoRow]]]:
@@ -176,11 +173,9 @@ def _columns(
     lines: Mapping[str, Mapping[str, EchoRow]],
     chunk: Sequence[Sequence[EchoRow]],
     changed: Set[str],
-    notes: Sequence[str],
 ) -> Table:
     letters = [_column_letters(cells[0]) for cells in chunk]
     return Table(
-        caption="",
         columns=(
             TableColumn(head="Row", align="left", share=5.0),
             *(
@@ -203,7 +198,6 @@ def _columns(
             )
             for number, line in lines.items()
         ),
-        notes=tuple(notes),
         kind="compact",
     )
 
@@ -224,18 +218,10 @@ def _as_entered(row: EchoRow, unit: str) -> str:
     return f"{text} ({row.unseen})" if row.unseen else text
 
 
-def _blanks(rows: Sequence[EchoRow], *, whole_column: bool = False) -> Iterator[str]:
-    """Yield what is left blank in one line, with the defaults."""
-    if rows:
-        names = (
-            f"{_column_letters(row) if whole_column else row.cell} {row.label}{_default(row)}"
-            for row in rows
-        )
-        yield f"Left blank: {'; '.join(names)}."
-
-
-def _default(row: EchoRow) -> str:
-    return "" if row.value == "—" else f" = {row.value.removesuffix(' (default)')}"
+def _blank(row: EchoRow, place: str) -> str:
+    """Return what is left blank, with the default that it stands for."""
+    default = "" if row.value == "—" else f" = {row.value.removesuffix(' (default)')}"
+    return f"{place} {row.label}{default}"
 
 
 def _is_blank(row: EchoRow) -> bool:
@@ -262,7 +248,7 @@ def records(package: PackageData) -> Table:
         (words("File", 1.04), lambda row: row.name),
         (words("SHA-256", 4.15 - 0.55 * len(own)), lambda row: row.sha256),
     )
-    return listed(rows, columns, "Records as read", package.fmt, kind="compact digest")
+    return listed(rows, columns, package.fmt, kind="compact digest")
 
 
 _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {

@@ -51,7 +51,8 @@ def building_part(package: PackageData) -> Mapping[str, object]:
         "coefficients": structure and APPROXIMATE_PERIODS[structure],
         "height_ft": package.data.site.structure_height_m / FOOT_M,
         "period_s": first_period_s(package.data),
-        "tables": (_modes(package, components), _peaks(package, components)),
+        "modes": _modes(package, components),
+        "peaks": _peaks(package, components),
     }
 
 
@@ -84,7 +85,7 @@ def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
         (plain("Roof factor", 3, "Γφ"), lambda row: row[1].roof_factors[row[2]]),
         (words("Included"), lambda row: "yes" if row[3] else "no"),
     )
-    return listed(rows, columns, "Modes of the building", package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
@@ -109,5 +110,4 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
         ),
         (plain("Extended by", 1, "s", 0.9), lambda item: item.roof.pad_s),
     )
-    caption = "Peak acceleration on the ground and at the roof, after scaling, and modes"
-    return listed(components, columns, caption, package.fmt, kind="compact")
+    return listed(components, columns, package.fmt, kind="compact")

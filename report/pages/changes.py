@@ -37,5 +37,5 @@ def page(package: PackageData) -> Mapping[str, object]:
     changes = package.changes
     return {
         "counted": counted(changes),
-        "table": listed(changes.items, columns, "Changes", package.fmt),
+        "table": listed(changes.items, columns, package.fmt),
     }

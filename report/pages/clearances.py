@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
+from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
-from report.assessment.remedies import Remedy
 from report.pages.parts import PackageData
 from report.pages.remedies import answers
 from report.sheet.schema import ObjectKind
 
 
-def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, object]:
+def clearances(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
     objects = {item.id: item for item in package.data.objects}
     arrays = {array.id: array for array in package.data.arrays}
@@ -28,5 +28,5 @@ def clearances(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str,
             if gap[1].kind is ObjectKind.EDGE_WITH_PARAPET and gap[1].height_m is not None
         ],
         "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),
-        "remedies": answers(package, remedies),
+        "remedies": answers(package, evidence.remedies),
     }

@@ -9,18 +9,18 @@ from report.assessment.clearances import ClearanceCheck
 from report.document.tables import Table, listed
 from report.entities.shown import words
 from report.pages.parts import PackageData, nan_is_worst
-from report.pages.references import codes
+from report.pages.symbols import friction_standard
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
 from report.sheet.schema import Revision
 
 
 def cover(package: PackageData) -> Mapping[str, object]:
     """Return what the cover needs beside the package."""
-    records, rules = package.assessment.shaking.records, package.assessment.rules
+    records = package.assessment.shaking.records
     return {
         "array": _governing_array(package),
         "gap": _governing_clearance(package),
-        "codes": [code.cited for code in codes(package) if code.cited != rules.name],
+        "friction_standard": friction_standard(package),
         "short_hash": package.assessment.sheet.sha256[:SHORT],
         "n_records": len(record_paths(records)),
         "has_records": holds_records(records),
@@ -58,4 +58,4 @@ def _revisions(package: PackageData) -> Table:
         (words("Description", 4.0), lambda row: row.description),
         (words("By", 1.8), lambda row: row.by or "—"),
     )
-    return listed(package.data.revisions or [first], columns, "", package.fmt)
+    return listed(package.data.revisions or [first], columns, package.fmt)

@@ -23,7 +23,6 @@ from report.assessment.friction_rows import (
 )
 from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
 from report.assessment.verdict import NOT_GIVEN
-from report.document.blocks import Picture
 from report.document.tables import Table, Wide, listed, stamp
 from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words
@@ -54,6 +53,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "report": _report(package),
         "missing": [label.lower() for label, field in _STATED if not getattr(tests, field)],
         "runs": _runs(package),
+        "n_drawn": _n_drawn(data),
         "reports": [
             _means(package, [one for one in found if one.report == report])
             for report in dict.fromkeys(one.report for one in found)
@@ -73,32 +73,28 @@ def page(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def picture(package: PackageData) -> Sequence[Picture]:
+def drawings(package: PackageData) -> Sequence[str]:
     """Return the runs over velocity, where any run reports its velocity."""
     from report.figures.friction import friction_by_velocity
 
     data = package.data
-    runs = [run for one in tested(data) for run in one.runs]
-    shown = [run for run in runs if not math.isnan(run.velocity_mps)]
-    if not shown:
+    if not _n_drawn(data):
         return ()
+    runs = [run for one in tested(data) for run in one.runs]
     fits = {one.surface: fit for one, fit in _fits(package) if fit.is_determined}
-    fitted = " Dashed: laws fitted to the runs." if fits else ""
-    return (
-        Picture(
-            svg=friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first),
-            caption=f"Kinetic friction of {runs_text(len(shown))} against sliding velocity. Solid"
-            f" lines: friction of the arrays in this package.{fitted}",
-            alt="Kinetic friction coefficient against sliding velocity",
-        ),
-    )
+    return (friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first),)
+
+
+def _n_drawn(data: ProjectInput) -> int:
+    """Return the number of runs that report their velocity."""
+    return sum(not math.isnan(run.velocity_mps) for one in tested(data) for run in one.runs)
 
 
 def _report(package: PackageData) -> Table:
     tests = package.data.friction_tests
     values = [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED]
     columns = ((words("Item"), itemgetter(0)), (words("As given", 3.0), itemgetter(1)))
-    return listed(values, columns, "Friction tests: the report", package.fmt)
+    return listed(values, columns, package.fmt)
 
 
 def _runs(package: PackageData) -> Table:
@@ -113,7 +109,6 @@ def _runs(package: PackageData) -> Table:
     return listed(
         (row for one in tested(package.data) for row in _run_rows(package.data, one)),
         columns,
-        "Friction tests: runs",
         package.fmt,
         kind="compact",
         style=lambda row: "total" if isinstance(row[0], Wide) else "",
@@ -146,8 +141,7 @@ def _velocities(package: PackageData) -> Table:
         (centered("Verdict", 1.8), itemgetter(6)),
     )
     rows = [_velocity(package.data, item) for item in package.assessment.arrays]
-    caption = "Friction at the sliding velocities of all runs"
-    return listed(rows, columns, caption, package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:

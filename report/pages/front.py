@@ -1,57 +1,69 @@
-"""Page headers and footers, summary, and basis of the analysis."""
+"""What the letter, the summary, the roof plan and the basis need beside the package.
+
+Computes nothing. Read `report.pages.parts` first.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from dataclasses import dataclass
 
-from report.assessment.friction import mu_words
-from report.assessment.friction_rows import basis_words, tested
-from report.assessment.remedies import Remedy
-from report.assessment.spectra import Spectra, departures
-from report.assessment.uncertainty import Uncertainty
+from report.assessment.arrays import Route
+from report.assessment.evidence import Evidence
+from report.assessment.friction_rows import tested
+from report.assessment.overrides import LOWERING
+from report.assessment.spectra import departures
 from report.document.templates import sentence
 from report.pages.limits import troubles
-from report.pages.parts import PackageData, shortened, statistic
+from report.pages.parts import PackageData, statistic
 from report.pages.remedies import answers
-from report.pages.review import review
-from report.sheet.schema import RecordedAt
 from report.typeset.pdf import TEMPLATES
 from report.words.validation import explained
+from solver.rules.limit import Limit
 from solver.verification.shake_table import SHIPPED
 
 
-def sheet(package: PackageData) -> Mapping[str, str]:
-    """Return the texts of the page headers and footers."""
-    project = package.data.project
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Review:
+    """Arrays that peer review concerns: by analysis, and on roofs over the slope limit."""
+
+    by_analysis: tuple[str, ...]
+    steeper: tuple[str, ...]
+    slope_limit: Limit | None
+
+
+def _review(package: PackageData) -> Review:
+    """Return the arrays that have no floor, or a steeper roof, where peer review is stated."""
+    arrays = package.assessment.arrays
+    excepted = {
+        item.id: check for item in arrays for check in item.limits if check.passes_by_exception
+    }
+    return Review(
+        by_analysis=tuple(item.id for item in arrays if item.route is Route.ANALYSIS),
+        steeper=tuple(excepted),
+        slope_limit=next(iter(excepted.values()), None),
+    )
+
+
+def letter(package: PackageData) -> Mapping[str, object]:
+    """Return what requires less than the rule set, and what peer review permits."""
     return {
-        "title": f"{project.number} {project.name}: seismic displacement of rooftop solar arrays",
-        "author": project.prepared_by,
-        "created": project.date.isoformat(),
-        "name": shortened(project.name, 60),
-        "number": shortened(project.number, 24),
-        "date": project.date.isoformat(),
-        "by": shortened(project.prepared_by, 22),
-        "checked": shortened(project.checked_by, 22) or "—",
-        "revision": shortened(project.revision, 8),
-        "edition": package.assessment.rules.name,
-        "hash": package.fingerprint,
+        "lowered": [row for row in package.assessment.rows if row.id in LOWERING],
+        "review": _review(package),
     }
 
 
-def summary(
-    package: PackageData, remedies: Sequence[Remedy], spectra: Sequence[Spectra]
-) -> Mapping[str, object]:
+def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the summary page needs beside the package."""
-    found = departures(spectra)
+    found = departures(evidence.spectra)
     last = {departure.is_short: departure for departure in found}.values()
     return {
         "statistic": statistic(package.governing.analysis.basis),
-        "review": review(package),
-        "departure": shortened(package.data.options.directional_reason, 80),
+        "review": _review(package),
         # What follows from a missed target is said once, with the last.
         "missed": [(departure, departure in last) for departure in found],
         "troubles": troubles(package),
-        "answers": answers(package, remedies),
+        "answers": answers(package, evidence.remedies),
     }
 
 
@@ -67,18 +79,12 @@ def verdict_sentence(package: PackageData) -> str:
     return sentence(TEMPLATES, "verdict", package)
 
 
-def basis(package: PackageData, uncertainty: Uncertainty) -> Mapping[str, object]:
+def basis(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the page on basis and limits needs beside the package."""
     return {
         "motions": [run.motion for run in package.governing.motions],
-        "is_ground": any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions),
-        "friction": [
-            (array.id, mu_words(array.friction), basis_words(package.data, array))
-            for array in package.data.arrays
-            if not array.friction.is_constant
-        ],
         "is_tested": bool(tested(package.data)),
-        "certainty": uncertainty,
+        "certainty": evidence.uncertainty,
         "failed": troubles(package),
         "validation": explained(SHIPPED),
     }

@@ -12,9 +12,8 @@ from report.assessment.verdict import NOT_GIVEN
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
 from report.pages import friction_tests
-from report.pages.model import friction
 from report.pages.parts import PackageData
-from report.pages.site import site_table, unused_s_ds
+from report.pages.site import site, unused_s_ds
 from report.sheet.schema import Array, Polygon, RoofObject, Shape
 from report.words.units import Quantity, number
 from solver.rules.rulesets import LowProfileLength
@@ -33,14 +32,9 @@ def inputs(package: PackageData) -> Mapping[str, object]:
     """Return what the part on inputs needs beside the package."""
     data = package.data
     return {
-        "site": site_table(package),
+        "site": site(package),
         "s_ds": unused_s_ds(data.site),
         "arrays": _arrays(package),
-        "laws": {
-            array.id: friction(package, array)
-            for array in data.arrays
-            if not array.friction.is_constant
-        },
         "asked": [array.id for array in data.arrays if array.model in REQUESTED_MODELS],
         "takes_base": package.assessment.rules.low_profile_length is LowProfileLength.BASE,
         "sizes": _sizes(package),
@@ -61,7 +55,7 @@ def _arrays(package: PackageData) -> Table:
         (words("Friction test report", 2.6), lambda array: array.mu_report or NOT_GIVEN),
         (words("Construction", 2.2), lambda array: array.construction),
     )
-    return listed(package.data.arrays, columns, "Arrays: slope and friction", package.fmt)
+    return listed(package.data.arrays, columns, package.fmt)
 
 
 def _sizes(package: PackageData) -> Table:
@@ -73,7 +67,7 @@ def _sizes(package: PackageData) -> Table:
         (_in_plan("Plan x"), lambda array: _sides(array.shape)[1] - _sides(array.shape)[0]),
         (_in_plan("Plan y"), lambda array: _sides(array.shape)[3] - _sides(array.shape)[2]),
     )
-    return listed(package.data.arrays, columns, "Arrays: weight and size", package.fmt)
+    return listed(package.data.arrays, columns, package.fmt)
 
 
 def _in_plan(head: str) -> Shown:
@@ -99,8 +93,7 @@ def _links(package: PackageData) -> Table:
         ),
         (plain("Link damping", 3, "of critical", 1.3), lambda row: row.damping_ratio),
     )
-    caption = "Arrays to be compared with a row of linked blocks"
-    return listed(package.data.links, columns, caption, package.fmt)
+    return listed(package.data.links, columns, package.fmt)
 
 
 def _objects(package: PackageData) -> Table:
@@ -113,8 +106,7 @@ def _objects(package: PackageData) -> Table:
         (_in_plan("y from"), lambda item: _sides(item.placed)[2]),
         (_in_plan("y to"), lambda item: _sides(item.placed)[3]),
     )
-    caption = "Objects and roof edges"
-    return listed(package.data.objects, columns, caption, package.fmt, kind="compact")
+    return listed(package.data.objects, columns, package.fmt, kind="compact")
 
 
 def _sides(shape: Shape | None) -> tuple[Any, ...]:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
-from report.assessment.precheck import findings
+from report.assessment.precheck import findings, limit_value
 from report.document.tables import Table, listed, stamp
 from report.entities.array import array_results
 from report.entities.marks import dagger
 from report.entities.shown import centered, text, words
 from report.pages.links import link_troubles
-from report.pages.model import model_troubles, tipping_troubles
-from report.pages.parts import NG, OK, PackageData, check_value, verdict
+from report.pages.model import model_troubles
+from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.fields import Level
 from report.sheet.findings import lines
@@ -45,11 +45,9 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
         "warnings": package.assessment.warnings,
         "few": [array for array in arrays if array.analysis.basis is Basis.TOO_FEW],
         "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
-        "models": [
-            *model_troubles(package),
-            *tipping_troubles(package),
-            *link_troubles(package),
-        ],
+        "models": tuple(model_troubles(package)),
+        "tipping": [array for array in arrays if not array.tipping.is_ok],
+        "links": tuple(link_troubles(package)),
         "limits": [(place, check) for place, check in package.checks if not check.ok],
     }
     return found if any(found.values()) else {}
@@ -65,12 +63,10 @@ def _requirements(package: PackageData) -> Table:
         (words("Basis", 1.5), lambda row: row.basis),
         (centered("Verdict", 1.8), lambda row: stamp(row.verdict)),
     )
-    caption = "Requirements beside the numeric limits"
-    return listed(package.assessment.rows, columns, caption, package.fmt)
+    return listed(package.assessment.rows, columns, package.fmt)
 
 
 def check_table(
-    caption: str,
     package: PackageData,
     checks: Sequence[tuple[str, Limit]],
     outcomes: tuple[str, str] = (OK, NG),
@@ -79,12 +75,12 @@ def check_table(
     fmt = package.fmt
 
     def limit(check: Limit) -> str:
-        return check_value(check, check.limit, fmt) + dagger(check.provision)
+        return limit_value(check, check.limit, fmt.us_first) + dagger(check.provision)
 
     columns = (
         (words("Item", 0.9), lambda row: row[0]),
         (words("Quantity", 3.3), lambda row: row[1].title),
-        (text("Value", share=1.5), lambda row: check_value(row[1], row[1].found, fmt)),
+        (text("Value", share=1.5), lambda row: limit_value(row[1], row[1].found, fmt.us_first)),
         (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
         (text("Limit", share=1.6), lambda row: limit(row[1])),
         (words("Clause", 1.6), lambda row: row[1].provision.clause + dagger(row[1].provision)),
@@ -95,14 +91,14 @@ def check_table(
             ),
         ),
     )
-    return listed(checks, columns, caption, fmt)
+    return listed(checks, columns, fmt)
 
 
 def limits(package: PackageData) -> Mapping[str, object]:
     """Return the part on limits and interconnection strength."""
     excepted = [check for _, check in package.checks if check.passes_by_exception]
     return {
-        "checks": check_table("", package, package.checks),
+        "checks": check_table(package, package.checks),
         "excepted": excepted[:1],
         "routes": package.routes,
         "arrays": tuple(array_results(package)),
@@ -128,4 +124,4 @@ def _warnings(package: PackageData) -> Table:
         ),
     )
     rows = lines(warnings, sheet.addresses)
-    return listed(rows, columns, "Warnings on the input", package.fmt)
+    return listed(rows, columns, package.fmt)

@@ -12,15 +12,13 @@ from itertools import groupby
 from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.friction import mu_words
-from report.assessment.friction_rows import basis_words
 from report.assessment.runs import REQUESTED_MODELS, OrientedRun
 from report.document.tables import Table, Wide, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import centered, length, plain, text, words
 from report.pages import links
 from report.pages.parts import PackageData, nan_is_worst, verdict
-from report.sheet.schema import Array, Direction
+from report.sheet.schema import Direction
 from report.words.letters import below_mm
 from report.words.units import number, ratio
 from solver.model import INCH_M
@@ -36,12 +34,10 @@ _NOT_KNOWN = Wide("not known", 4), ""
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
-    arrays = package.data.arrays
     return {
         "models": [model for model in Model if model is not Model.ROW],
         "matters": DEFAULT,
         "matters_in": DEFAULT.matters_m / INCH_M,
-        "friction": {array.id: friction(package, array) for array in arrays},
         "table": _table(package),
         "neglected": _neglected_table(package),
         "stability": _stability_table(package),
@@ -50,27 +46,12 @@ def page(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def model_troubles(package: PackageData) -> Iterator[str]:
-    """Yield in words which requested models are not adequate."""
+def model_troubles(package: PackageData) -> Iterator[tuple[ArrayAssessment, Direction]]:
+    """Yield the arrays whose requested model is not adequate, and the worst direction."""
     for array in package.assessment.arrays:
-        if array.is_model_enough:
-            continue
-        worst = max(Direction, key=lambda d: array.chosen_toward_m(d) - array.design_toward_m(d))
-        yield (
-            f"Array {array.id}: the requested model, {array.array.model.value}, gives "
-            f"{package.fmt.both(array.design_toward_m(worst))} ({worst.value}); the adequate "
-            f"model gives {package.fmt.both(array.chosen_toward_m(worst))}."
-        )
-
-
-def tipping_troubles(package: PackageData) -> Iterator[str]:
-    """Yield in words which arrays begin to tip about an edge of their supports."""
-    for array in package.assessment.arrays:
-        if not array.tipping.is_ok:
-            yield (
-                f"Array {array.id} begins to tip ({array.tipping.governs}): the ratio of "
-                f"demand to b/(2c) is {ratio(array.tipping.ratio)}."
-            )
+        if not array.is_model_enough:
+            lack = {d: array.chosen_toward_m(d) - array.design_toward_m(d) for d in Direction}
+            yield array, max(Direction, key=lack.__getitem__)
 
 
 def _limited(demand: float) -> str:
@@ -93,13 +74,7 @@ def _stability_table(package: PackageData) -> Table:
         (text("Ratio, sliding", share=1.2), lambda item: ratio(item.tipping.sliding_ratio)),
         (centered("Verdict"), lambda item: verdict(item.tipping.is_ok and not item.uplift.lifts)),
     )
-    return listed(
-        package.assessment.arrays,
-        columns,
-        "Checks independent of the model: uplift and tipping",
-        package.fmt,
-        kind="compact",
-    )
+    return listed(package.assessment.arrays, columns, package.fmt, kind="compact")
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +134,7 @@ def _table(package: PackageData) -> Table:
         (words("Error of PRD", 1.6), lambda group: group.error),
     )
     groups = [group for array in package.assessment.arrays for group in _groups(array)]
-    return listed(groups, columns, "Model used, by array", package.fmt, kind="compact")
+    return listed(groups, columns, package.fmt, kind="compact")
 
 
 _Neglected = tuple[str, str, float | Wide | str, float | str, str]
@@ -175,8 +150,7 @@ def _neglected_table(package: PackageData) -> Table:
         (words("Basis", 3.6), itemgetter(4)),
     )
     effects = [row for array in package.assessment.arrays for row in _neglected(array)]
-    caption = "Neglected effects and the largest change that they could cause"
-    return listed(effects, columns, caption, package.fmt, kind="compact")
+    return listed(effects, columns, package.fmt, kind="compact")
 
 
 def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
@@ -231,12 +205,3 @@ def _requested(array: ArrayAssessment) -> _Neglected:
     floor = array.floor_m >= max(other.value_m, array.analysis.value_m)
     basis = "exact: both models run" + ("; the floor governs both" if floor else "")
     return array.id, name, effect, change, basis
-
-
-def friction(package: PackageData, array: Array) -> str:
-    """Return friction that is no single coefficient in words; otherwise nothing."""
-    law = array.friction
-    if law.is_constant:
-        return ""
-    rate = f" (rate {number(law.rate_s_per_m, 1)} s/m)" if law.is_by_velocity else ""
-    return f" Friction: {mu_words(law)}{rate}; {basis_words(package.data, array)}."

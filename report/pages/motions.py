@@ -16,13 +16,11 @@ from report.assessment.spectra import PRINTED_S, Spectra, departures
 from report.document.tables import Column, Table, TableRow, Wide, listed
 from report.entities.columns import TableColumn
 from report.entities.shown import centered, length, plain, text, words
-from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.pages.acceptance import acceptance_table, event_table, lowest_between, strength_table
 from report.pages.building import building_part
 from report.pages.parts import PackageData
 from report.pages.symbols import with_symbols
-from report.sheet.schema import RecordedAt
 from report.words.units import G_MPS2, Unit, number
 from solver.model import Floats, Motion
 from solver.records.processing import AS_RECORDED
@@ -32,7 +30,7 @@ from solver.rules.spectra import Tail
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
-    ground = (("motions-building", "From ground to roof"),) if has_ground(package) else ()
+    ground = (("motions-building", "From ground to roof"),) if package.has_ground else ()
     return (
         ("motions-list", "Motions"),
         ("motions-limits", "Limits on the motions"),
@@ -42,11 +40,6 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     )
 
 
-def has_ground(package: PackageData) -> bool:
-    """Whether any motion is given at the ground."""
-    return any(row.recorded_at is RecordedAt.GROUND for row in package.data.motions)
-
-
 def _motion_table(package: PackageData) -> Table:
     """Return the list of the motions as run."""
     shaking = package.assessment.shaking
@@ -54,7 +47,7 @@ def _motion_table(package: PackageData) -> Table:
     columns = (
         (words("Motion", 0.9), lambda row: row[0].id),
         (words("Source", 3.5), lambda row: with_symbols(row[0].source or "—")),
-        *([place] if has_ground(package) else []),
+        *([place] if package.has_ground else []),
         (plain("Peak [g]", 3, "record"), lambda row: _peak_g(row[0].ax_mps2, row[0].scale)),
         (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0].ay_mps2, row[0].scale)),
         (plain("Peak [g]", 3, "vertical", 1.1), lambda row: _peak_g(row[0].az_mps2, row[0].scale)),
@@ -65,8 +58,7 @@ def _motion_table(package: PackageData) -> Table:
         (centered("Polarity"), lambda row: _polarity(row[0])),
     )
     rows = zip(shaking.motions, shaking.prepared, strict=True)
-    caption = "Roof motions as run, after scaling"
-    return listed(rows, columns, caption, package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def _peak_g(values: Floats, scale: float) -> float:
@@ -100,9 +92,8 @@ def _drift_table(package: PackageData, unit: Unit) -> Table:
             lambda prepared: Markup("<b>drifts</b>") if drifts(prepared) else "none",
         ),
     )
-    caption = "Processing, and final velocity and displacement of each component"
     prepared = package.assessment.shaking.prepared
-    return listed(prepared, columns, caption, package.fmt, kind="compact")
+    return listed(prepared, columns, package.fmt, kind="compact")
 
 
 def _final(prepared: PreparedMotion, name: str, end: str, si: float) -> float:
@@ -132,14 +123,12 @@ def _highpass_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
         (length("Without it", 1.3), lambda run: run.unfiltered_m),
         (text("Removed", "%", 1.2), lambda run: number(100.0 * run.share, 0)),
     )
-    caption = f"Effect of the high-pass filter: PRD of array {package.governing.id}"
-    return listed(beyond, columns, caption, package.fmt, kind="compact")
+    return listed(beyond, columns, package.fmt, kind="compact")
 
 
 def spectrum_table(spectra: Sequence[Spectra]) -> Table:
     """Return target, achieved ordinates and their ratios at a few periods, by component."""
     return Table(
-        caption="Pseudo-acceleration, 5 % damping, achieved and target",
         columns=(
             TableColumn(head="Period", align="left", share=2.9),
             *(
@@ -179,7 +168,6 @@ def _ordinates(name: str, values: Floats, *, decimals: int = 3) -> TableRow:
 def achieved_table(spectra: Sequence[Spectra]) -> Table:
     """Return the ratios of the motions to the target over the band, a row per component."""
     return Table(
-        caption=f"Achieved / target, 0.1 to 33.3 Hz, at the {len(POINTS_HZ)} points of the limits",
         columns=(
             TableColumn(head="Component", align="left", share=1.7),
             TableColumn(head="Motions", share=0.9),
@@ -225,25 +213,21 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
     )
 
 
-def _notes(records: Sequence[RecordFile]) -> Sequence[str]:
-    """Return the notes from reading the records, without repetition within a motion."""
-    notes = (f"Motion {row.motion_id}: {note}" for row in records for note in row.notes)
-    return tuple(dict.fromkeys(f"{text.rstrip('.')}." for text in notes))
-
-
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
     shaking, spectra = package.assessment.shaking, evidence.spectra
     unit = package.fmt.units()[0]
     return {
         "table": _motion_table(package),
-        "notes": _notes(shaking.records),
+        "notes": dict.fromkeys(
+            (row.motion_id, note.rstrip(".")) for row in shaking.records for note in row.notes
+        ),
         "unit": unit,
         "ends": _largest_ends(shaking.prepared),
         "drift": _drift_table(package, unit),
         "drift_m": DRIFT_M,
         "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
-        "building": building_part(package) if has_ground(package) else None,
+        "building": building_part(package) if package.has_ground else None,
         "tail": Tail(package.data.target.tail).sentence,
         "departures": departures(spectra),
         "achieved": achieved_table(spectra),

@@ -14,12 +14,13 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.changes import NO_FORMER, Changes
-from report.assessment.precheck import limit_value
+from report.assessment.verdict import Verdict
+from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
-from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
 from report.provenance.files import fingerprint
+from report.sheet.schema import RecordedAt
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 
@@ -41,12 +42,7 @@ def statistic(basis: Basis) -> str:
 def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
     """Return OK, or NG highlighted."""
     good, bad = words
-    return Markup('<b class="{}">{}</b>').format(*(("ok", good) if ok else ("ng", bad)))
-
-
-def check_value(check: Limit, value: float, fmt: UnitFormat) -> str:
-    """Return a number of a check with the units of its measure."""
-    return limit_value(check, value, fmt.us_first)
+    return stamp(Verdict.OK, good) if ok else stamp(Verdict.NG, bad)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,6 +85,11 @@ class PackageData(Marked):
         )
 
     @property
+    def has_ground(self) -> bool:
+        """Whether any motion is given at the ground."""
+        return any(row.recorded_at is RecordedAt.GROUND for row in self.data.motions)
+
+    @property
     def routes(self) -> Mapping[str, Sequence[str]]:
         """The arrays of each route that any takes."""
         arrays = self.assessment.arrays
@@ -126,9 +127,3 @@ class PackageData(Marked):
     def governing(self) -> ArrayAssessment:
         """The array with the largest design displacement."""
         return self.assessment.governing
-
-
-def shortened(text: str, maximum: int) -> str:
-    """Return a text truncated to a length, for places of fixed size."""
-    text = " ".join(text.split())
-    return text if len(text) <= maximum else text[: maximum - 1].rstrip() + "…"

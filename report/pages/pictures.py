@@ -1,6 +1,6 @@
-"""The pictures of the package.
+"""The drawings of the package, by the id of their place; its template says their captions.
 
-Gives each picture its caption; `report.figures` draws it.
+`report.figures` draws them.
 """
 
 from __future__ import annotations
@@ -8,15 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Plotted
-from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra, departures
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Requirement, Verdict
-from report.document.blocks import Picture
-from report.pages import accuracy, friction_tests, limits, section, uncertainty
+from report.pages import friction_tests, limits
 from report.pages.parts import PackageData
 from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
@@ -24,7 +23,8 @@ from solver.model import SlideHistory
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
 LEAST_PLAN_IN = 1.6  # a plan of less height shows nothing
 SHEET_IN = 8.8  # from the head of a sheet to its foot
-Pictures = Mapping[str, Sequence[Picture]]
+Drawings = Mapping[str, Sequence[Any]]
+"""SVG by the id of its place; of an array, pairs of histories and paths."""
 
 
 def load_charts() -> None:
@@ -34,76 +34,44 @@ def load_charts() -> None:
     load_fonts(TEMPLATES / "fonts")
 
 
-def draw_assessment(package: PackageData) -> Pictures:
-    """Return the pictures that need no evidence, by the id of their part."""
+def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
+    for start in range(0, len(items), most):
+        yield items[start : start + most]
+
+
+def draw_assessment(package: PackageData) -> Drawings:
+    """Return the drawings that need no evidence."""
     from report.figures import charts as figures
+    from report.figures.section import array_section
 
     load_charts()
     us_first, assessment = package.fmt.us_first, package.assessment
-    motions = assessment.shaking.motions
+    lies = figures.LANDSCAPE if figures.is_wide(assessment) else figures.PORTRAIT
     return {
-        "inputs-friction": friction_tests.picture(package),
-        "method-motion": [section.picture(package)],
+        "inputs-friction": friction_tests.drawings(package),
+        "method-motion": [array_section(package.governing.array, us_first)],
         "motions-list": [
-            Picture(
-                svg=figures.accelerations(motions[at : at + ACCELERATION_ROWS]),
-                caption="Accelerations of the motions as run, after scaling, all at one scale.",
-                alt="Acceleration histories of the motions",
-            )
-            for at in range(0, len(motions), ACCELERATION_ROWS)
+            figures.accelerations(some)
+            for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
-        "plan": [
-            Picture(
-                svg=figures.roof_plan(
-                    assessment,
-                    figures.LANDSCAPE if figures.is_wide(assessment) else figures.PORTRAIT,
-                ),
-                caption="Roof plan to the scale stated, where printed at full size. Provided and "
-                "required separations are those of "
-                f"{package.part('clearances')}. The same plan is in the file plan.dxf.",
-                alt="Roof plan with displacement envelopes, clearances and field notes",
-            )
-        ],
+        "plan": [figures.roof_plan(assessment, lies)],
         "comparison": [
-            Picture(
-                svg=figures.comparison(assessment.arrays[at : at + CHART_ROWS], us_first),
-                caption=f"Prescriptive displacement,{_floor(assessment)} peak relative "
-                "displacement (PRD) of each motion, their mean, and design displacement.",
-                alt="Chart of displacements by array",
-            )
-            for at in range(0, len(assessment.arrays), CHART_ROWS)
+            figures.comparison(some, us_first) for some in _in_parts(assessment.arrays, CHART_ROWS)
         ],
         "clearances": [
-            Picture(
-                svg=figures.clearances(
-                    assessment.clearances[at : at + CHART_ROWS], us_first, start=at + 1
-                ),
-                caption="Required and provided separation.",
-                alt="Chart of required and provided separations",
-            )
-            for at in range(0, len(assessment.clearances), CHART_ROWS)
+            figures.clearances(some, us_first, start=1 + count * CHART_ROWS)
+            for count, some in enumerate(_in_parts(assessment.clearances, CHART_ROWS))
         ],
     }
 
 
-def _floor(assessment: Assessment) -> str:
-    """Return the floor where the chart draws one."""
-    return " floor," if any(array.floor_m for array in assessment.arrays) else ""
-
-
-def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[Picture]:
+def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[str]:
     """Yield the plan for the summary in the room that its tables leave; none on a full sheet."""
     from report.figures import charts as figures
 
     tall = min(_summary_room_in(package, spectra), figures.SMALL.tall)
-    if tall < LEAST_PLAN_IN:
-        return
-    yield Picture(
-        svg=figures.roof_plan(package.assessment, replace(figures.SMALL, tall=tall)),
-        caption="Roof plan to scale. Clearances are numbered as in "
-        f"{package.part('clearances')}; {package.part('plan')} is the plan in full.",
-        alt="Roof plan with arrays, objects, edges and clearances",
-    )
+    if tall >= LEAST_PLAN_IN:
+        yield figures.roof_plan(package.assessment, replace(figures.SMALL, tall=tall))
 
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
@@ -139,77 +107,44 @@ def _wrapped_in(array: ArrayAssessment) -> float:
     return 0.0 if array.array.friction.is_constant else 0.3
 
 
-def draw_plotted(package: PackageData, shown: Plotted) -> Pictures:
-    """Return the pictures of spectra and of runs, by the id of their part."""
+def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
+    """Return the drawings of spectra and of runs."""
     from report.figures import charts as figures
+    from report.figures.accuracy import work_precision
 
     load_charts()
-    us_first = package.fmt.us_first
-    pictures = {
+    us_first, rivals = package.fmt.us_first, shown.accuracy.rivals
+    roof = [part for part in shown.spectra if not part.is_ground]
+    ground = [part for part in shown.spectra if part.is_ground]
+    runs = zip(package.assessment.arrays, shown.histories, strict=True)
+    return {
         "summary": list(_small_plan(package, shown.spectra)),
         "motions-spectra": [
-            Picture(
-                svg=figures.spectra(parts),
-                caption=f"Response spectra of the motions {where}, 5 % damping, and target.",
-                alt="Response spectra of all motions, their mean and the target",
-            )
-            for where, parts in _by_place(shown.spectra)
+            figures.spectra(parts) for parts in ((roof, ground) if ground else (roof,))
         ],
-        "accuracy": (
-            [accuracy.picture(shown.accuracy.rivals, us_first)]
-            if shown.accuracy.rivals.runs
-            else []
-        ),
+        "accuracy": [work_precision(rivals, us_first)] if rivals.runs else [],
+        **{
+            f"results-{count}": list(_histories(array, followed, us_first))
+            for count, (array, followed) in enumerate(runs, start=1)
+        },
     }
-    runs = zip(package.assessment.arrays, shown.histories, strict=True)
-    for count, (array, followed) in enumerate(runs, start=1):
-        pictures[f"results-{count}"] = list(_histories(array, followed, us_first))
-    return pictures
 
 
-def draw_uncertainty(package: PackageData, found: Uncertainty) -> Pictures:
-    """Return the pictures of what is not known exactly, by the id of their part."""
+def draw_uncertainty(package: PackageData, found: Uncertainty) -> Drawings:
+    """Return the contours; none where nothing slides on the whole grid."""
+    from report.figures.uncertainty import contours
+
     load_charts()
-    return {"how-sure": uncertainty.pictures(package, found.surface)}
-
-
-def _by_place(spectra: Sequence[Spectra]) -> Iterator[tuple[str, Sequence[Spectra]]]:
-    """Yield the spectra at the roof, and those on the ground where there are any."""
-    below = [part for part in spectra if part.is_ground]
-    yield "as run", [part for part in spectra if not part.is_ground]
-    if below:
-        yield "on the ground, scaled", below
+    surface, arrays, us_first = found.surface, package.assessment.arrays, package.fmt.us_first
+    slides = bool((surface.mean_m > 0.0).any())
+    return {"how-sure": [contours(surface, arrays, us_first)] if slides else []}
 
 
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
-) -> Iterator[Picture]:
+) -> Iterator[tuple[str, str]]:
     from report.figures.charts import histories, hodographs
 
-    two = any(history.across_m.size for history in followed)
-    lines = (
-        ": downslope (solid) and cross-slope, positive to the left when facing downslope (dashed)"
-        if two
-        else ", downslope"
-    )
-    one_axis = [
-        run.motion.id
-        for run, path in zip(array.motions, followed, strict=True)
-        if not path.across_m.size and path.result.prd_m > 0.0
-    ]
-    straight = f" Straight lines: {', '.join(one_axis)}, in one axis." if one_axis else ""
-    for start in range(0, len(array.motions), PANELS):
-        here = slice(start, start + PANELS)
-        yield Picture(
-            svg=histories(array.motions[here], followed[here], us_first),
-            caption=f"Array {array.id}: displacement relative to the roof in the "
-            f"governing run{lines}. Dot: time of the PRD, the largest distance in "
-            "plan, whose value is at the upper right.",
-            alt=f"Relative displacement histories of array {array.id}",
-        )
-        yield Picture(
-            svg=hodographs(array.motions[here], followed[here], us_first),
-            caption=f"Array {array.id}: path in plan in the governing run, all motions at one "
-            f"scale. Cross: start. Dot: PRD.{straight}",
-            alt=f"Paths of array {array.id} in plan",
-        )
+    runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
+    for motions, paths in runs:
+        yield histories(motions, paths, us_first), hodographs(motions, paths, us_first)

@@ -13,12 +13,6 @@ from report.pages.parts import PackageData
 from report.typeset.equations import symbol
 from solver.rules.provisions import OVERRIDABLE, Provision
 
-_BY_DIRECTION = (
-    "Displacement by direction: a clearance takes the displacement toward it, not less than the "
-    "floor. No document of the rule sets states a direction."
-)
-_NONE = "not given"
-
 
 def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set with its status, and the overrides."""
@@ -36,19 +30,18 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         (words("Reason given in the workbook", 4.0), lambda row: row.reason),
     )
     departure = (
-        (words("Departure", 3.0), lambda _: _BY_DIRECTION),
-        (words("Reason given in the workbook", 3.0), lambda row: row.directional_reason or _NONE),
-        (words("Reviewer", 1.6), lambda row: row.directional_reviewer or _NONE),
-        (words("License", 1.2), lambda row: row.directional_license or _NONE),
-        (words("Date"), lambda row: row.directional_date or _NONE),
+        (words("Departure", 3.0), str),
+        (words("Reason given in the workbook", 3.0), str),
+        (words("Reviewer", 1.6), str),
+        (words("License", 1.2), str),
+        (words("Date"), str),
     )
-    caption, overrides = f"Numbers of {rules.name} used in this package", package.data.overrides
     return {
-        "table": listed(named, columns, caption, fmt, kind="compact"),
+        "table": listed(named, columns, fmt, kind="compact"),
         "noted": [(name, provision) for name, provision in named if provision.note],
         "unverified": UNVERIFIED,
-        "overrides": listed(overrides, overridden, "Overridden for this project", fmt),
-        "departure": listed([package.data.options], departure, "Departure from the rule set", fmt),
+        "overrides": listed(package.data.overrides, overridden, fmt),
+        "departure": listed((), departure),
     }
 
 

@@ -13,13 +13,12 @@ from typing import Any
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
-from report.document.blocks import Part
+from report.document.sections import Part
 from report.pages import (
     accuracy,
     appendix,
     changes,
     clearances,
-    cumulative,
     front,
     inputs,
     limits,
@@ -34,6 +33,7 @@ from report.pages import (
 from report.pages.parts import PackageData
 
 Content = Mapping[str, Any]
+Fill = Callable[[PackageData, Evidence], Content]
 Below = tuple[tuple[str, str], ...]
 
 
@@ -41,7 +41,7 @@ def _nothing_below(_: PackageData) -> Below:
     return ()
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Page:
     """A part of the package.
 
@@ -60,116 +60,37 @@ class Page:
 
     id: str
     title: str
-    fill: Callable[[PackageData, Evidence], Content]
+    fill: Fill
     below: Callable[[PackageData], Below] = _nothing_below
     is_appendix: bool = False
 
 
+def _alone(fill: Callable[[PackageData], Content]) -> Fill:
+    """Return what fills a page that needs no evidence."""
+    return lambda package, _: fill(package)
+
+
 PAGES = (
-    Page(
-        id="summary",
-        title="Summary",
-        fill=lambda package, evidence: front.summary(package, evidence.remedies, evidence.spectra),
-    ),
-    Page(
-        id="plan",
-        title="Roof plan",
-        fill=lambda package, _: front.plan(package),
-    ),
-    Page(
-        id="basis",
-        title="Basis and limits of the method",
-        fill=lambda package, evidence: front.basis(package, evidence.uncertainty),
-    ),
-    Page(
-        id="inputs",
-        title="Inputs",
-        fill=lambda package, _: inputs.inputs(package),
-        below=inputs.below,
-    ),
-    Page(
-        id="motions",
-        title="Roof motions",
-        fill=motions.page,
-        below=motions.below,
-    ),
-    Page(
-        id="method",
-        title="Method and equations",
-        fill=lambda package, _: method.page(package),
-        below=method.below,
-    ),
-    Page(
-        id="results",
-        title="Results",
-        fill=lambda package, _: results.page(package),
-        below=results.below,
-    ),
-    Page(
-        id="comparison",
-        title="Comparison with the prescriptive displacement",
-        fill=lambda package, _: results.comparison(package),
-    ),
-    Page(
-        id="clearances",
-        title="Clearances",
-        fill=lambda package, evidence: clearances.clearances(package, evidence.remedies),
-    ),
-    Page(
-        id="limits",
-        title="Limits and interconnection strength",
-        fill=lambda package, _: limits.limits(package),
-    ),
-    Page(
-        id="provisions",
-        title="Provisions and overrides",
-        fill=lambda package, _: provisions.provisions(package),
-    ),
-    Page(
-        id="model",
-        title="Model used",
-        fill=lambda package, _: model.page(package),
-    ),
-    Page(
-        id="accuracy",
-        title="Accuracy and sensitivity",
-        fill=lambda package, evidence: accuracy.page(package, evidence.accuracy),
-    ),
-    Page(
-        id="how-sure",
-        title="How sure",
-        fill=lambda package, evidence: (
-            uncertainty.page(package, evidence.uncertainty)
-            | cumulative.page(package, evidence.cumulative)
-        ),
-    ),
-    Page(
-        id="echo",
-        title="Input echo",
-        fill=lambda package, _: appendix.echo_page(package),
-        is_appendix=True,
-    ),
-    Page(
-        id="records",
-        title="Records and software",
-        fill=lambda package, _: appendix.records_page(package),
-        is_appendix=True,
-    ),
-    Page(
-        id="symbols",
-        title="Symbols and references",
-        fill=lambda package, _: symbols.page(package),
-        is_appendix=True,
-    ),
+    Page("summary", "Summary", front.summary),
+    Page("plan", "Roof plan", _alone(front.plan)),
+    Page("basis", "Basis and limits of the method", front.basis),
+    Page("inputs", "Inputs", _alone(inputs.inputs), inputs.below),
+    Page("motions", "Roof motions", motions.page, motions.below),
+    Page("method", "Method and equations", _alone(method.page), method.below),
+    Page("results", "Results", results.page, results.below),
+    Page("comparison", "Comparison with the prescriptive displacement", _alone(results.comparison)),
+    Page("clearances", "Clearances", clearances.clearances),
+    Page("limits", "Limits and interconnection strength", _alone(limits.limits)),
+    Page("provisions", "Provisions and overrides", _alone(provisions.provisions)),
+    Page("model", "Model used", _alone(model.page)),
+    Page("accuracy", "Accuracy and sensitivity", accuracy.page),
+    Page("how-sure", "How sure", uncertainty.page),
+    Page("echo", "Input echo", _alone(appendix.echo_page), is_appendix=True),
+    Page("records", "Records and software", _alone(appendix.records_page), is_appendix=True),
+    Page("symbols", "Symbols and references", _alone(symbols.page), is_appendix=True),
 )
 
-
-CHANGES = Page(
-    id="changes",
-    title="Changes",
-    fill=lambda package, _: changes.page(package),
-    is_appendix=True,
-)
+CHANGES = Page("changes", "Changes", _alone(changes.page), is_appendix=True)
 """The last appendix, so that the other parts have the same numbers in every revision."""
 
 

@@ -113,7 +113,6 @@ def _table(package: PackageData, found: Sequence[PrintedRemedy]) -> Table:
     return listed(
         found,
         columns,
-        "How to satisfy each clearance: sufficient changes, each by itself",
         package.fmt,
         kind="compact",
     )

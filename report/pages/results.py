@@ -11,6 +11,7 @@ from operator import attrgetter, methodcaller
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.evidence import Evidence
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, OrientedRun
 from report.document.tables import Column, Table, TableRow, Wide, listed
@@ -20,7 +21,7 @@ from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema import Direction
 from report.words.units import number
-from solver.model import Orientation, Status
+from solver.model import Orientation, SlideHistory, Status
 
 PEAK_ROWS = 16
 """The PRDs of usual suites stay on one page, with their mean and the design value."""
@@ -41,12 +42,15 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     return tuple((f"results-{count}", f"Array {array.id}") for count, array in arrays)
 
 
-def page(package: PackageData) -> Mapping[str, object]:
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the results of every array, without the charts."""
-    return {"arrays": [_results(package, array) for array in package.assessment.arrays]}
+    followed = zip(package.assessment.arrays, evidence.histories, strict=True)
+    return {"arrays": [_results(package, array, paths) for array, paths in followed]}
 
 
-def _results(package: PackageData, array: ArrayAssessment) -> Mapping[str, object]:
+def _results(
+    package: PackageData, array: ArrayAssessment, paths: Sequence[SlideHistory]
+) -> Mapping[str, object]:
     runs = [run for motion in array.motions for run in motion.runs]
     orientations = _orientations(runs)
     return {
@@ -55,6 +59,12 @@ def _results(package: PackageData, array: ArrayAssessment) -> Mapping[str, objec
         "table": _peaks(package, array, orientations),
         "is_transverse_run": any(orientation.is_transverse for orientation in orientations),
         "is_prd_across": not all(run.has_across for run in runs),
+        "is_drawn_across": any(path.across_m.size for path in paths),
+        "straight": [
+            run.motion.id
+            for run, path in zip(array.motions, paths, strict=True)
+            if not path.across_m.size and path.result.prd_m > 0.0
+        ],
         "troubles": run_warnings([array], package.fmt.us_first),
     }
 
@@ -90,7 +100,6 @@ def _peaks(
     table = listed(
         array.motions,
         columns,
-        f"Array {array.id}: PRD of every motion in every run",
         fmt,
         kind="compact",
         whole_rows=PEAK_ROWS,
@@ -154,7 +163,5 @@ def comparison(package: PackageData) -> Mapping[str, object]:
     checks = [(f"Array {item.id}", check) for item in arrays for check in item.prescriptive_checks]
     return {
         "faults": {item.id: analysis_faults(package, item) for item in arrays},
-        "routes": check_table(
-            "Limits of the prescriptive route", package, checks, ("satisfied", "not satisfied")
-        ),
+        "routes": check_table(package, checks, ("satisfied", "not satisfied")),
     }

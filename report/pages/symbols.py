@@ -11,7 +11,6 @@ from markupsafe import Markup, escape
 from report.document.tables import listed
 from report.entities.shown import words
 from report.pages.parts import PackageData
-from report.pages.references import references
 from report.typeset.equations import symbol
 
 SYMBOLS: Mapping[str, str] = {
@@ -90,6 +89,7 @@ SYMBOLS: Mapping[str, str] = {
 }
 
 
+_STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
 _NAME = re.compile(rf"\b(?:{'|'.join(name for name in SYMBOLS if '_' in name)})\b")
 
 
@@ -99,8 +99,14 @@ def with_symbols(text: str) -> Markup:
     return Markup(_NAME.sub(lambda match: str(symbol(match[0])), plain))
 
 
+def friction_standard(package: PackageData) -> str:
+    """Return the standard of the friction tests if it is a document to be cited, else nothing."""
+    standard = package.data.friction_tests.standard
+    return standard if _STANDARD.search(standard) else ""
+
+
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the list of symbols and the list of references."""
+    """Return the list of symbols, and what the list of references needs beside the package."""
     items = list(SYMBOLS.items())
     half = (len(items) + 1) // 2
     rows = zip_longest(items[:half], items[half:], fillvalue=("", ""))
@@ -111,6 +117,6 @@ def page(package: PackageData) -> Mapping[str, object]:
         (words("Meaning", 3.0), lambda row: with_symbols(row[1][1])),
     )
     return {
-        "table": listed(rows, columns, "Symbols", package.fmt, kind="compact"),
-        "references": references(package),
+        "table": listed(rows, columns, package.fmt, kind="compact"),
+        "friction_standard": friction_standard(package),
     }

@@ -1,4 +1,4 @@
-"""How sure: friction and slope, the margin of each clearance, directions of shaking not run."""
+"""How sure: friction and slope, margins of clearances, directions of shaking, smaller events."""
 
 from __future__ import annotations
 
@@ -7,67 +7,38 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from report.assessment.cumulative import Cumulative
+from report.assessment.evidence import Evidence
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
 from report.assessment.uncertainty import TOLERANCE, Margin, ResponseSurface, Uncertainty
-from report.document.blocks import Picture
 from report.document.tables import Column, Table, listed
+from report.document.templates import sentence
 from report.entities.shown import length, text, words
 from report.pages.parts import PackageData
+from report.typeset.pdf import TEMPLATES
 from report.words.letters import power_of_ten
 from report.words.units import number
 from solver.rules.provisions import Neighbor
 
 
-def page(package: PackageData, uncertainty: Uncertainty) -> dict[str, object]:
+def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the page needs beside its chart."""
+    uncertainty, sums = evidence.uncertainty, evidence.cumulative
     return {
         "found": uncertainty,
         "surface": _at_governing(uncertainty.surface),
         "margin": _smallest(uncertainty.margins),
+        "tolerance": power_of_ten(round(math.log10(TOLERANCE))),
         "margins": _margin_table(package, uncertainty.margins),
         "turned": _turned_table(package, uncertainty) if uncertainty.turned else None,
+        "sums": _sum_table(package, sums) if sums else None,
     }
-
-
-def pictures(package: PackageData, surface: ResponseSurface) -> Sequence[Picture]:
-    """Return the contours; none where nothing slides on the whole grid."""
-    from report.figures.uncertainty import contours
-
-    if not (surface.mean_m > 0.0).any():
-        return ()
-    array, unit = surface.array, package.fmt.units()[0].symbol
-    return (
-        Picture(
-            svg=contours(surface, package.assessment.arrays, package.fmt.us_first),
-            caption=f"Mean PRD [{unit}] of the {len(array.motions)} motions over friction "
-            f"coefficient and slope, each motion in its governing heading for array {array.id}. "
-            f"Crosses: the grid, μ = {_listed(surface.mus.tolist(), 2)} by slope = "
-            f"{_listed([math.degrees(s) for s in surface.slopes_rad.tolist()], 1)} deg; contours "
-            f"interpolate its logarithm. Tolerance of a run: {power_of_ten(_exponent(TOLERANCE))} "
-            f"of its PRD. {dots(surface)}",
-            alt="Contours of the mean PRD over friction coefficient and slope",
-        ),
-    )
-
-
-def _exponent(value: float) -> int:
-    return round(math.log10(value))
-
-
-def _listed(values: Sequence[float], decimals: int) -> str:
-    return ", ".join(number(value, decimals) for value in values)
 
 
 def dots(surface: ResponseSurface) -> str:
     """Return which arrays are dots of the contours."""
-    if not surface.others:
-        return "Dots: the arrays."
-    law = "constant" if surface.array.array.friction.is_constant else "velocity-dependent"
-    return (
-        f"Dots: the arrays whose friction is that of {surface.array.id} ({law}), scaled as a whole:"
-        f" not {', '.join(surface.others)}."
-    )
+    return sentence(TEMPLATES, "dots", surface)
 
 
 def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:
@@ -139,8 +110,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
     )
-    caption = "Least friction coefficient of each array with which each clearance is satisfied"
-    return listed(margins, columns, caption, package.fmt, kind="compact")
+    return listed(margins, columns, package.fmt, kind="compact")
 
 
 def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
@@ -152,8 +122,17 @@ def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
         share = number(run.result.prd_m / used, 2) if used > 0.0 else "—"
         cells = (*fmt.cells(run.result.prd_m), share)
         columns.append((text(f"{number(run.angle_deg, 1)}°"), cells.__getitem__))
-    caption = (
-        f"Array {package.governing.id} under motion {uncertainty.motion.motion.id}, its horizontal "
-        "pair turned counterclockwise; at 0° the record acts downslope"
+    return listed(range(len(names)), columns, fmt, kind="compact")
+
+
+def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
+    """Return mean and largest sum of each array over the design event and smaller ones."""
+    factor = package.governing.analysis.factor  # that of every array
+    times = f"{number(factor, 2)} × "
+    columns = (
+        (words("Array"), lambda item: item.array.id),
+        (length(f"{times}mean sum"), lambda item: factor * item.mean_m),
+        (length(f"{times}largest sum"), lambda item: factor * item.largest_m),
+        (length("Design displacement"), lambda item: item.array.design_m),
     )
-    return listed(range(len(names)), columns, caption, fmt, kind="compact")
+    return listed(sums, columns, package.fmt, kind="compact")

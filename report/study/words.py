@@ -42,7 +42,6 @@ def context(results: StudyResults) -> dict[str, Any]:
         "I_E": I_E,
         "MEAN": MEAN,
         "NO_NUMBER": NO_NUMBER,
-        "pictures": {},
         "SDC": SDC,
         "UNVERIFIED": UNVERIFIED,
     }

@@ -1,6 +1,6 @@
 """Equations as pictures, and the markup of symbols and fractions in text.
 
-Knows no values of a project: `report.pages.method` adds the numbers.
+Knows no values of a project: the templates add the numbers.
 """
 
 from __future__ import annotations
@@ -8,7 +8,6 @@ from __future__ import annotations
 import base64
 import re
 import warnings
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 
@@ -53,9 +52,12 @@ def data_uri(svg: str) -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
-def formulas(latex: Iterable[str]) -> dict[str, FormulaPicture]:
-    """Return LaTeX formulas as pictures, by their text."""
-    return {text: formula(text) for text in latex}
+class Equations(dict[str, FormulaPicture]):
+    """Equations by their LaTeX, typeset as they are asked for."""
+
+    def __missing__(self, latex: str) -> FormulaPicture:
+        self[latex] = formula(latex)
+        return self[latex]
 
 
 @cache

@@ -71,3 +71,9 @@ def unbroken(text: str) -> str:
 def slug(text: str) -> str:
     """Return a text as part of a file name."""
     return re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-")
+
+
+def shortened(text: str, most: int) -> str:
+    """Return a text truncated to a length, for places of fixed size."""
+    text = " ".join(text.split())
+    return text if len(text) <= most else text[: most - 1].rstrip() + "…"

@@ -1,5 +1,6 @@
 """The status of a feature follows from the checks that ran and from the tests of a shake table."""
 
+import re
 from dataclasses import replace
 from importlib.metadata import version
 
@@ -10,7 +11,6 @@ import printed
 import tables
 from report.figures.base import load_fonts
 from report.manual.features import features, known_errors, spans
-from report.manual.known_errors import KNOWN_ERRORS
 from report.manual.shake_table import result, shake_table
 from report.typeset.pdf import TEMPLATES
 from report.words.validation import NOT_VALIDATED, explained
@@ -21,6 +21,8 @@ from solver.verification.features import FEATURES, statuses
 from solver.verification.shake_table import compare
 from solver.verification.table_tests import table_tests
 from verified import only
+
+RELEASE = re.compile(r"Version (?P<version>\S+) as released: (?P<count>\d+) errors")
 
 compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
 
@@ -171,9 +173,9 @@ def test_the_chart_has_a_dot_for_each_test(table):
 
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():
     said = page(known_errors())
-    printed_rows = [cells for cells in said.table("Errors").cells if cells[1]]
-    assert printed_rows == [(error.what, error.effect, error.action) for error in KNOWN_ERRORS]
-    for error in KNOWN_ERRORS:
-        assert all(text.endswith(".") for text in (error.what, error.effect, error.action))
-    is_released = version("roofslip") in {error.version for error in KNOWN_ERRORS}
+    heads = [found for cells in said.table("Errors").cells if (found := RELEASE.match(cells[0]))]
+    errors = [cells for cells in said.table("Errors").cells if cells[1]]
+    assert sum(int(head["count"]) for head in heads) == len(errors) > 0
+    assert all(text.endswith(".") for error in errors for text in error)
+    is_released = version("roofslip") in [head["version"] for head in heads]
     assert ("is a later state with the same number" in said) == is_released

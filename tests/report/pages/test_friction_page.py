@@ -14,7 +14,7 @@ from report.assessment.verdict import Verdict
 from report.figures.base import load_fonts
 from report.figures.friction import friction_by_velocity
 from report.figures.section import array_section, drawn_slope_deg
-from report.pages.section import weight_per_area_pa
+from report.pages.method import weight_per_area_pa
 from report.typeset.pdf import TEMPLATES
 from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law

@@ -15,7 +15,7 @@ from inputs import FT, INCH, NO_SIDES
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
 from report.assessment.clearances import check_clearance
-from report.pages.section import weight_per_area_pa
+from report.pages.method import weight_per_area_pa
 from report.sheet.schema import ProjectInput, SiteClass, UnitsFirst
 from report.sheet.template import write_template
 from report.words.units import PRESSURES, Quantity, number, ratio
