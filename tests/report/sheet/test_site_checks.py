@@ -19,10 +19,8 @@ UNSOURCED = {"s_s_g": 2.0, "s_1_g": 0.6, "site_class": SiteClass.D, "f_a": None,
 def faults(**changes):
     row = Site.model_construct(**Site.model_validate(GIVEN).model_dump() | changes)
     draft = {"site": [dict(row)]}
-    return [
-        (fault.place.field, fault.problem("").text)
-        for fault in site_faults(draft, lambda place: place.field)
-    ]
+    found = site_faults(draft, lambda place: place.field)
+    return [(fault.place.field, fault.problem("").text) for fault in found]
 
 
 @pytest.mark.parametrize(
