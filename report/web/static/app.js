@@ -7,7 +7,7 @@ import { fromFragment, toFragment } from "./link.js";
 import { html, replace } from "./make.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { showArrays, showClearances, showNoVerdict, showProvisional, showVerdict, withoutVerdicts } from "./results.js";
+import { showNoVerdict, showProvisional, showTable, showVerdict, withoutVerdicts } from "./results.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
@@ -153,15 +153,14 @@ function showAnswer(next, values) {
   document.body.dataset.values = values;
   answer = next;
   controls.follow(answer.shown);
-  plan.show(answer);
-  showClearances(part("clearances"), answer.clearances);
+  plan.show(answer.plan);
+  showTable(part("clearances"), answer.clearances, { named: 1 });
   showPicked();
 }
 
 function showPicked() {
-  const array = answer.arrays.find(({ id }) => id === chosen.array);
-  showArrays(part("arrays"), answer.arrays, chosen.array, (id) => choose({ array: id }));
-  if (array) showBars(part("bars"), array, answer.scale_m); // not of a project that was open before
+  showTable(part("arrays"), answer.arrays, { picked: chosen.array, pick: (array) => choose({ array }) });
+  if (chosen.array in answer.bars.arrays) showBars(part("bars"), answer.bars, chosen.array); // not of a project that was open before
 }
 
 function showMoving(phase, next) {
@@ -175,7 +174,7 @@ function showMoving(phase, next) {
 
 function showRest() {
   showVerdict(part("verdict"), answer);
-  announce(`${answer.verdict}. ${answer.verdict_text} ${answer.model_text}`);
+  announce(`${answer.verdict.text}. ${answer.verdict_text} ${answer.model_text}`);
   const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
   history.replaceState(null, "", fragment ? `#${fragment}` : location.pathname);
   takeaway.compare();

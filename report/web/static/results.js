@@ -2,20 +2,22 @@
 
 import { html, replace, words } from "./make.js";
 
-/** Return the tag of a verdict: inverse for NG, boxed for conditions, as in the package. */
-export function tag(verdict) {
-  if (verdict === null) return html("span", { class: "note" }, "–");
-  const looks = { NG: "tag is-ng", Condition: "tag is-conditions", "OK with conditions": "tag is-conditions" };
-  return html("strong", { class: looks[verdict] ?? "tag" }, verdict);
+/** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
+function tag(verdict) {
+  return verdict ? html("strong", { class: `tag is-${verdict.look}` }, verdict.text) : html("span", { class: "note" }, "–");
 }
 
 /** Return an answer whose values stay while others are computed: no verdict of it does. */
 export function withoutVerdicts({ plan, arrays, clearances, ...rest }) {
-  return { ...rest, verdict: null, arrays: arrays.map(without), clearances: clearances.map(without), plan: { ...plan, gaps: plan.gaps.map(without) } };
-}
-
-function without(row) {
-  return { ...row, verdict: null };
+  const blank = (row) => ({ ...row, verdict: null });
+  const table = ({ rows, ...others }) => ({ ...others, rows: rows.map((row) => row.map((cell) => (cell?.look ? null : cell))) });
+  return {
+    ...rest,
+    verdict: null,
+    arrays: table(arrays),
+    clearances: table(clearances),
+    plan: { ...plan, gaps: plan.gaps.map(blank), described: plan.described.map(blank) },
+  };
 }
 
 /** Show the verdict of a full answer. */
@@ -44,51 +46,27 @@ function list(reasons) {
   return html("ul", { class: "reasons", tabindex: "0", "aria-label": "Reasons" }, reasons.map((text) => html("li", {}, words(text))));
 }
 
-/** Show the table of arrays; `pick` gets the id of the one whose bars are to be drawn. */
-export function showArrays(element, arrays, picked, pick) {
-  const row = (array) =>
-    html(
-      "tr",
-      { class: array.id === picked ? "is-picked" : null },
-      html("th", { scope: "row" }, pickButton(array.id, array.id === picked, pick)),
-      html("td", { title: array.mean_prd }, array.mean_prd_short ?? array.mean_prd),
-      html("td", { title: [array.design, array.source].filter(Boolean).join(", ") }, array.design_short ?? array.design),
-      html("td", { title: array.prescriptive }, array.prescriptive_short ?? array.prescriptive),
-      html("td", { class: "word" }, tag(array.verdict)),
-    );
-  fill(element, "Arrays: displacement", ["Array", "Mean PRD", "Design", "Prescriptive", "Verdict"], arrays.map(row));
-}
-
-function pickButton(id, isPicked, pick) {
-  return html("button", { type: "button", class: "pick", "data-array": id, "aria-pressed": String(isPicked), on: { click: () => pick(id) } }, id);
-}
-
-/** Show the table of clearances. */
-export function showClearances(element, clearances) {
-  fill(element, "Clearances", ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"], clearances.map(clearanceRow));
-}
-
-function clearanceRow(item, k) {
-  return html(
-    "tr",
-    {},
-    html("td", { class: "count" }, String(k + 1)),
-    html("th", { scope: "row" }, `${item.array} to ${item.object}`, html("small", {}, item.direction)),
-    html("td", { title: item.provided }, item.provided_short ?? item.provided),
-    html("td", { title: item.required }, item.required_short ?? item.required),
-    html("td", {}, item.ratio_text),
-    html("td", { class: "word" }, tag(item.verdict)),
-  );
-}
-
-// A new body keeps no focus: the button that had it gets it back.
-function fill(element, caption, heads, rows) {
-  const focused = element.contains(document.activeElement) ? document.activeElement.dataset.array : null;
+/**
+ * Show a table as the server words it: `named` is the column that names its rows. Where rows can be
+ * picked, `pick` gets the name of one.
+ */
+export function showTable(element, { caption, heads, rows }, { named = 0, picked = null, pick = null } = {}) {
+  // A new body keeps no focus: the button that had it gets it back.
+  const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
+  const name = ({ text, note }) =>
+    html("th", { scope: "row" }, pick ? pickButton(text, text === picked, pick) : text, note ? html("small", {}, note) : null);
+  const value = (cell) => html("td", { title: cell?.title }, cell && !cell.look ? cell.text : tag(cell));
+  const row = (cells) =>
+    html("tr", { class: cells[named].text === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
   replace(
     element,
     html("caption", {}, caption),
     html("thead", {}, html("tr", {}, heads.map((text) => html("th", { scope: "col" }, text)))),
-    html("tbody", {}, rows),
+    html("tbody", {}, rows.map(row)),
   );
-  if (focused) element.querySelector(`[data-array="${CSS.escape(focused)}"]`)?.focus();
+  if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();
+}
+
+function pickButton(name, isPicked, pick) {
+  return html("button", { type: "button", class: "pick", "data-name": name, "aria-pressed": String(isPicked), on: { click: () => pick(name) } }, name);
 }

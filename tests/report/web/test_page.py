@@ -234,10 +234,10 @@ def test_the_page_works_with_the_keyboard_alone(page):
     assert page.locator("#histories").is_visible()
     page.keyboard.press("Home")
     assert page.locator("#plan").is_visible()
-    tabbed_to('[data-array="A2"]')
+    tabbed_to('[data-name="A2"]')
     page.keyboard.press("Enter")
     assert "A2" in page.inner_text("#bars caption")
-    assert page.evaluate("document.activeElement.dataset.array") == "A2"
+    assert page.evaluate("document.activeElement.dataset.name") == "A2"
 
 
 def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):

@@ -9,7 +9,9 @@ import pytest
 
 import stand_in
 from browsing import ALONE, FONTS, quiet_page, serve_scripts
+from report.assessment.verdict import Verdict
 from report.web import views
+from report.web.tables import stamp
 from report.words.units import Quantity, measured, number, pair
 
 MOTIONS = stand_in.motions(2, seconds=8.0)
@@ -194,25 +196,26 @@ def test_between_computed_points_the_logarithm_is_linear(page):
     assert [one["isComputed"] for one in found] == [True, True, False, False]
 
 
-CLEARANCES = """async (gap) => {
+CLEARANCES = """async (cells) => {
   document.body.innerHTML = '<link rel="stylesheet" href="/static/style.css">' +
     '<table class="numbers" id="clearances"></table>';
   await new Promise((done) => (document.querySelector('link').onload = done));
   const table = document.querySelector('table');
   table.style.width = '352px'; // beside the plan, on a screen of 1280 pixels
-  const { showClearances } = await import('/static/results.js');
-  showClearances(table, [gap]);
+  const { showTable } = await import('/static/results.js');
+  const heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"];
+  showTable(table, { caption: "Clearances", heads, rows: [cells] }, { named: 1 });
   await document.fonts.ready;
   return table.getBoundingClientRect().width;
 }"""
 
 
-@pytest.mark.parametrize("verdict", ["NG", "Condition"])
+@pytest.mark.parametrize("verdict", [Verdict.NG, Verdict.CONDITIONS])
 def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(page, verdict):
-    gap = {"array": "ARRAY-NW-01", "object": "PV existing 2014", "direction": "across"}
-    gap |= {"provided": "", "provided_short": "96.0 in", "required": "", "ratio_text": "0.83"}
-    gap |= {"required_short": "107.5 in", "verdict": verdict}
-    assert page.evaluate(CLEARANCES, gap) <= 352
+    cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
+    cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]
+    cells[1]["note"] = "across"
+    assert page.evaluate(CLEARANCES, cells) <= 352
 
 
 # --- watch it slide
