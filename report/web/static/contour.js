@@ -1,10 +1,11 @@
 // Contours of the mean PRD over friction and slope, with the arrays, and the value at a point.
 
-import { html, replace, svg } from "./make.js";
-import { measured, number, reading, tickText } from "./reading.js";
+import { html, points, replace, set, svg } from "./make.js";
+import { measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
-import { createView, set } from "./view-frame.js";
+import { createView, notes } from "./view-frame.js";
+import { cross, pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
 
 const HEIGHT = 370;
 const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
@@ -14,16 +15,12 @@ const LABEL = 13;
 
 /** Keep the contours in an element. */
 export function mount(element, api, scene) {
-  return createView(element, scene, {
-    ask: ({ array, values }) => ({ array, values }),
-    fetch: api.contour,
-    build,
-  });
+  return createView(element, scene, api.contour, build);
 }
 
 function build(element, data) {
   const { mus, slopes_deg: slopes, units } = data;
-  const cross = svg("path", { class: "cursor", visibility: "hidden" });
+  const cursor = svg("path", { class: "cursor", visibility: "hidden" });
   const plot = svg("svg", { class: "contour", tabindex: 0, role: "application", "aria-label": data.texts.title, "aria-describedby": "contour-keys" });
   const where = html("output", { class: "numbers", role: "status" });
   let x = null;
@@ -32,13 +29,13 @@ function build(element, data) {
 
   function read(mu, slope) {
     at = { mu: within(mu, mus[0], mus.at(-1)), slope: within(slope, slopes[0], slopes.at(-1)) };
-    set(cross, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.end}`, visibility: "visible" });
-    where.textContent = `μ ${number(at.mu, 3)}, slope ${measured(at.slope, units.slope[0])}: ${words(data, at)}`;
+    set(cursor, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.end}`, visibility: "visible" });
+    where.textContent = `μ ${measured(at.mu, units.mu[0])}, slope ${measured(at.slope, units.slope[0])}: ${words(data, at)}`;
   }
 
   plot.addEventListener("pointermove", (event) => {
-    const box = plot.getBoundingClientRect();
-    read(x.inverse(event.clientX - box.left), y.inverse(event.clientY - box.top));
+    const [across, up] = pointerIn(plot, event);
+    read(x.inverse(across), y.inverse(up));
   });
   plot.addEventListener("pointerdown", () => plot.focus());
   plot.addEventListener("keydown", (event) => {
@@ -52,12 +49,12 @@ function build(element, data) {
   function resize() {
     const wide = element.clientWidth;
     if (wide === 0) return;
-    set(plot, { width: wide, height: HEIGHT, viewBox: `0 0 ${wide} ${HEIGHT}` });
+    sized(plot, wide, HEIGHT);
     x = scale(roomy(mus), [MARGIN.left, wide - MARGIN.right]);
     x.end = wide - MARGIN.right;
     y = scale(roomy(slopes), [HEIGHT - MARGIN.bottom, MARGIN.top]);
-    const named = placed(data, x, y);
-    replace(plot, axes(data, x, y, wide), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y, named), cross, named.map(arrayDot));
+    const named = data.dots.map((dot) => ({ ...dot, at: [x(dot.mu), y(dot.slope_deg)] }));
+    replace(plot, axes(data, x, y), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y, named), cursor, named.map(arrayDot));
     read(at.mu, at.slope);
   }
 
@@ -67,7 +64,7 @@ function build(element, data) {
     html("p", { class: "contour-reading" }, html("strong", {}, data.texts.here), where),
     plot,
     html("p", { class: "note", id: "contour-keys" }, "Point, or use the arrow keys: to the next computed value, with Shift a tenth of that, Home back to the array."),
-    html("p", { class: "note" }, [data.texts.caption, ...data.texts.notes].join(" ")),
+    notes(data),
   );
   resize();
   return { resize, stop() {} };
@@ -95,22 +92,18 @@ function roomy(axis) {
   return [axis[0] - room, axis.at(-1) + room];
 }
 
-function axes({ mus, slopes_deg: slopes, texts }, x, y, wide) {
-  const across = ticks(...roomy(mus), wide / 90);
+function axes({ mus, slopes_deg: slopes, texts }, x, y) {
+  const across = ticks(...roomy(mus), (x.end + MARGIN.right) / 90);
   const up = ticks(...roomy(slopes), 6);
   const foot = HEIGHT - MARGIN.bottom;
   return svg(
     "g",
     { class: "axes" },
     svg("path", { class: "frame", d: `M${MARGIN.left} ${MARGIN.top}V${foot}H${x.end}` }),
-    across.values.map((mu) => [
-      svg("line", { x1: x(mu), x2: x(mu), y1: foot, y2: foot + 4 }),
-      svg("text", { class: "tick middle-of", x: x(mu), y: foot + 17 }, tickText(mu, across.step)),
-    ]),
-    up.values.map((slope) => [
-      svg("line", { x1: MARGIN.left - 4, x2: MARGIN.left, y1: y(slope), y2: y(slope) }),
-      svg("text", { class: "tick end-at", x: MARGIN.left - 7, y: y(slope) + 4 }, tickText(slope, up.step)),
-    ]),
+    across.values.map((mu) => svg("line", { x1: x(mu), x2: x(mu), y1: foot, y2: foot + 4 })),
+    textsAcross(across, x, foot + 17),
+    up.values.map((slope) => svg("line", { x1: MARGIN.left - 4, x2: MARGIN.left, y1: y(slope), y2: y(slope) })),
+    textsUp(up, MARGIN.left - 7, y),
     svg("text", { class: "label middle-of", x: (MARGIN.left + x.end) / 2, y: HEIGHT - 6 }, texts.x),
     svg("text", { class: "label middle-of", transform: `translate(13 ${(MARGIN.top + foot) / 2}) rotate(-90)` }, texts.y),
   );
@@ -121,7 +114,7 @@ function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
     mus.map((mu, column) => {
       const [a, b] = [x(mu), y(slope)];
       const isLost = prd[row][column] === null;
-      return svg("path", isLost ? { class: "lost", d: `M${a - 4} ${b - 4}l8 8m0 -8l-8 8` } : { d: `M${a - 3} ${b}h6M${a} ${b - 3}v6` });
+      return svg("path", isLost ? { class: "lost", d: `M${a - 4} ${b - 4}l8 8m0 -8l-8 8` } : { d: cross([a, b], 3) });
     }),
   );
 }
@@ -135,7 +128,7 @@ function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, 
     const longest = found.toSorted((a, b) => b.length - a.length)[0] ?? [];
     const place = labelPlace(longest, text, taken, x.end);
     return [
-      found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: line.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join(" ") })),
+      found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) })),
       place ? svg("text", { class: "label middle-of on-line", x: place[0], y: place[1] + 4 }, text) : null,
     ];
   });
@@ -159,21 +152,7 @@ function halfOf(text) {
   return (text.length * LABEL * 0.5) / 2 + 3;
 }
 
-// The arrays at each friction and slope, with the name that they share there.
-function placed({ arrays: all, array }, x, y) {
-  const places = new Map();
-  for (const one of all) {
-    const key = `${one.mu.toFixed(3)} ${one.slope_deg.toFixed(2)}`;
-    places.set(key, [...(places.get(key) ?? []), one]);
-  }
-  return [...places.values()].map((group) => ({
-    at: [x(group[0].mu), y(group[0].slope_deg)],
-    name: group.slice(0, 2).map((one) => one.id).join(", ") + (group.length > 2 ? ` and ${group.length - 2} more` : ""),
-    isShown: group.some((one) => one.id === array),
-  }));
-}
-
-function arrayDot({ at: [a, b], name, isShown }) {
+function arrayDot({ at: [a, b], name, is_shown: isShown }) {
   return svg(
     "g",
     { class: "array-dot" },

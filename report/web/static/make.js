@@ -23,25 +23,14 @@ export function words(text) {
   return parts.map((part, k) => (k % 3 === 2 ? html("sub", {}, part) : part));
 }
 
-/** Return points as the attribute of a polygon. */
-export function points(all) {
-  return all.map(([x, y]) => `${x},${y}`).join(" ");
+/** Set attributes of an element. */
+export function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }
 
-/** Return a curve as the attribute of a path; null breaks the line. */
-export function path(xs, ys) {
-  let drawn = "";
-  let pen = "M";
-  for (const [k, x] of xs.entries()) {
-    const y = ys[k];
-    if (x === null || y === null) {
-      pen = "M";
-    } else {
-      drawn += `${pen}${x} ${y}`;
-      pen = "L";
-    }
-  }
-  return drawn;
+/** Return points as the attribute of a polygon, to a tenth of a pixel. */
+export function points(all) {
+  return all.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(" ");
 }
 
 function filled(element, attributes, children) {

@@ -31,6 +31,13 @@ export function along([x0, y0], [x1, y1]) {
   });
 }
 
+/** Return the box around points. */
+export function boxAround(points) {
+  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+  const [x, y] = [Math.min(...xs), Math.min(...ys)];
+  return { x, y, wide: Math.max(...xs) - x, tall: Math.max(...ys) - y };
+}
+
 function isInside(box, frame) {
   return (
     box.x >= frame.x && box.y >= frame.y && box.x + box.wide <= frame.x + frame.wide && box.y + box.tall <= frame.y + frame.tall

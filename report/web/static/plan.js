@@ -1,7 +1,7 @@
 // The roof plan: outlines, envelopes, clearances with provided and required, north, scale bar.
 // It looks like the plan of the package. A clearance that is not satisfied is heavy and says NG.
 
-import { along, place } from "./place.js";
+import { along, boxAround, place } from "./place.js";
 import { points, replace, svg } from "./make.js";
 
 const MARGIN_PX = 26;
@@ -124,12 +124,12 @@ function arrayName({ id, label, center }, to, taken) {
 
 function solid({ kind, outline }, to, taken) {
   const drawn = outline.map(to);
-  taken.push(bounds(drawn));
+  taken.push(boxAround(drawn));
   return svg("polygon", { class: "object", "data-kind": kind, points: points(drawn) });
 }
 
 function objectName({ id, outline }, to, taken, frame) {
-  const box = bounds(outline.map(to));
+  const box = boxAround(outline.map(to));
   const [wide, tall] = [LETTER_PX * id.length + 8, LINE_PX + 2];
   const middle = [box.x + box.wide / 2, box.y + box.tall / 2];
   const fits = box.wide > wide + 8 && box.tall > tall + 4;
@@ -153,7 +153,7 @@ function edge({ id, outline, has_parapet: hasParapet }, to, taken) {
 
 // Outside of its edge; turned along one that is more vertical than horizontal.
 function edgeName({ id, outline }, to, taken, [midX, midY]) {
-  const box = bounds(outline.map(to));
+  const box = boxAround(outline.map(to));
   const [x, y] = [box.x + box.wide / 2, box.y + box.tall / 2];
   const long = LETTER_PX * id.length + 4;
   const isTurned = box.tall > box.wide;
@@ -162,12 +162,6 @@ function edgeName({ id, outline }, to, taken, [midX, midY]) {
   taken.push({ x: at[0] - wide / 2, y: at[1] - tall / 2, wide, tall });
   const turn = isTurned ? `rotate(-90 ${at[0]} ${at[1]})` : null;
   return svg("g", { class: "middle" }, svg("text", { class: "tick", x: at[0], y: at[1] + 4.5, transform: turn }, id));
-}
-
-function bounds(drawn) {
-  const [xs, ys] = [drawn.map(([x]) => x), drawn.map(([, y]) => y)];
-  const [x, y] = [Math.min(...xs), Math.min(...ys)];
-  return { x, y, wide: Math.max(...xs) - x, tall: Math.max(...ys) - y };
 }
 
 function backing({ x, y, wide, tall }) {

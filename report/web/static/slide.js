@@ -1,9 +1,9 @@
 // Watch it slide: one run in time, with what plays it and what tells of its slips.
 
 import { html, replace } from "./make.js";
-import { number } from "./reading.js";
+import { measured } from "./reading.js";
 import { within } from "./view-axes.js";
-import { button, createView, onKeys, runSelect } from "./view-frame.js";
+import { button, createView, notes, onKeys, runSelect } from "./view-frame.js";
 import { createPlayer } from "./view-player.js";
 import { lastUpTo } from "./view-series.js";
 import { createStage } from "./view-stage.js";
@@ -18,11 +18,8 @@ export function mount(element, api, scene) {
   const keep = (next) => {
     speed = next;
   };
-  return createView(element, scene, {
-    ask: ({ array, motion, values }) => ({ array, motion, values }),
-    fetch: api.slide,
-    build: (inside, data, again) => build(inside, data, { again, announce: api.announce, speed, keep }),
-  });
+  return createView(element, scene, api.slide, (inside, data, again) =>
+    build(inside, data, { again, announce: api.announce, speed, keep }));
 }
 
 function build(element, data, { again, announce, speed, keep }) {
@@ -32,7 +29,7 @@ function build(element, data, { again, announce, speed, keep }) {
   const stage = createStage(data, player.seek);
   const caption = html("p", { class: "numbers slip-text" });
   const speeds = speedSelect(player, speed, keep);
-  const parts = controls(player, { seconds, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
+  const parts = controls(player, { data, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
 
   function show(time) {
     const k = slips.at(time);
@@ -75,7 +72,7 @@ function build(element, data, { again, announce, speed, keep }) {
     stage.element,
     html("div", { class: "player" }, parts.play, parts.back, parts.next, speeds.element, parts.scrub, parts.clock),
     html("p", { class: "note", id: "slide-keys" }, KEYS),
-    html("p", { class: "note" }, [texts.status, texts.axes, texts.model, texts.roof].filter(Boolean).join(" ")),
+    notes(data),
   );
   resize();
   player.seek(data.t_prd_s ?? 0);
@@ -94,12 +91,13 @@ function createSlips({ slips, texts }) {
     at: (time) => (begins[firstToEnd(time)] <= time ? firstToEnd(time) : -1),
     before: (time) => firstToEnd(time) - 1,
     after: past,
-    text: (k) => `Slip ${k + 1} of ${slips.length}: ${slips[k].text}`,
-    rest: (time) => (slips.length === 0 ? texts.status || "The array does not slip in this run." : `At rest, after ${past(time)} of ${slips.length} slips`),
+    text: (k) => slips[k].text,
+    rest: (time) => (slips.length === 0 ? texts.no_slip : `At rest, after ${past(time)} of ${slips.length} slips`),
   };
 }
 
-function controls(player, { seconds, before, after }) {
+function controls(player, { data: { seconds, units }, before, after }) {
+  const said = (time) => measured(time, units.time[0]);
   const play = button("Play", "Play or pause (Space)", player.toggle, { class: "button primary play" });
   const back = button("‹ Slip", "Slip before (P)", before, { "aria-label": "Slip before" });
   const next = button("Slip ›", "Next slip (N)", after, { "aria-label": "Next slip" });
@@ -113,8 +111,8 @@ function controls(player, { seconds, before, after }) {
     clock,
     show(time, { isFirst, isLast }) {
       scrub.value = time;
-      scrub.setAttribute("aria-valuetext", `${number(time, 2)} s`);
-      clock.textContent = `${number(time, 2)} s of ${number(seconds, 2)} s`;
+      scrub.setAttribute("aria-valuetext", said(time));
+      clock.textContent = `${said(time)} of ${said(seconds)}`;
       play.textContent = player.isPlaying ? "Pause" : "Play";
       back.disabled = isFirst;
       next.disabled = isLast;

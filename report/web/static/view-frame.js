@@ -4,11 +4,11 @@ import { needsReload, reload } from "./api.js";
 import { html, replace } from "./make.js";
 
 /**
- * Return a view: `ask(scene)` returns what to send, `fetch(request)` its answer, and
+ * Return a view of a scene, which is what it asks with: `fetch(request)` returns the answer, and
  * `build(element, data, again)` draws it and returns `{ resize(), stop() }`. `again(changes)` asks
  * with other values of the view's own.
  */
-export function createView(element, scene, { ask, fetch, build }) {
+export function createView(element, scene, fetch, build) {
   let drawing = null;
   let shown = ""; // the request that is drawn
   let own = {};
@@ -19,7 +19,7 @@ export function createView(element, scene, { ask, fetch, build }) {
     if (next.array !== last.array || next.motion !== last.motion) own = {};
     last = next;
     isMoving = false;
-    const request = { ...ask(next), ...own };
+    const request = { ...next, ...own };
     const key = JSON.stringify(request);
     if (key === shown) {
       element.classList.remove("is-stale");
@@ -82,6 +82,11 @@ export function runSelect(data, chosen) {
   return html("label", { class: "field" }, "Run ", html("select", { on: { change: ({ target }) => chosen(target.value) } }, options));
 }
 
+/** Return what a view says below its drawing. */
+export function notes({ texts }) {
+  return html("p", { class: "note" }, texts.notes.join(" "));
+}
+
 /** Return a button of a view; `title` names its key. */
 export function button(label, title, click, attributes = {}) {
   return html("button", { type: "button", class: "button", title, on: { click }, ...attributes }, label);
@@ -95,9 +100,4 @@ export function onKeys(element, keys) {
     event.preventDefault();
     keys[key](event);
   });
-}
-
-/** Set attributes of an element. */
-export function set(element, attributes) {
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }

@@ -377,10 +377,6 @@ def test_a_subscript_is_set_as_one(page):
     assert words == "S<sub>DS</sub> and F<sub>a</sub> of A<sub>1B</sub>, a_b"
 
 
-def test_a_null_breaks_a_drawn_curve(page):
-    assert called(page, "make", "return m.path([0, 1, 2, 3], [5, null, 6, 7]);") == "M0 5M2 6L3 7"
-
-
 def test_no_script_or_page_uses_the_network_or_inline_code():
     for file in STATIC.iterdir():
         text = file.read_text()

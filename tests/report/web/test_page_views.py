@@ -230,7 +230,8 @@ def test_the_run_opens_at_its_peak_with_the_values_of_the_package(page, run):
     assert text(page, ".watch-head strong") == run["texts"]["prd"]
     assert clock(page) == round(run["t_prd_s"], 2)
     downslope, force = (
-        value_at(run[name][0], run["dt_s"], run["t_prd_s"]) for name in ("relative", "normal")
+        value_at(run[name]["series"][0], run["dt_s"], run["t_prd_s"])
+        for name in ("relative", "normal")
     )
     heads = page.locator(".panel-head").all_inner_texts()
     assert f"{measured(downslope, Quantity.DISPLACEMENT.us)} in" in heads[0]
@@ -266,14 +267,15 @@ def test_slips_are_gone_through_one_at_a_time_by_keys_and_by_buttons(page, run):
     assert text(page, ".slip-text") == f"At rest, after 0 of {len(slips)} slips"
     assert before.is_disabled()
     press(page, ".watch", "n", "N")
-    assert text(page, ".slip-text") == f"Slip 2 of {len(slips)}: {slips[1]['text']}"
+    assert text(page, ".slip-text") == slips[1]["text"]
+    assert slips[1]["text"].startswith(f"Slip 2 of {len(slips)}: ")
     assert clock(page) == round(slips[1]["to_s"], 2)
     assert page.locator(".track-picked").nth(1).get_attribute("points") != ""
     after.click()
     before.click()
     assert clock(page) == round(slips[1]["to_s"], 2)
     press(page, ".watch", "p")
-    assert page.evaluate("said.at(-1)") == f"Slip 1 of {len(slips)}: {slips[0]['text']}"
+    assert page.evaluate("said.at(-1)") == slips[0]["text"]
     press(page, ".watch", "End")
     assert after.is_disabled()
     assert clock(page) == pytest.approx(run["seconds"], abs=0.006)
@@ -391,7 +393,7 @@ def test_histories_zoom_and_read_by_keys(page, run):
     before = when(page)
     page.keyboard.press("ArrowRight")
     assert when(page) == pytest.approx(before + run["dt_s"], abs=1e-3)
-    shown = value_at(run["acceleration"][0], run["dt_s"], when(page)) / stand_in.G
+    shown = value_at(run["acceleration"]["series"][0], run["dt_s"], when(page)) / stand_in.G
     found = first_value(page)
     assert found.endswith(" g")
     assert number_of(found) == pytest.approx(shown, abs=0.02)
@@ -442,7 +444,7 @@ def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wi
     data = views.slide(stand_in.assess_input(DATA, motions), "A1", "M1")
     mounted(page, "histories", data)
     press(page, ".stage", "Home")
-    samples = data["acceleration"][0]["v"]
+    samples = data["acceleration"]["series"][0]["v"]
     for _ in range(60):
         page.keyboard.press("ArrowRight")
         sample = samples[round(when(page) / data["dt_s"])] / stand_in.G
