@@ -6,10 +6,11 @@ Computes nothing: every number and verdict is that of `report.assessment`. Read 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
-from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
+from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
@@ -53,7 +54,7 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "verdict": verdict(assessment.verdict, assessment.verdict.value),
         "verdict_text": None if is_provisional else verdict_sentence(package_data(assessment)),
-        "reasons": [] if is_provisional else reasons(assessment),
+        "reasons": [] if is_provisional else list(map(asdict, attention(assessment))),
         "arrays": {
             "caption": "Arrays: displacement",
             "heads": heads(ArrayResult, _ARRAY, mean_prd_m="Mean PRD"),
@@ -105,7 +106,6 @@ def _bars(
         "design": (design_m, design["text"]),
         "prescriptive": (item.prescriptive_m, item.short("prescriptive_m", fmt)),
     }
-    prds = {run.motion.id: run.governing.prd_m for run in motions}
     return {
         "caption": f"PRD of {item.id} by motion",
         "lines": [
@@ -113,10 +113,14 @@ def _bars(
             for name, (value_m, text) in lines.items()
         ],
         "rows": [
-            {"motion": name, "prd_m": finite(prd_m), "text": fmt.short(prd_m)}
-            for name, prd_m in prds.items()
+            {"motion": run.motion.id, "prd_m": finite(prd_m), "text": fmt.short(prd_m)}
+            for run, prd_m in zip(motions, _prds_m(motions), strict=True)
         ],
     }
+
+
+def _prds_m(motions: Sequence[MotionRun]) -> list[float]:
+    return [run.governing.prd_m for run in motions]
 
 
 def _whole(assessment: Assessment) -> str:
@@ -126,11 +130,6 @@ def _whole(assessment: Assessment) -> str:
     return f"Full model, as in the package. Models of the runs: {names}."
 
 
-def reasons(assessment: Assessment) -> list[dict[str, str]]:
-    """Return what needs attention, as `roofslip report` prints it."""
-    return [{"level": line.level, "text": line.text} for line in attention(assessment)]
-
-
 def finite(value: float) -> float | None:
     """Return a number, or none for NaN and infinity, which JSON does not have."""
     return value if math.isfinite(value) else None
@@ -138,10 +137,9 @@ def finite(value: float) -> float | None:
 
 def _scale_m(assessment: Assessment) -> float:
     """Return the largest length that the bars show [m]."""
-    return max(filter(math.isfinite, _drawn(assessment.arrays)), default=0.0)
-
-
-def _drawn(arrays: Sequence[ArrayAssessment]) -> Iterator[float]:
-    for item in arrays:
-        yield from (item.design_m, item.prescriptive.value_m)
-        yield from (run.governing.prd_m for run in item.motions)
+    lengths = [
+        length_m
+        for item in assessment.arrays
+        for length_m in (item.design_m, item.prescriptive.value_m, *_prds_m(item.motions))
+    ]
+    return max(filter(math.isfinite, lengths), default=0.0)

@@ -17,14 +17,7 @@ from report.sheet.read import Sheet
 from report.sheet.schema import SIDES, Array, Polarity, ProjectInput, RuleSetName
 from report.sheet.what_if import retyped
 from report.web.opened import Opened
-from report.web.values import (
-    MUS,
-    SHORT_PERIOD,
-    Values,
-    trim_unit_m,
-    trimmed,
-    typed,
-)
+from report.web.values import MUS, SHORT_PERIOD, Values, trim_unit_m, trimmed, typed
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import MOST_MU
 from solver.model import InputError, Motion

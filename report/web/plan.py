@@ -53,7 +53,6 @@ def plan(
         "objects": [
             {
                 "id": item.id,
-                "kind": item.kind.value,
                 "outline": _outline(item.placed),
                 "is_edge": item.kind in EDGES,
                 "has_parapet": item.kind is ObjectKind.EDGE_WITH_PARAPET,

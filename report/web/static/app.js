@@ -127,11 +127,10 @@ function restore() {
 }
 
 function fillSelects() {
-  const { arrays, motions } = state.views;
-  chosen.array = arrays[0];
-  chosen.motion = motions[0].id;
-  replace(part("array"), arrays.map((id) => html("option", { value: id }, id)));
-  replace(part("motion"), motions.map(({ id }) => html("option", { value: id }, id)));
+  for (const [key, ids] of Object.entries({ array: state.views.arrays, motion: state.views.motions })) {
+    chosen[key] = ids[0];
+    replace(part(key), ids.map((id) => html("option", { value: id }, id)));
+  }
 }
 
 // The session reports: a slider moves, the full model runs, or an answer came.
@@ -182,14 +181,7 @@ function showRest() {
 }
 
 function scene() {
-  return Object.freeze({
-    values: session.values(),
-    ...chosen,
-    project: state.project,
-    views: state.views,
-    plan: answer.plan,
-    answer,
-  });
+  return { values: session.values(), ...chosen };
 }
 
 function choose(changed) {

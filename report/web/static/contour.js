@@ -4,7 +4,7 @@ import { html, points, replace, set, svg } from "./make.js";
 import { measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
-import { createView, notes } from "./view-frame.js";
+import { createView, notes, onKeys } from "./view-frame.js";
 import { cross, pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
 
 const HEIGHT = 370;
@@ -38,12 +38,13 @@ function build(element, data) {
     read(x.inverse(across), y.inverse(up));
   });
   plot.addEventListener("pointerdown", () => plot.focus());
-  plot.addEventListener("keydown", (event) => {
-    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
-    if (event.key === "Home") read(data.here.mu, data.here.slope_deg);
-    else if (move) read(moved(mus, at.mu, move[0], event.shiftKey), moved(slopes, at.slope, move[1], event.shiftKey));
-    else return;
-    event.preventDefault();
+  const go = (right, up) => ({ shiftKey }) => read(moved(mus, at.mu, right, shiftKey), moved(slopes, at.slope, up, shiftKey));
+  onKeys(plot, {
+    ArrowLeft: go(-1, 0),
+    ArrowRight: go(1, 0),
+    ArrowDown: go(0, -1),
+    ArrowUp: go(0, 1),
+    Home: () => read(data.here.mu, data.here.slope_deg),
   });
 
   function resize() {

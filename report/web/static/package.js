@@ -99,7 +99,7 @@ function showPackage(status, api, told, { cancel, keepsFocus }) {
     if (keepsFocus && hasLostFocus()) status.querySelector("a").focus();
     api.announce("The package is made. Its files can be saved.");
   } else {
-    say(status, api, told.state === "failed" ? told.message : "The package was canceled.");
+    say(status, api, told.words);
   }
 }
 
@@ -116,7 +116,7 @@ function isOver({ state }) {
 }
 
 // The elements stay while the package is made, so that Cancel keeps the focus.
-function showProgress(status, api, { state, place, stage, part }, cancel) {
+function showProgress(status, api, { words, part }, cancel) {
   if (!status.querySelector("progress")) {
     replace(
       status,
@@ -124,14 +124,13 @@ function showProgress(status, api, { state, place, stage, part }, cancel) {
       html("button", { type: "button", class: "button", on: { click: cancel } }, "Cancel"),
     );
   }
-  const words = state === "queued" ? `In line, place ${place}` : stage;
   const shown = status.querySelector(".stage");
   if (shown.textContent !== words) {
     shown.textContent = words;
     api.announce(words);
   }
   const bar = status.querySelector("progress");
-  if (state === "queued") bar.removeAttribute("value");
+  if (part === null) bar.removeAttribute("value");
   else bar.value = part;
 }
 

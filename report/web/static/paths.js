@@ -4,7 +4,7 @@ import { html, points, replace, set, svg } from "./make.js";
 import { boxAround } from "./place.js";
 import { measured, reading } from "./reading.js";
 import { within } from "./view-axes.js";
-import { createView, notes } from "./view-frame.js";
+import { createView, notes, onKeys } from "./view-frame.js";
 import { arrow, cross, pointerIn, resize as sized, scaleBar } from "./view-parts.js";
 
 const LEAST_WIDE = 128; // of a panel
@@ -79,12 +79,12 @@ function createPanel(path, units, write) {
   if (path.i.length) {
     drawing.addEventListener("pointermove", (event) => read(nearest(pixels, pointerIn(drawing, event))));
     drawing.addEventListener("focus", () => read(at));
-    drawing.addEventListener("keydown", (event) => {
-      const step = event.shiftKey ? 10 : 1;
-      const to = { ArrowLeft: at - step, ArrowRight: at + step, Home: 0, End: pixels.length - 1 }[event.key];
-      if (to === undefined) return;
-      event.preventDefault();
-      read(within(to, 0, pixels.length - 1));
+    const go = (to) => read(within(to, 0, pixels.length - 1));
+    onKeys(drawing, {
+      ArrowLeft: ({ shiftKey }) => go(at - (shiftKey ? 10 : 1)),
+      ArrowRight: ({ shiftKey }) => go(at + (shiftKey ? 10 : 1)),
+      Home: () => go(0),
+      End: () => go(pixels.length - 1),
     });
     for (const left of ["pointerleave", "blur"]) drawing.addEventListener(left, () => set(dot, { visibility: "hidden" }));
   }

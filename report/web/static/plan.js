@@ -31,19 +31,20 @@ export function mountPlan(element) {
 function drawing(plan, wide, tall) {
   const to = scaled(plan.extent, wide, tall);
   const frame = { x: 2, y: 2, wide: wide - 4, tall: tall - 4 };
-  const taken = [foot(tall)];
+  const taken = [{ x: 0, y: tall - 34, wide: 240, tall: 34 }]; // north and scale bar
+  const [solids, edges] = [false, true].map((isEdge) => plan.objects.filter((object) => object.is_edge === isEdge));
   const shapes = [
-    ...plan.objects.filter((object) => !object.is_edge).map((object) => solid(object, to, taken)),
+    ...solids.map((object) => solid(object, to, taken)),
     ...plan.arrays.map((array) => block(array, to)),
-    ...plan.objects.filter((object) => object.is_edge).map((object) => edge(object, to, taken)),
-    ...plan.objects.filter((object) => object.is_edge).map((object) => edgeName(object, to, taken, [wide / 2, tall / 2])),
+    ...edges.map((object) => edge(object, to, taken)),
+    ...edges.map((object) => edgeName(object, to, taken, [wide / 2, tall / 2])),
   ];
   for (const gap of plan.gaps) taken.push(...along(to(gap.from), to(gap.to)));
   // In order of need: a name inside its array, a clearance near its gap, an object where there is room.
   const arrayNames = plan.arrays.map((array) => arrayName(array, to, taken));
   const callouts = placed(plan.gaps, to, taken, frame);
   taken.push(...callouts.map(({ at }) => at));
-  const objectNames = plan.objects.filter((object) => !object.is_edge).map((object) => objectName(object, to, taken, frame));
+  const objectNames = solids.map((object) => objectName(object, to, taken, frame));
   return svg(
     "svg",
     { viewBox: `0 0 ${wide} ${tall}`, role: "img", "aria-labelledby": "plan-title plan-description" },
@@ -71,10 +72,6 @@ function scaled([x0, y0, x1, y1], wide, tall) {
   const to = ([x, y]) => [left + (x - x0) * scale, top + (y1 - y) * scale];
   to.scale = scale;
   return to;
-}
-
-function foot(tall) {
-  return { x: 0, y: tall - 34, wide: 240, tall: 34 };
 }
 
 function sentence({ text, verdict }) {
@@ -122,10 +119,10 @@ function arrayName({ id, label, center }, to, taken) {
   );
 }
 
-function solid({ kind, outline }, to, taken) {
+function solid({ outline }, to, taken) {
   const drawn = outline.map(to);
   taken.push(boxAround(drawn));
-  return svg("polygon", { class: "object", "data-kind": kind, points: points(drawn) });
+  return svg("polygon", { class: "object", points: points(drawn) });
 }
 
 function objectName({ id, outline }, to, taken, frame) {

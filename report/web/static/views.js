@@ -17,16 +17,16 @@ export function createViews(api) {
   async function draw() {
     const id = current;
     if (!(id in NEEDS) || !scene) return;
-    const needed = Object.fromEntries([...NEEDS[id], "values"].map((key) => [key, scene[key]]));
+    const needed = () => Object.fromEntries([...NEEDS[id], "values"].map((key) => [key, scene[key]]));
     const element = part(id).querySelector(".view");
     element.classList.remove("is-stale");
     if (mounted.has(id)) {
-      mounted.get(id).update(needed);
+      mounted.get(id).update(needed());
       return;
     }
     try {
       const { mount } = await import(`./${id}.js`);
-      if (!mounted.has(id)) mounted.set(id, mount(element, api, needed));
+      if (scene && !mounted.has(id)) mounted.set(id, mount(element, api, needed()));
     } catch (error) {
       replace(element, html("p", {}, `This drawing could not be loaded. Reload the page. (${error.message})`));
     }

@@ -330,7 +330,7 @@ def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, s
     next(folder_of_session(client, sessions).rglob("records/*")).unlink()
     about = over(client, begun(client)["ticket"])
     assert about["state"] == "failed"
-    assert about["message"].startswith("Motions!")
+    assert about["words"].startswith("Motions!")
 
 
 def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, monkeypatch):

@@ -198,13 +198,14 @@ TAKEAWAY = """
     document.body.innerHTML = `${button}${button}${button}<div></div>`;
     const [make, workbook, copy, status] = document.body.children;
     let values = { friction: 0.9 };
-    let state = { ticket: "t", state: "running", stage: "Plans", part: 0.2, values };
+    let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values };
+    const canceled = { state: "canceled", words: "The package was canceled." };
     const failed = [], asked = [];
     const api = {
       announce() {},
       startPackage: async () => state,
       packageState: async () => (asked.push("state"), state),
-      cancelPackage: async () => (asked.push("cancel"), (state = { ...state, state: "canceled" })),
+      cancelPackage: async () => (asked.push("cancel"), (state = { ...state, ...canceled })),
       ...g?.api,
     };
     const all = { values: () => values, words: ({ friction }) => `friction ${friction}`,
@@ -242,9 +243,9 @@ def test_a_package_that_is_canceled_and_made_again_at_once_is_the_one_that_is_fo
         make.focus();
         make.click(); await has("progress");
         const focused = [document.activeElement.textContent];
-        const canceled = { ...state, state: "canceled" };
         let answer;
-        api.cancelPackage = () => new Promise((done) => { answer = () => done(canceled); });
+        const over = { ...state, ...canceled };
+        api.cancelPackage = () => new Promise((done) => { answer = () => done(over); });
         status.querySelector("button").click();
         const seen = [make.disabled];
         answer(); await until(() => !make.disabled);
