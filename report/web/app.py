@@ -101,9 +101,8 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
     )
 
 
-_VIEWS = {"slide": ("array", "motion", "run"), "contour": ("array",), "paths": ("array",)}
-"""Views, each with what names its subject."""
-_NEEDED = ("array", "motion")
+_VIEWS = {"slide": ("array", "motion"), "contour": ("array",), "paths": ("array",)}
+"""Views, each with what must be named; a run may be."""
 
 
 async def _clean(desk: Desk) -> None:
@@ -178,11 +177,10 @@ async def _assess(request: Request) -> Response:
 async def _view(request: Request) -> Response:
     asked = await receive_json(request)
     kind = request.url.path.rpartition("/")[2]
-    missing = [name for name in _NEEDED if name in _VIEWS[kind] and asked.get(name) is None]
-    if missing:
+    if missing := [name for name in _VIEWS[kind] if asked.get(name) is None]:
         raise InputError(f"the request lacks {' and '.join(missing)}; name what is to be shown")
     job = {"do": kind, "values": asked["values"]}
-    job |= {name: str(asked[name]) for name in _VIEWS[kind] if asked.get(name) is not None}
+    job |= {k: str(asked[k]) for k in (*_VIEWS[kind], "run") if asked.get(k) is not None}
     return JSONResponse(await desk_of(request).ask(session_of(request), job, Rank.VIEW, asked))
 
 

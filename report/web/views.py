@@ -37,6 +37,13 @@ _T = TypeVar("_T")
 MOST_ON_TRACK = 1500  # of one direction, beside the events
 MOST_ON_PATH = 200  # of one direction; a path is drawn an inch or two wide
 
+_TITLES = {
+    "acceleration": "Roof acceleration",
+    "velocity": "Roof velocity",
+    "relative": "Displacement relative to the roof",
+    "normal": "Normal force",
+    "friction": "Friction F / N",
+}
 _ACCELERATION = (Unit("g", G_MPS2, 2),)
 _VELOCITY = (Unit("in/s", INCH_M, 1), Unit("mm/s", 1e-3, 0))  # what fits above a panel
 _NORMAL = (Unit("W", 1.0, 2),)
@@ -86,6 +93,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         "units": {"time": _units(_TIME), "sample": _units(_SAMPLE)},
         "texts": {
             "title": f"Array {array_id}, motion {motion_id}, run {chosen.orientation.name}",
+            "relative": "Displacement",
             **_slide_texts(chosen, history, roof, fmt),
         },
     }
@@ -229,28 +237,19 @@ def _panels(
         relative.append(_history("cross", history.across_m))
     normal, demand, used = run_forces(run, history, slips)
     i, with_used = with_jumps(run, used, history.events)
-    return {
-        "acceleration": _panel(
-            "Roof acceleration", _ACCELERATION, [_history(one.name, one.a_mps2) for one in roof]
-        ),
-        "velocity": _panel(
-            "Roof velocity",
-            _VELOCITY[:: 1 if fmt.us_first else -1],
-            [_history(one.name, velocity_displacement(one)[0]) for one in roof],
-        ),
-        "relative": _panel("Displacement relative to the roof", fmt.units(), relative)
-        | {"short": "Displacement"},
-        "normal": _panel("Normal force", _NORMAL, [_history("N / W", normal)]),
-        "friction": _panel(
-            "Friction F / N",
-            _RATIO,
-            [_history("used", with_used) | {"i": i.tolist()}, _history("demand", demand)],
-        ),
+    velocity = [_history(one.name, velocity_displacement(one)[0]) for one in roof]
+    friction = [_history("used", with_used) | {"i": i.tolist()}, _history("demand", demand)]
+    panels = {
+        "acceleration": (_ACCELERATION, [_history(one.name, one.a_mps2) for one in roof]),
+        "velocity": (_VELOCITY[:: 1 if fmt.us_first else -1], velocity),
+        "relative": (fmt.units(), relative),
+        "normal": (_NORMAL, [_history("N / W", normal)]),
+        "friction": (_RATIO, friction),
     }
-
-
-def _panel(title: str, units: Sequence[Unit], series: Sequence[Json]) -> Json:
-    return {"title": title, "units": _units(units), "series": series}
+    return {
+        kind: {"title": _TITLES[kind], "units": _units(units), "series": series}
+        for kind, (units, series) in panels.items()
+    }
 
 
 def _slip(k: int, slips: Sequence[Slip], fmt: UnitFormat) -> Json:

@@ -1,6 +1,6 @@
 // Peak relative displacements of one array, a bar for each motion, as a table with drawn cells.
 
-import { html, replace, svg } from "./make.js";
+import { headings, html, replace, svg } from "./make.js";
 
 const WIDE = 100; // units of the drawing; it stretches with its cell
 
@@ -17,7 +17,7 @@ export function showBars(element, { heads, scale_m: scale, arrays }, id) {
   replace(
     element,
     html("caption", {}, caption),
-    html("thead", { class: "visually-hidden" }, html("tr", {}, heads.map((text) => html("th", { scope: "col" }, text)))),
+    headings(heads, { class: "visually-hidden" }),
     html("tbody", {}, rows.map(row)),
     html("tfoot", {}, html("tr", {}, html("td", { colspan: heads.length }, lines.map(({ look, text }) => [sample(look), html("span", {}, text)])))),
   );

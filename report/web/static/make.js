@@ -12,6 +12,11 @@ export function svg(name, attributes, ...children) {
   return filled(document.createElementNS(SVG, name), attributes, children);
 }
 
+/** Make the head of a table. */
+export function headings(texts, attributes = {}) {
+  return html("thead", attributes, html("tr", {}, texts.map((text) => html("th", { scope: "col" }, text))));
+}
+
 /** Replace all that is in an element. */
 export function replace(element, ...children) {
   element.replaceChildren(...nodes(children));

@@ -1,6 +1,6 @@
 // The verdict, the arrays and the clearances, as the server words them.
 
-import { html, replace, words } from "./make.js";
+import { headings, html, replace, words } from "./make.js";
 
 /** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
 function tag(verdict) {
@@ -9,36 +9,45 @@ function tag(verdict) {
 
 /** Return an answer whose values stay while others are computed: no verdict of it does. */
 export function withoutVerdicts({ plan, arrays, clearances, ...rest }) {
-  const blank = (row) => ({ ...row, verdict: null });
-  const table = ({ rows, ...others }) => ({ ...others, rows: rows.map((row) => row.map((cell) => (cell?.look ? null : cell))) });
+  const { gaps, described } = plan;
   return {
     ...rest,
     verdict: null,
-    arrays: table(arrays),
-    clearances: table(clearances),
-    plan: { ...plan, gaps: plan.gaps.map(blank), described: plan.described.map(blank) },
+    arrays: withoutTags(arrays),
+    clearances: withoutTags(clearances),
+    plan: { ...plan, gaps: gaps.map(withoutVerdict), described: described.map(withoutVerdict) },
   };
+}
+
+function withoutVerdict(item) {
+  return { ...item, verdict: null };
+}
+
+function withoutTags({ rows, ...table }) {
+  return { ...table, rows: rows.map((cells) => cells.map((cell) => (cell?.look ? null : cell))) };
 }
 
 /** Show the verdict of a full answer. */
 export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
-  replace(
-    element,
-    html("p", { class: "verdict-line" }, tag(verdict), " ", text),
-    html("p", { class: "note" }, model),
-    list(reasons.map((reason) => reason.text)),
-  );
+  replace(element, line(tag(verdict), " ", text), aside(model), list(reasons.map((reason) => reason.text)));
 }
 
 /** Show what a provisional answer is; it has no verdict. */
 export function showProvisional(element, what, model) {
-  const mark = html("strong", { class: "tag is-provisional" }, "Provisional");
-  replace(element, html("p", { class: "verdict-line" }, mark, " ", what), html("p", { class: "note" }, model));
+  replace(element, line(tag({ look: "provisional", text: "Provisional" }), " ", what), aside(model));
 }
 
 /** Show that there is no verdict, and why, with the reasons of the server where it gave any. */
 export function showNoVerdict(element, why, reasons) {
-  replace(element, html("p", { class: "verdict-line" }, `No verdict: ${why}.`), list(reasons));
+  replace(element, line(`No verdict: ${why}.`), list(reasons));
+}
+
+function line(...parts) {
+  return html("p", { class: "verdict-line" }, parts);
+}
+
+function aside(text) {
+  return html("p", { class: "note" }, text);
 }
 
 function list(reasons) {
@@ -55,16 +64,15 @@ export function showTable(element, { caption, heads, rows }, { named = 0, picked
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
   const name = ({ text, note }) =>
     html("th", { scope: "row" }, pick ? pickButton(text, text === picked, pick) : text, note ? html("small", {}, note) : null);
-  const value = (cell) => html("td", { title: cell?.title }, cell && !cell.look ? cell.text : tag(cell));
   const row = (cells) =>
     html("tr", { class: cells[named].text === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
-  replace(
-    element,
-    html("caption", {}, caption),
-    html("thead", {}, html("tr", {}, heads.map((text) => html("th", { scope: "col" }, text)))),
-    html("tbody", {}, rows.map(row)),
-  );
+  replace(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
   if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();
+}
+
+// A verdict has a look; where it is not known yet, its cell is null.
+function value(cell) {
+  return html("td", { title: cell?.title }, cell && !cell.look ? cell.text : tag(cell));
 }
 
 function pickButton(name, isPicked, pick) {

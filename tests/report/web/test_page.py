@@ -362,6 +362,9 @@ def test_on_a_tablet_nothing_is_cut_off_and_in_print_no_control_is_left(page):
         assert page.locator(gone).first.is_hidden(), gone
     assert page.locator("#controls output").first.is_visible()
     assert page.locator("#controls .print-only").first.is_visible()
+    page.set_viewport_size({"width": 400, "height": 1100})
+    page.wait_for_selector("#plan-drawing > svg[viewBox^='0 0 400 ']")
+    assert page.locator("#plan-drawing").evaluate("(one) => one.clientHeight") > 300
 
 
 def drawn(page, view, selector, wanted):
