@@ -104,7 +104,7 @@ def _slider(
     least, greatest, step = span
     return {
         "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
-        "step": step, "value": start, "typed": start, "help": words, "stops": {},
+        "step": step, "typed": start, "help": words, "stops": {},
     }  # fmt: skip
 
 
@@ -183,7 +183,6 @@ def _choice(
         "id": name,
         "label": label,
         "options": [{"value": v, "label": text, "why_not": ""} for v, text in options.items()],
-        "value": start,
         "typed": start,
         "help": words,
     }

@@ -121,7 +121,7 @@ function restore() {
   Object.assign(values, fromFragment(location.hash, sliders, choices));
   session.load(values);
   controls = mountSliders(part("controls"), state, values, session);
-  const isAnswered = state.answer && all.every(({ id, value }) => values[id] === value);
+  const isAnswered = state.answer && all.every(({ id, typed }) => values[id] === typed);
   if (isAnswered) show({ phase: "rest", answer: state.answer });
   else session.rest();
 }

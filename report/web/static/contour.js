@@ -1,6 +1,7 @@
 // Contours of the mean PRD over friction and slope, with the arrays, and the value at a point.
 
 import { html, points, replace, set, svg } from "./make.js";
+import { isFree } from "./place.js";
 import { measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
@@ -11,7 +12,8 @@ const HEIGHT = 370;
 const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
 const EDGE = 0.03; // of the range, around the outermost points
 const FINE = 0.1; // of a cell
-const LABEL = 13;
+const LABEL = 13; // height of a label
+const DOT = 13; // width of an array's dot
 
 /** Keep the contours in an element. */
 export function mount(element, api, scene) {
@@ -122,12 +124,14 @@ function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
 
 // Each level with its value on its longest line, where no other label stands.
 function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, x, y, named) {
-  const taken = named.flatMap(({ at: [a, b], name }) => [[a, b, 8], [a + 9 + halfOf(name), b - 11, halfOf(name)]]);
+  const frame = { x: MARGIN.left, y: MARGIN.top, wide: x.end - MARGIN.left, tall: HEIGHT - MARGIN.bottom - MARGIN.top };
+  const taken = named.flatMap(({ at: [a, b], name }) => [labelBox([a, b], DOT), labelBox([a + 9 + widthOf(name) / 2, b - 11], widthOf(name))]);
   const fine = refined(mus, slopes, prd, least, 6);
   return levels.map(({ prd_m: level, text, is_major: isMajor }) => {
     const found = isolines(...fine, level, least).map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
     const longest = found.toSorted((a, b) => b.length - a.length)[0] ?? [];
-    const place = labelPlace(longest, text, taken, x.end);
+    const place = fromMiddle(longest).find((point) => isFree(labelBox(point, widthOf(text)), taken, frame));
+    if (place) taken.push(labelBox(place, widthOf(text)));
     return [
       found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) })),
       place ? svg("text", { class: "label middle-of on-line", x: place[0], y: place[1] + 4 }, text) : null,
@@ -135,22 +139,20 @@ function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, 
   });
 }
 
-function labelPlace(line, text, taken, right) {
-  const half = halfOf(text);
-  const fits = ([a, b]) =>
-    a - half > MARGIN.left && a + half < right && b > MARGIN.top + 8 && b < HEIGHT - MARGIN.bottom - 8 &&
-    taken.every(([c, d, other]) => Math.abs(a - c) > half + other || Math.abs(b - d) > LABEL + 3);
+// The points of a line, those in its middle first.
+function fromMiddle(line) {
   const middle = (line.length - 1) / 2;
-  const order = line.map((_, k) => k).toSorted((i, j) => Math.abs(i - middle) - Math.abs(j - middle));
-  const k = order.find((one) => fits(line[one]));
-  if (k === undefined) return null;
-  taken.push([...line[k], half]);
-  return line[k];
+  const order = [...line.keys()].toSorted((i, j) => Math.abs(i - middle) - Math.abs(j - middle));
+  return order.map((k) => line[k]);
 }
 
-// Half the width of a label, about.
-function halfOf(text) {
-  return (text.length * LABEL * 0.5) / 2 + 3;
+function labelBox([x, y], wide) {
+  return { x: x - wide / 2, y: y - LABEL / 2, wide, tall: LABEL };
+}
+
+// Of a label, about.
+function widthOf(text) {
+  return text.length * LABEL * 0.5 + 3;
 }
 
 function arrayDot({ at: [a, b], name, is_shown: isShown }) {

@@ -14,10 +14,15 @@ export function place(wide, tall, [x, y], taken, frame) {
       // On an ellipse, so that wide labels go as near above a point as beside it.
       const middle = [x + (reach + wide / 2) * Math.cos(turn), y + (reach + tall / 2) * Math.sin(turn)];
       const box = { x: middle[0] - wide / 2, y: middle[1] - tall / 2, wide, tall };
-      if (isInside(box, frame) && !taken.some((other) => touches(box, other))) return box;
+      if (isFree(box, taken, frame)) return box;
     }
   }
   return null;
+}
+
+/** Whether a box is inside the frame and away from all others. */
+export function isFree(box, taken, frame) {
+  return isInside(box, frame) && !taken.some((other) => touches(box, other));
 }
 
 /** Return thin boxes along a line, to keep labels off it: one, or small ones where it is oblique. */

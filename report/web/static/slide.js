@@ -14,21 +14,17 @@ const KEYS = "Space plays and pauses, N and P go to the next slip and the one be
 
 /** Keep the run in motion in an element. */
 export function mount(element, api, scene) {
-  let speed = 1; // kept from run to run
-  const keep = (next) => {
-    speed = next;
-  };
-  return createView(element, scene, api.slide, (inside, data, again) =>
-    build(inside, data, { again, announce: api.announce, speed, keep }));
+  const settings = { speed: 1 }; // kept from run to run
+  return createView(element, scene, api.slide, (inside, data, again) => build(inside, data, again, { announce: api.announce, settings }));
 }
 
-function build(element, data, { again, announce, speed, keep }) {
+function build(element, data, again, { announce, settings }) {
   const { seconds, texts } = data;
   const slips = createSlips(data);
-  const player = createPlayer(seconds, slips.events, show);
+  const player = createPlayer(seconds, slips.events, settings, show);
   const stage = createStage(data, player.seek);
   const caption = html("p", { class: "numbers slip-text" });
-  const speeds = speedSelect(player, speed, keep);
+  const speeds = speedSelect(settings);
   const parts = controls(player, { data, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
 
   function show(time) {
@@ -120,23 +116,21 @@ function controls(player, { data: { seconds, units }, before, after }) {
   };
 }
 
-// How fast the player plays, which `keep` remembers.
-function speedSelect(player, speed, keep) {
-  const choose = (next) => {
-    player.speed = next;
-    keep(next);
-  };
+// How fast the player plays.
+function speedSelect(settings) {
   const element = html(
     "select",
-    { "aria-label": "Speed", title: "Speed (< and >)", on: { change: ({ target }) => choose(Number(target.value)) } },
-    SPEEDS.map((one) => html("option", { value: one, selected: one === speed }, `${one}×`)),
+    { "aria-label": "Speed", title: "Speed (< and >)", on: { change: choose } },
+    SPEEDS.map((one) => html("option", { value: one, selected: one === settings.speed }, `${one}×`)),
   );
-  player.speed = speed;
+  function choose() {
+    settings.speed = Number(element.value);
+  }
   return {
     element,
     change(way) {
       element.selectedIndex = within(element.selectedIndex + way, 0, SPEEDS.length - 1);
-      choose(Number(element.value));
+      choose();
     },
   };
 }
