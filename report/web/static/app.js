@@ -4,7 +4,7 @@ import { createApi, isUnreached, needsReload, reload } from "./api.js";
 import { showBars } from "./bars.js";
 import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
-import { html, replace } from "./make.js";
+import { button, html, replace } from "./make.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
 import { showNoVerdict, showProvisional, showTable, showVerdict, withoutVerdicts } from "./results.js";
@@ -86,7 +86,7 @@ function open(next, isRestored) {
 function showErrors({ problems, is_alone: isAlone }) {
   const isLost = isAlone && problems.some(({ cell }) => cell); // a workbook, but no records
   showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
-  if (state) part("problems").querySelector("p").after(html("button", { type: "button", class: "button", on: { click: showDesk } }, `Back to ${state.project.name}`));
+  if (state) part("problems").querySelector("p").after(button(`Back to ${state.project.name}`, showDesk));
   part("problems").querySelector("h2").focus();
   part("desk").hidden = true;
   part("welcome").hidden = true;
@@ -207,7 +207,7 @@ function failAnswer(error, moving) {
 
 function fail(error, what = "Close", act = hideError) {
   const [label, action] = needsReload(error) ? ["Reload", reload] : [what, act];
-  replace(part("error"), html("p", {}, error.message), html("button", { type: "button", class: "button", on: { click: action } }, label));
+  replace(part("error"), html("p", {}, error.message), button(label, action));
   part("error").hidden = false;
 }
 

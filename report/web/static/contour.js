@@ -1,11 +1,11 @@
 // Contours of the mean PRD over friction and slope, with the arrays, and the value at a point.
 
-import { html, points, replace, set, svg } from "./make.js";
+import { html, note, points, replace, set, svg } from "./make.js";
 import { isFree } from "./place.js";
 import { measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
-import { createView, notes, onKeys } from "./view-frame.js";
+import { createView, onKeys } from "./view-frame.js";
 import { cross, pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
 
 const HEIGHT = 370;
@@ -67,7 +67,7 @@ function build(element, data) {
     html("p", { class: "contour-reading" }, html("strong", {}, data.texts.here), where),
     plot,
     html("p", { class: "note", id: "contour-keys" }, "Point, or use the arrow keys: to the next computed value, with Shift a tenth of that, Home back to the array."),
-    notes(data),
+    note(data.texts.notes.join(" ")),
   );
   resize();
   return { resize, stop() {} };

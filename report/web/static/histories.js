@@ -1,9 +1,9 @@
 // Histories of one run: roof acceleration and velocity, relative displacement, normal force.
 
-import { html, replace } from "./make.js";
+import { button, html, note, replace } from "./make.js";
 import { measured } from "./reading.js";
 import { within } from "./view-axes.js";
-import { button, createView, notes, onKeys, runSelect } from "./view-frame.js";
+import { createView, onKeys, runSelect } from "./view-frame.js";
 import { createPanels } from "./view-panels.js";
 import { pointerIn } from "./view-parts.js";
 import { panelOf } from "./view-series.js";
@@ -49,7 +49,7 @@ function build(element, data, again, announce) {
     html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run })), buttons.element, where),
     stage,
     html("p", { class: "note", id: "histories-keys" }, KEYS),
-    notes(data),
+    note(texts.notes.join(" ")),
   );
   resize();
   lens.reset();
@@ -113,12 +113,16 @@ function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
   };
 }
 
+function named(label, name, key, click) {
+  return button(label, click, { "aria-label": name, title: `${name} (${key})` });
+}
+
 function zoomButtons(lens) {
-  const closer = button("+", "Zoom in (+)", () => lens.zoom(ZOOM), { "aria-label": "Zoom in" });
-  const out = button("−", "Zoom out (−)", () => lens.zoom(1 / ZOOM), { "aria-label": "Zoom out" });
-  const earlier = button("‹", "Earlier (Shift + Left)", () => lens.pan(-PAN), { "aria-label": "Earlier" });
-  const later = button("›", "Later (Shift + Right)", () => lens.pan(PAN), { "aria-label": "Later" });
-  const all = button("All", "Whole record (0)", lens.reset, { "aria-label": "Whole record" });
+  const closer = named("+", "Zoom in", "+", () => lens.zoom(ZOOM));
+  const out = named("−", "Zoom out", "−", () => lens.zoom(1 / ZOOM));
+  const earlier = named("‹", "Earlier", "Shift + Left", () => lens.pan(-PAN));
+  const later = named("›", "Later", "Shift + Right", () => lens.pan(PAN));
+  const all = named("All", "Whole record", "0", lens.reset);
   return {
     element: html("div", { class: "keys" }, closer, out, earlier, later, all),
     follow({ isWhole, isFirst, isLast }) {

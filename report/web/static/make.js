@@ -12,6 +12,16 @@ export function svg(name, attributes, ...children) {
   return filled(document.createElementNS(SVG, name), attributes, children);
 }
 
+/** Make a button. */
+export function button(label, click, attributes = {}) {
+  return html("button", { type: "button", class: "button", on: { click }, ...attributes }, label);
+}
+
+/** Make a paragraph beside the matter, in small type. */
+export function note(text) {
+  return html("p", { class: "note" }, text);
+}
+
 /** Make the head of a table. */
 export function headings(texts, attributes = {}) {
   return html("thead", attributes, html("tr", {}, texts.map((text) => html("th", { scope: "col" }, text))));

@@ -1,10 +1,10 @@
 // Hodographs: the path of an array in plan under every motion, all at one scale.
 
-import { html, points, replace, set, svg } from "./make.js";
+import { html, note, points, replace, set, svg } from "./make.js";
 import { boxAround } from "./place.js";
 import { measured, reading } from "./reading.js";
 import { within } from "./view-axes.js";
-import { createView, notes, onKeys } from "./view-frame.js";
+import { createView, onKeys } from "./view-frame.js";
 import { arrow, cross, pointerIn, resize as sized, scaleBar } from "./view-parts.js";
 
 const LEAST_WIDE = 128; // of a panel
@@ -41,7 +41,7 @@ function build(element, data) {
     html("h3", { class: "view-title" }, data.texts.title),
     grid,
     html("div", { class: "paths-foot" }, bar, where),
-    notes(data),
+    note(data.texts.notes.join(" ")),
   );
   resize();
   return { resize, stop() {} };

@@ -17,7 +17,7 @@ const ARROW_PX = 6;
 export function mountPlan(element) {
   let latest = null;
   const draw = () => {
-    if (latest && element.clientWidth > 0) replace(element, drawing(latest, element.clientWidth, element.clientHeight));
+    if (latest && element.clientWidth > 2 * MARGIN_PX) replace(element, drawing(latest, element.clientWidth, element.clientHeight));
   };
   new ResizeObserver(draw).observe(element);
   return {

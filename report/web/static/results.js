@@ -1,6 +1,6 @@
 // The verdict, the arrays and the clearances, as the server words them.
 
-import { headings, html, replace, words } from "./make.js";
+import { button, headings, html, note, replace, words } from "./make.js";
 
 /** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
 function tag(verdict) {
@@ -29,12 +29,12 @@ function withoutTags({ rows, ...table }) {
 
 /** Show the verdict of a full answer. */
 export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
-  replace(element, line(tag(verdict), " ", text), aside(model), list(reasons.map((reason) => reason.text)));
+  replace(element, line(tag(verdict), " ", text), note(model), list(reasons.map((reason) => reason.text)));
 }
 
 /** Show what a provisional answer is; it has no verdict. */
 export function showProvisional(element, what, model) {
-  replace(element, line(tag({ look: "provisional", text: "Provisional" }), " ", what), aside(model));
+  replace(element, line(tag({ look: "provisional", text: "Provisional" }), " ", what), note(model));
 }
 
 /** Show that there is no verdict, and why, with the reasons of the server where it gave any. */
@@ -44,10 +44,6 @@ export function showNoVerdict(element, why, reasons) {
 
 function line(...parts) {
   return html("p", { class: "verdict-line" }, parts);
-}
-
-function aside(text) {
-  return html("p", { class: "note" }, text);
 }
 
 function list(reasons) {
@@ -62,8 +58,8 @@ function list(reasons) {
 export function showTable(element, { caption, heads, rows }, { named = 0, picked = null, pick = null } = {}) {
   // A new body keeps no focus: the button that had it gets it back.
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
-  const name = ({ text, note }) =>
-    html("th", { scope: "row" }, pick ? pickButton(text, text === picked, pick) : text, note ? html("small", {}, note) : null);
+  const name = ({ text, note: small }) =>
+    html("th", { scope: "row" }, pick ? pickButton(text, text === picked, pick) : text, small ? html("small", {}, small) : null);
   const row = (cells) =>
     html("tr", { class: cells[named].text === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
   replace(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
@@ -76,5 +72,5 @@ function value(cell) {
 }
 
 function pickButton(name, isPicked, pick) {
-  return html("button", { type: "button", class: "pick", "data-name": name, "aria-pressed": String(isPicked), on: { click: () => pick(name) } }, name);
+  return button(name, () => pick(name), { class: "pick", "data-name": name, "aria-pressed": String(isPicked) });
 }

@@ -1,9 +1,9 @@
 // Watch it slide: one run in time, with what plays it and what tells of its slips.
 
-import { html, replace } from "./make.js";
+import { button, html, note, replace } from "./make.js";
 import { measured } from "./reading.js";
 import { within } from "./view-axes.js";
-import { button, createView, notes, onKeys, runSelect } from "./view-frame.js";
+import { createView, onKeys, runSelect } from "./view-frame.js";
 import { createPlayer } from "./view-player.js";
 import { lastUpTo } from "./view-series.js";
 import { createStage } from "./view-stage.js";
@@ -68,7 +68,7 @@ function build(element, data, again, { announce, settings }) {
     stage.element,
     html("div", { class: "player" }, parts.play, parts.back, parts.next, speeds.element, parts.scrub, parts.clock),
     html("p", { class: "note", id: "slide-keys" }, KEYS),
-    notes(data),
+    note(texts.notes.join(" ")),
   );
   resize();
   player.seek(data.t_prd_s ?? 0);
@@ -94,9 +94,9 @@ function createSlips({ slips, texts }) {
 
 function controls(player, { data: { seconds, units }, before, after }) {
   const said = (time) => measured(time, units.time[0]);
-  const play = button("Play", "Play or pause (Space)", player.toggle, { class: "button primary play" });
-  const back = button("‹ Slip", "Slip before (P)", before, { "aria-label": "Slip before" });
-  const next = button("Slip ›", "Next slip (N)", after, { "aria-label": "Next slip" });
+  const play = button("Play", player.toggle, { title: "Play or pause (Space)", class: "button primary play" });
+  const back = button("‹ Slip", before, { title: "Slip before (P)", "aria-label": "Slip before" });
+  const next = button("Slip ›", after, { title: "Next slip (N)", "aria-label": "Next slip" });
   const scrub = html("input", { type: "range", class: "scrub", min: 0, max: seconds, step: STEP_S, "aria-label": "Time", on: { input: ({ target }) => player.seek(Number(target.value)) } });
   const clock = html("span", { class: "numbers clock" });
   return {

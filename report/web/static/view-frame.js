@@ -1,7 +1,7 @@
 // What all views share: ask, draw, draw again in another size, and say what went wrong.
 
 import { needsReload, reload } from "./api.js";
-import { html, replace } from "./make.js";
+import { button, html, note, replace } from "./make.js";
 
 /**
  * Return a view of a scene, which is what it asks with: `fetch(request)` returns the answer, and
@@ -29,7 +29,7 @@ export function createView(element, scene, fetch, build) {
     drawing?.stop();
     element.setAttribute("aria-busy", "true");
     if (drawing) element.classList.add("is-stale");
-    else replace(element, html("p", { class: "note" }, "Calculating …"));
+    else replace(element, note("Calculating …"));
     try {
       const data = await fetch(request);
       if (data === null) return;
@@ -39,7 +39,7 @@ export function createView(element, scene, fetch, build) {
       shown = key;
     } catch (error) {
       drawing = null;
-      const remedy = needsReload(error) ? button("Reload", "Load the page again", reload) : null;
+      const remedy = needsReload(error) ? button("Reload", reload, { title: "Load the page again" }) : null;
       replace(element, html("p", { role: "alert" }, error.message), remedy);
     }
     element.classList.toggle("is-stale", isMoving);
@@ -80,16 +80,6 @@ function onWidth(element, changed) {
 export function runSelect(data, chosen) {
   const options = data.runs.map(({ name, label }) => html("option", { value: name, selected: name === data.run }, label));
   return html("label", { class: "field" }, "Run ", html("select", { on: { change: ({ target }) => chosen(target.value) } }, options));
-}
-
-/** Return what a view says below its drawing. */
-export function notes({ texts }) {
-  return html("p", { class: "note" }, texts.notes.join(" "));
-}
-
-/** Return a button of a view; `title` names its key. */
-export function button(label, title, click, attributes = {}) {
-  return html("button", { type: "button", class: "button", title, on: { click }, ...attributes }, label);
 }
 
 /** Have an element, not what is in it, answer keys: `keys` are functions of the event by key. */
