@@ -6,7 +6,6 @@ Points are in plan [m], y upward. Reads finished numbers; the package draws the 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -14,12 +13,12 @@ from report.assessment.envelopes import design_envelope
 from report.assessment.neighbors import EDGES
 from report.assessment.plan_gaps import PlanGap, plan_gaps
 from report.assessment.project import Assessment
-from report.entities.clearance import ClearanceResult
+from report.entities.clearance import ClearanceResult, callout
 from report.entities.columns import UnitFormat
 from report.sheet.schema import ObjectKind, ProjectInput, Shape
 from report.sheet.shapes import Point, around, label_point
 from report.web.tables import Cell, ShowVerdict
-from report.words.units import Quantity, compared, round_below
+from report.words.units import Quantity, round_below
 
 NO_VALUE = "no value"
 """In place of a length that no run gives: nothing is required only where it is zero."""
@@ -90,18 +89,11 @@ def _sentence(row: ClearanceResult, fmt: UnitFormat) -> str:
 
 def _gap(gap: PlanGap, fmt: UnitFormat, verdict: ShowVerdict) -> Mapping[str, Any]:
     start, end = gap.ends
-    show_required, show_provided = compared(gap.required_m, gap.provided_m)
-    provided = fmt.short(gap.provided_m, show=show_provided)
-    required = fmt.short(gap.required_m, show=show_required)
-    mark = "" if math.isnan(gap.required_m) else gap.mark
     return {
         "number": f"{gap.number}" if gap.is_given else None,
         "from": _point(start),
         "to": _point(end),
-        "lines": [
-            f"{'provided' if gap.is_given else 'not given; in plan'} {provided}",
-            f"required {required}{mark}",
-        ],
+        "lines": callout(gap, fmt),
         "verdict": verdict(gap.verdict),
     }
 

@@ -57,7 +57,7 @@ def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     designs = {item.id: {"text": ""} for item in done.arrays}
     gap = plan(done, designs, (), UnitFormat(us_first=True), stamp)["gaps"][-1]
     assert (gap["number"], gap["verdict"]["text"]) == (None, "NG")
-    assert gap["lines"] == ["not given; in plan 12.0 in", "required 40.8 in"]
+    assert gap["lines"] == ("not given; in plan 12.0 in", "required 40.8 in")
 
 
 def test_a_parapet_says_where_it_does_not_qualify(done):
