@@ -5,13 +5,16 @@ Computes nothing: see `report.assessment.clearances`. Read `ClearanceResult`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.plan_gaps import PlanGap
 from report.assessment.verdict import Verdict
+from report.entities.columns import UnitFormat
 from report.entities.marks import Marked, joined
 from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
 from report.sheet.schema import Direction
@@ -71,3 +74,15 @@ def clearance_results(
             },
             rounds={"required_m": required, "provided_m": provided},
         )
+
+
+def callout(gap: PlanGap, fmt: UnitFormat) -> tuple[str, str]:
+    """Return what a plan says of a gap: provided and required, in the preferred system."""
+    show_required, show_provided = compared(gap.required_m, gap.provided_m)
+    provided = fmt.short(gap.provided_m, show=show_provided)
+    required = fmt.short(gap.required_m, show=show_required)
+    mark = "" if math.isnan(gap.required_m) else gap.mark
+    return (
+        f"{'provided' if gap.is_given else 'not given; in plan'} {provided}",
+        f"required {required}{mark}",
+    )

@@ -1,9 +1,14 @@
-"""Round levels of contours. Loads no plotting library."""
+"""Round levels of contours, and the dots of the arrays. Loads no plotting library."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from report.assessment.arrays import ArrayAssessment
+from report.assessment.uncertainty import ResponseSurface
 
 LEAST_M = 1e-4
 """Displacement below which no contour is drawn [m]."""
@@ -21,6 +26,31 @@ def levels(mean: Sequence[float]) -> list[float]:
         if len(inside) <= MOST_LEVELS:
             break
     return inside
+
+
+def drawn_levels(surface: ResponseSurface, unit_m: float) -> list[float]:
+    """Return the levels that are drawn of a grid, in a unit; none where nothing slides."""
+    if not (surface.mean_m > 0.0).any():
+        return []
+    mean = np.maximum(surface.mean_m, LEAST_M) / unit_m
+    return levels(mean[~np.isnan(mean)].tolist())
+
+
+def dots(
+    surface: ResponseSurface, arrays: Sequence[ArrayAssessment]
+) -> Mapping[tuple[float, float], Sequence[str]]:
+    """Return the arrays at each friction and slope [deg] of a grid: equal ones share a dot."""
+    places: dict[tuple[float, float], list[str]] = {}
+    for array in (array for array in arrays if array.id not in surface.others):
+        place = (round(array.array.mu, 3), round(math.degrees(array.array.slope_rad), 2))
+        places.setdefault(place, []).append(array.id)
+    return places
+
+
+def dot_name(ids: Sequence[str]) -> str:
+    """Return the name of a dot that arrays share."""
+    more = f" and {len(ids) - 2} more" if len(ids) > 2 else ""
+    return ", ".join(ids[:2]) + more
 
 
 def is_decade(level: float) -> bool:

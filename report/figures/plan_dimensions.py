@@ -5,16 +5,16 @@ Read `report.figures.plan` first.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
+from report.entities.clearance import callout
+from report.entities.columns import UnitFormat
 from report.figures.base import GRAY, INK
 from report.figures.labels import Frame
 from report.figures.paper_plan import PAD_IN, text_size
 from report.figures.plan_key import FAILED, gap_line, ng_box, ng_size
 from report.figures.plan_sheet import Gap, PlanSheet
 from report.sheet.shapes import between
-from report.words.units import compared
 
 RADIUS_IN = 0.1
 
@@ -31,14 +31,8 @@ def draw_gap(plan: PlanSheet, gap: Gap) -> None:
 
 def draw_callout(plan: PlanSheet, gap: Gap) -> None:
     """Label a gap: number, provided and required separation; the number if tight."""
-    provided, required = gap.of.provided_m, gap.of.required_m
-    show_required, show_provided = compared(required, provided)
-    needed = (
-        "no value" if math.isnan(required) else plan.first(required, show_required) + gap.of.mark
-    )
-    shown_as = "provided" if gap.of.is_given else "not given; in plan"
-    lines = [f"{shown_as} {plan.first(provided, show_provided)}", f"required {needed}"]
-    for shown in (lines, []) if plan.size.is_full else ([],):
+    lines = callout(gap.of, UnitFormat(us_first=plan.us_first, none="no value"))
+    for shown in (lines, ()) if plan.size.is_full else ((),):
         wide, tall = text_size(shown) if shown else (0.0, 2 * RADIUS_IN)
         mark = ng_size()[0] + PAD_IN if gap.of.is_ng else 0.0
         label = plan.paper.placer.place(

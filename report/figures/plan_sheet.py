@@ -17,7 +17,7 @@ from report.figures.paper_plan import PlanPaper, text_size
 from report.figures.plan_key import EDGES, FILLS
 from report.sheet.schema import ObjectKind, RoofObject, Shape
 from report.sheet.shapes import Point, room
-from report.words.units import Quantity, Show, measured, pair
+from report.words.units import Quantity, measured, pair
 
 LEADER_IN = 1.5  # farthest label
 
@@ -131,10 +131,10 @@ class PlanSheet:
         """Return a length in both systems of units."""
         return pair(value_m, Quantity.SIZE, self.us_first)
 
-    def first(self, value_m: float, show: Show = measured) -> str:
+    def first(self, value_m: float) -> str:
         """Return a length in the first system of units."""
         unit = Quantity.SIZE.us if self.us_first else Quantity.SIZE.si
-        return f"{show(value_m, unit)} {unit.symbol}"
+        return f"{measured(value_m, unit)} {unit.symbol}"
 
     def leader(self, start: Point, label: Frame) -> None:
         """Draw a line from a point to the nearest point of a label."""

@@ -6,7 +6,7 @@ Computes only the layout; legible in gray: black lines with their values on them
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,7 +15,7 @@ from matplotlib.ticker import FuncFormatter
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.uncertainty import ResponseSurface
 from report.figures.base import GRAY, INK, bare, framed, style, svg_text, tick_text
-from report.figures.levels import LEAST_M, is_decade, levels
+from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
 from report.memoized import memoized
 from report.words.units import Quantity
 from solver.model import Floats
@@ -35,9 +35,8 @@ def contours(surface: ResponseSurface, arrays: Sequence[ArrayAssessment], us_fir
         lost = np.isnan(mean)
         axes.plot(grid_mu[~lost], grid_deg[~lost], "+", color=GRAY, markersize=3.5)
         axes.plot(grid_mu[lost], grid_deg[lost], "x", color=INK, markersize=6)
-        _lines(axes, surface, mean)
-        alike = [array for array in arrays if array.id not in surface.others]
-        for (mu, slope), names in _places(alike).items():
+        _lines(axes, surface, mean, unit.si)
+        for (mu, slope), names in dots(surface, arrays).items():
             axes.plot([mu], [slope], "o", color=INK, markersize=7, zorder=5)
             _name(axes, mu, slope, names)
         axes.set_xlabel("Friction coefficient μ at low velocity", fontsize=TYPE_PT)
@@ -56,11 +55,8 @@ def _edges(limit: Callable[[float, float], object], values: Floats, share: float
     limit(values[0] - room, values[-1] + room)
 
 
-def _lines(axes: Axes, surface: ResponseSurface, mean: Floats) -> None:
-    seen = mean[~np.isnan(mean)]
-    if not seen.size:
-        return
-    drawn = levels(seen.tolist())
+def _lines(axes: Axes, surface: ResponseSurface, mean: Floats, unit_m: float) -> None:
+    drawn = drawn_levels(surface, unit_m)
     if not drawn:
         return
     # Contours of the logarithm: displacements grow by factors over friction and slope.
@@ -78,19 +74,9 @@ def _lines(axes: Axes, surface: ResponseSurface, mean: Floats) -> None:
         label.set(zorder=4, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3})
 
 
-def _places(arrays: Sequence[ArrayAssessment]) -> Mapping[tuple[float, float], Sequence[str]]:
-    """Return the names of the arrays at each friction and slope [deg]: equal ones share a dot."""
-    places: dict[tuple[float, float], list[str]] = {}
-    for array in arrays:
-        place = (round(array.array.mu, 3), round(math.degrees(array.array.slope_rad), 2))
-        places.setdefault(place, []).append(array.id)
-    return places
-
-
 def _name(axes: Axes, mu: float, degrees: float, names: Sequence[str]) -> None:
-    more = f" and {len(names) - 2} more" if len(names) > 2 else ""
     axes.annotate(
-        ", ".join(map(tick_text, names[:2])) + more,
+        dot_name(list(map(tick_text, names))),
         (mu, degrees),
         (7, 5),
         textcoords="offset points",

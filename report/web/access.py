@@ -30,7 +30,6 @@ HEADERS = {
     "Cache-Control": "no-store",
 }
 _NO_SESSION = "Open the address that roofslip serve printed, with its token."
-_SAFE_METHODS = ("GET", "HEAD")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,7 +87,7 @@ class Access:
         host = headers.get("host", "")
         if self._gate.hosts and host not in self._gate.hosts:
             return PlainTextResponse("This server does not answer to that name.", 421)
-        if scope["method"] not in _SAFE_METHODS and not _is_of_same_origin(scope, headers):
+        if scope["method"] not in ("GET", "HEAD") and not _is_of_same_origin(scope, headers):
             return JSONResponse({"error": "A request of another site is not answered."}, 403)
         token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
         session = self._sessions.find(_cookie(headers, self._gate.cookie))

@@ -6,10 +6,11 @@ Computes nothing: every number and verdict is that of `report.assessment`. Read 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
-from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
+from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
@@ -18,13 +19,16 @@ from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
-from report.entities.shown import Entity
 from report.pages.front import verdict_sentence
 from report.pages.registry import package_data
 from report.pages.summary import attention
 from report.web.plan import NO_VALUE, plan
+from report.web.tables import Cell, cells, heads, stamp
 
 ONE_AXIS, FULL = "one axis", "full"
+
+_ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
+_CLEARANCE = "count array provided_m required_m demand_capacity verdict"
 
 _PROVISIONAL = (
     "Provisional: each motion in one axis with vertical, in the orientation that governs at the "
@@ -37,71 +41,86 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
     """Return what the page shows; values that are provisional have no verdict."""
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = UnitFormat(us_first=marked.fmt.us_first, none=NO_VALUE)
-    gaps = dict(enumerate(assessment.clearances))
+    arrays = list(array_results(marked))
+    gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
+    designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
 
-    def verdict(found: Verdict) -> str | None:
-        return None if is_provisional else found.word
+    def verdict(found: Verdict, text: str = "") -> Cell | None:
+        return None if is_provisional else stamp(found, text)
 
-    def array(item: ArrayResult, assessed: ArrayAssessment) -> Mapping[str, Any]:
-        is_refused = item.is_refused and not is_provisional
-        return {
-            "id": item.id,
-            **_lengths(item, ("mean_prd", "largest_prd", "design", "prescriptive"), fmt),
-            **({"design_m": None, "design_short": NOT_PERMITTED} if is_refused else {}),
-            "source": _source(item, is_provisional),
-            "verdict": verdict(item.verdict),
-            "bars": [_bar(run, fmt) for run in assessed.motions],
-        }
-
-    def clearance(item: ClearanceResult) -> Mapping[str, Any]:
-        return {
-            **item.model_dump(include={"array", "object", "direction"}),
-            **_lengths(item, ("provided", "required"), fmt),
-            "ratio": finite(item.demand_capacity),
-            "ratio_text": item.both("demand_capacity", fmt),
-            "verdict": verdict(item.verdict),
-        }
-
-    rows = list(clearance_results(marked, gaps))
     return {
         "model": ONE_AXIS if is_provisional else FULL,
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
-        "is_provisional": is_provisional,
-        "verdict": None if is_provisional else assessment.verdict.value,
+        "verdict": verdict(assessment.verdict, assessment.verdict.value),
         "verdict_text": None if is_provisional else verdict_sentence(package_data(assessment)),
-        "reasons": [] if is_provisional else reasons(assessment),
-        "scale_m": _scale_m(assessment),
-        "arrays": list(map(array, array_results(marked), assessment.arrays)),
-        "clearances": list(map(clearance, rows)),
-        "plan": plan(assessment, rows, fmt, verdict),
+        "reasons": [] if is_provisional else list(map(asdict, attention(assessment))),
+        "arrays": {
+            "caption": "Arrays: displacement",
+            "heads": heads(ArrayResult, _ARRAY, mean_prd_m="Mean PRD"),
+            "rows": [
+                cells(item, _ARRAY, fmt, design_m=designs[item.id], verdict=verdict(item.verdict))
+                for item in arrays
+            ],
+        },
+        "clearances": {
+            "caption": "Clearances",
+            "heads": heads(ClearanceResult, _CLEARANCE, array="From, to"),
+            "rows": [
+                cells(gap, _CLEARANCE, fmt, array=_between(gap), verdict=verdict(gap.verdict))
+                for gap in gaps
+            ],
+        },
+        "bars": {
+            "heads": ["Motion", "Bar", "PRD"],
+            "scale_m": _scale_m(assessment),
+            "arrays": {
+                item.id: _bars(item, assessed.motions, fmt, designs[item.id])
+                for item, assessed in zip(arrays, assessment.arrays, strict=True)
+            },
+        },
+        "plan": plan(assessment, designs, gaps, fmt, verdict),
     }
 
 
-def _lengths(item: Entity, names: Sequence[str], fmt: UnitFormat) -> dict[str, Any]:
-    """Return displacements and sizes: the numbers, in both systems of units, and in one."""
-    return {
-        **{f"{name}_m": finite(getattr(item, f"{name}_m")) for name in names},
-        **{name: item.both(f"{name}_m", fmt) for name in names},
-        **{f"{name}_short": item.short(f"{name}_m", fmt) for name in names},
-    }
-
-
-def _source(item: ArrayResult, is_provisional: bool) -> str:
-    """Return what governs, if anything; while values are provisional, not whether it may."""
+def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:
+    """Return the design displacement and what governs; while provisional, not whether it may."""
     if math.isnan(item.design_m):
-        return ""
-    return item.design_governs.value if is_provisional else item.source
+        return {"text": fmt.none}
+    text, both = item.short("design_m", fmt), item.both("design_m", fmt)
+    if is_provisional:
+        return {"text": text, "title": f"{both}, {item.design_governs.value}"}
+    return {"text": NOT_PERMITTED if item.is_refused else text, "title": f"{both}, {item.source}"}
 
 
-def _bar(run: MotionRun, fmt: UnitFormat) -> Mapping[str, Any]:
-    prd_m = run.governing.prd_m
-    return {
-        "motion": run.motion.id,
-        "prd_m": finite(prd_m),
-        "text": fmt.both(prd_m),
-        "short": fmt.short(prd_m),
+def _between(gap: ClearanceResult) -> Cell:
+    return {"text": f"{gap.array} to {gap.object}", "note": gap.direction.value}
+
+
+def _bars(
+    item: ArrayResult, motions: Sequence[MotionRun], fmt: UnitFormat, design: Cell
+) -> Mapping[str, Any]:
+    """Return the PRD of each motion, and the lengths that are lines across its bars."""
+    design_m = math.nan if design["text"] == NOT_PERMITTED else item.design_m
+    lines = {
+        "design": (design_m, design["text"]),
+        "prescriptive": (item.prescriptive_m, item.short("prescriptive_m", fmt)),
     }
+    return {
+        "caption": f"PRD of {item.id} by motion",
+        "lines": [
+            {"look": name, "length_m": finite(value_m), "text": f"{name} {text}"}
+            for name, (value_m, text) in lines.items()
+        ],
+        "rows": [
+            {"motion": run.motion.id, "prd_m": finite(prd_m), "text": fmt.short(prd_m)}
+            for run, prd_m in zip(motions, _prds_m(motions), strict=True)
+        ],
+    }
+
+
+def _prds_m(motions: Sequence[MotionRun]) -> list[float]:
+    return [run.governing.prd_m for run in motions]
 
 
 def _whole(assessment: Assessment) -> str:
@@ -111,11 +130,6 @@ def _whole(assessment: Assessment) -> str:
     return f"Full model, as in the package. Models of the runs: {names}."
 
 
-def reasons(assessment: Assessment) -> list[dict[str, str]]:
-    """Return what needs attention, as `roofslip report` prints it."""
-    return [{"level": line.level, "text": line.text} for line in attention(assessment)]
-
-
 def finite(value: float) -> float | None:
     """Return a number, or none for NaN and infinity, which JSON does not have."""
     return value if math.isfinite(value) else None
@@ -123,10 +137,9 @@ def finite(value: float) -> float | None:
 
 def _scale_m(assessment: Assessment) -> float:
     """Return the largest length that the bars show [m]."""
-    return max(filter(math.isfinite, _drawn(assessment.arrays)), default=0.0)
-
-
-def _drawn(arrays: Sequence[ArrayAssessment]) -> Iterator[float]:
-    for item in arrays:
-        yield from (item.design_m, item.prescriptive.value_m)
-        yield from (run.governing.prd_m for run in item.motions)
+    lengths = [
+        length_m
+        for item in assessment.arrays
+        for length_m in (item.design_m, item.prescriptive.value_m, *_prds_m(item.motions))
+    ]
+    return max(filter(math.isfinite, lengths), default=0.0)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import asyncio
 import mimetypes
 import os
-from collections.abc import AsyncIterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -89,19 +89,20 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             InputError: _refused,
             RefusedError: _refused,
             StaleError: _stale,
-            LostError: _lost,
-            OtherProjectError: _other_project,
+            LostError: _told(503, "The process that computes has ended. Try it again."),
+            OtherProjectError: _told(
+                412, "Another project was opened in another tab; reload the page to see it."
+            ),
             HTTPException: _failed,
-            ClientDisconnect: _left,
+            ClientDisconnect: _told(400, "The request did not arrive whole."),
             OSError: _not_written,
         },
         lifespan=lifespan,
     )
 
 
-_VIEWS = {"slide": ("array", "motion", "run"), "contour": ("array",), "paths": ("array",)}
-"""Views, each with what names its subject."""
-_NEEDED = ("array", "motion")
+_VIEWS = {"slide": ("array", "motion"), "contour": ("array",), "paths": ("array",)}
+"""Views, each with what must be named; a run may be."""
 
 
 async def _clean(desk: Desk) -> None:
@@ -170,18 +171,16 @@ async def _assess(request: Request) -> Response:
     asked = await receive_json(request)
     job = {"do": "assess", "values": asked["values"], "moving": bool(asked.get("moving"))}
     rank = Rank.MOVING if job["moving"] else Rank.AT_REST
-    found = await desk_of(request).ask(session_of(request), job, rank, asked)
-    return JSONResponse({"n": asked["n"], **found})
+    return JSONResponse(await desk_of(request).ask(session_of(request), job, rank, asked))
 
 
 async def _view(request: Request) -> Response:
     asked = await receive_json(request)
     kind = request.url.path.rpartition("/")[2]
-    missing = [name for name in _NEEDED if name in _VIEWS[kind] and asked.get(name) is None]
-    if missing:
+    if missing := [name for name in _VIEWS[kind] if asked.get(name) is None]:
         raise InputError(f"the request lacks {' and '.join(missing)}; name what is to be shown")
     job = {"do": kind, "values": asked["values"]}
-    job |= {name: str(asked[name]) for name in _VIEWS[kind] if asked.get(name) is not None}
+    job |= {k: str(asked[k]) for k in (*_VIEWS[kind], "run") if asked.get(k) is not None}
     return JSONResponse(await desk_of(request).ask(session_of(request), job, Rank.VIEW, asked))
 
 
@@ -191,26 +190,23 @@ async def _refused(_: Request, error: Exception) -> Response:
     return _error(str(error).partition("\n")[0], 422)
 
 
+def _told(status: int, sentence: str) -> Callable[[Request, Exception], Awaitable[Response]]:
+    """Return what answers an error with what it says, or with a sentence where it says nothing."""
+
+    async def handle(_: Request, error: Exception) -> Response:
+        return _error(str(error) or sentence, status)
+
+    return handle
+
+
 async def _stale(_: Request, __: Exception) -> Response:
     return JSONResponse({"stale": True}, 409)
-
-
-async def _lost(_: Request, error: Exception) -> Response:
-    return _error(str(error) or "The process that computes has ended. Try it again.", 503)
-
-
-async def _other_project(_: Request, __: Exception) -> Response:
-    return _error("Another project was opened in another tab; reload the page to see it.", 412)
 
 
 async def _not_written(_: Request, error: Exception) -> Response:
     if not is_full(error):
         raise error
     return _error(FULL, 507)
-
-
-async def _left(_: Request, __: Exception) -> Response:
-    return _error("The request did not arrive whole.", 400)
 
 
 async def _failed(_: Request, error: Exception) -> Response:

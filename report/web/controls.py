@@ -17,14 +17,7 @@ from report.sheet.read import Sheet
 from report.sheet.schema import SIDES, Array, Polarity, ProjectInput, RuleSetName
 from report.sheet.what_if import retyped
 from report.web.opened import Opened
-from report.web.values import (
-    MUS,
-    SHORT_PERIOD,
-    Values,
-    trim_unit_m,
-    trimmed,
-    typed,
-)
+from report.web.values import MUS, SHORT_PERIOD, Values, trim_unit_m, trimmed, typed
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import MOST_MU
 from solver.model import InputError, Motion
@@ -111,7 +104,7 @@ def _slider(
     least, greatest, step = span
     return {
         "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
-        "step": step, "value": start, "typed": start, "help": words, "stops": {},
+        "step": step, "typed": start, "help": words, "stops": {},
     }  # fmt: skip
 
 
@@ -190,7 +183,6 @@ def _choice(
         "id": name,
         "label": label,
         "options": [{"value": v, "label": text, "why_not": ""} for v, text in options.items()],
-        "value": start,
         "typed": start,
         "help": words,
     }

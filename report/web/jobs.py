@@ -21,7 +21,7 @@ from report.web.controls import check, controls, shown
 from report.web.opened import Opened, opened, with_values
 from report.web.problems import problems
 from report.web.values import Values, typed
-from solver.model import InputError, Motion
+from solver.model import InputError
 
 KEPT_PROJECTS, KEPT_ANSWERS = 16, 8
 """Projects with their assessments that a process keeps, and assessments at other values."""
@@ -61,47 +61,33 @@ def state(workbook: Path, job: Json) -> Json:
     try:
         given = _open(workbook)
     except InputError as error:
-        return _nothing_but(problems(workbook, error))
+        return {"project": None, "problems": problems(workbook, error), "answer": None}
     answered = answer_at(workbook, {"values": {}, "moving": False})
-    project = given.sheet.project.project
     return {
         "project": {
-            "name": project.name,
+            "name": given.sheet.project.project.name,
             "sha256": given.sheet.sha256,
-            "units_first": project.units_first.value,
         },
         "problems": [],
         "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
         **controls(given),
         "views": {
             "arrays": [array.id for array in given.sheet.project.arrays],
-            "motions": [_motion(motion) for motion in given.shaking.motions],
+            "motions": [motion.id for motion in given.shaking.motions],
         },
-        "answer": {"n": 0, **answered},
-    }
-
-
-def _nothing_but(found: object) -> Json:
-    return {
-        "project": None,
-        "problems": found,
-        "warnings": [],
-        "sliders": [],
-        "choices": [],
-        "views": {"arrays": [], "motions": []},
-        "answer": None,
+        "answer": answered,
     }
 
 
 def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: of runs in one axis while a slider moves, else complete."""
     given = _at(workbook, job["values"])
-    if not job["moving"]:
-        whole = answer(_at_rest(workbook, job["values"]), is_provisional=False)
-        return {**whole, "shown": shown(given)}
-    start = replace(_at_rest(workbook, {}), sheet=given.sheet, shaking=given.shaking)
-    provisional = anticipate(start, given.sheet.project)
-    return {**answer(provisional, is_provisional=True), "shown": shown(given)}
+    if job["moving"]:
+        start = replace(_at_rest(workbook, {}), sheet=given.sheet, shaking=given.shaking)
+        found = anticipate(start, given.sheet.project)
+    else:
+        found = _at_rest(workbook, job["values"])
+    return {**answer(found, is_provisional=job["moving"]), "shown": shown(given)}
 
 
 def write(workbook: Path, job: Json) -> Json:
@@ -186,7 +172,3 @@ def _assessment(workbook: Path, key: str) -> Assessment:
 def _wider(values: Values) -> str:
     """Return values as JSON, with the clearances of the workbook."""
     return json.dumps({name: value for name, value in values.items() if name != _CLEARANCE})
-
-
-def _motion(motion: Motion) -> Json:
-    return {"id": motion.id, "runs": [orientation.name for orientation in motion.orientations]}

@@ -141,23 +141,24 @@ class Packages:
         return package if package is not None and package.owner == session.id else None
 
     def about(self, package: Package) -> Mapping[str, Any]:
-        """Return how far a package is; its place in the queue is 0 once it is begun."""
+        """Return how far a package is, or what became of it; no part while it waits in line."""
         queued = [each for each in self._all.values() if each.state is State.QUEUED]
+        is_queued = package in queued
         return {
             "ticket": package.ticket,
             "values": package.values,
             "state": package.state.value,
-            "place": queued.index(package) + 1 if package in queued else 0,
-            "stage": package.stage,
-            "part": package.step / (STEPS + 1) if package.state is not State.DONE else 1.0,
-            "message": package.message,
+            "words": f"In line, place {queued.index(package) + 1}"
+            if is_queued
+            else package.message or package.stage,
+            "part": None if is_queued else package.step / (STEPS + 1),
         }
 
     async def cancel(self, package: Package) -> None:
         """End a package, and the process that makes it."""
         if package.state.is_over:
             return
-        package.state, package.stage = State.CANCELED, "Canceled"
+        package.state, package.message = State.CANCELED, "The package was canceled."
         if package.process is not None:
             await _end(package.process)
 

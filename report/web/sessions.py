@@ -52,14 +52,11 @@ class Session:
     openings: int = 0
 
     @property
-    def is_example(self) -> bool:
-        """Whether the example is open."""
-        return self.workbook == EXAMPLE
-
-    @property
     def opened(self) -> str:
         """Name of what is open, which no other upload has."""
-        return "example" if self.is_example else self.workbook.relative_to(self.folder).parts[0]
+        if self.workbook == EXAMPLE:
+            return "example"
+        return self.workbook.relative_to(self.folder).parts[0]
 
     def check_opened(self, name: str) -> None:
         """Refuse a request of a page that has something else open.

@@ -12,7 +12,7 @@ import stat
 import unicodedata
 import zipfile
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path, PurePosixPath
 from typing import IO
 
@@ -78,8 +78,8 @@ class _Room:
             return
         if len(self.paths) >= MOST_FILES:
             raise InputError(f"more than {MOST_FILES} files; drop the workbook and its records")
-        self._check_spelling(path)
         target = self._folder.joinpath(*path.parts)
+        self._check_spelling(path, is_written=target in self.paths)
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
             with target.open("xb") as out:
@@ -94,16 +94,13 @@ class _Room:
             raise InputError(f"{name}: a file and a folder of one name; rename one") from error
         self.paths.append(target)
 
-    def _check_spelling(self, path: PurePosixPath) -> None:
+    def _check_spelling(self, path: PurePosixPath, *, is_written: bool) -> None:
         """Refuse a path that other systems would take for another one."""
         for part in (path, *path.parents):
             key = unicodedata.normalize("NFC", str(part)).casefold()
             first = self._spelled.setdefault(key, str(part))
-            if first != str(part) or (part == path and str(path) in map(str, self._written())):
+            if first != str(part) or (part == path and is_written):
                 raise InputError(f"{path}: the same name as {first} but for capitals; rename one")
-
-    def _written(self) -> Iterator[PurePosixPath]:
-        return (PurePosixPath(*p.relative_to(self._folder).parts) for p in self.paths)
 
     @staticmethod
     def _is_hidden(path: PurePosixPath) -> bool:

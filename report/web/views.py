@@ -7,40 +7,51 @@ are those of the package; a number that does not exist is None. Read `slide`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar
+from dataclasses import asdict
+from typing import Any, TypeVar
 
 import numpy as np
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import ResponseSurface, surface
-from report.figures.levels import LEAST_M, is_decade, levels
-from report.pages.uncertainty import dots
+from report.entities.columns import UnitFormat
+from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
+from report.pages.uncertainty import dots as dots_sentence
 from report.web.answers import finite
+from report.web.plan import NO_VALUE
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from report.web.thinning import Indices, beside, peaks_kept
-from report.words.units import G_MPS2, Quantity, Unit, measured, number, pair
-from solver.model import INCH_M, Event, Floats, InputError, Scene, SlideHistory, Status
+from report.words.units import G_MPS2, Unit, number
+from solver.model import INCH_M, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
 from solver.sliding import least_model
 
-Json = dict[str, object]
+Json = dict[str, Any]
 _T = TypeVar("_T")
 
 MOST_ON_TRACK = 1500  # of one direction, beside the events
 MOST_ON_PATH = 200  # of one direction; a path is drawn an inch or two wide
 
-_VELOCITY = (Unit("in/s", INCH_M, 1), Unit("mm/s", 1e-3, 0))
-_ONE_UNIT: Mapping[str, Unit] = {
-    "acceleration": Unit("g", G_MPS2, 2),
-    "normal": Unit("W", 1.0, 2),
-    "friction": Unit("", 1.0, 2),
-    "time": Unit("s", 1.0, 2),
-    "slope": Unit("deg", 1.0, 2),
+_TITLES = {
+    "acceleration": "Roof acceleration",
+    "velocity": "Roof velocity",
+    "relative": "Displacement relative to the roof",
+    "normal": "Normal force",
+    "friction": "Friction F / N",
 }
+_ACCELERATION = (Unit("g", G_MPS2, 2),)
+_VELOCITY = (Unit("in/s", INCH_M, 1), Unit("mm/s", 1e-3, 0))  # what fits above a panel
+_NORMAL = (Unit("W", 1.0, 2),)
+_RATIO = (Unit("", 1.0, 2),)
+_MU = (Unit("", 1.0, 3),)
+_SLOPE = (Unit("deg", 1.0, 2),)
+_TIME = (Unit("s", 1.0, 2),)
+_SAMPLE = (Unit("s", 1.0, 3),)
 
 
 def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None = None) -> Json:
@@ -56,20 +67,17 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
     InputError
         For an array, motion or run that the project does not have.
     """
-    item = _named("array", assessment.arrays, array_id, lambda one: one.array.id)
+    item, fmt = _array(assessment, array_id), _format(assessment)
     motion = _named("motion", item.motions, motion_id, lambda one: one.motion.id)
     chosen = motion.governing
     if run is not None:
         chosen = _named("run", motion.runs, run, lambda one: one.orientation.name)
-    us_first = _us_first(assessment)
     history = least_model.history(chosen.scene, chosen.solution)
     slips = slips_of(history)
     roof = _roof(chosen.scene)
     return {
-        "array": array_id,
-        "motion": motion_id,
         "run": chosen.orientation.name,
-        "runs": [_run_choice(motion, one, us_first) for one in motion.runs],
+        "runs": [_run_choice(motion, one, fmt) for one in motion.runs],
         "dt_s": chosen.scene.dt_s,
         "seconds": motion.seconds,
         "plan": {
@@ -77,15 +85,16 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
             "downslope_deg": item.array.downslope_deg,
         },
         "track": _track(history, roof, chosen.scene.dt_s),
-        "slips": [_slip(*slip, us_first) for slip in slips],
+        "slips": [_slip(k, slips, fmt) for k in range(len(slips))],
         "peak": _peak(history),
-        **_series(chosen, history, roof, slips),
+        **_panels(chosen, history, roof, slips, fmt),
         "prd_m": finite(history.result.prd_m),
         "t_prd_s": finite(history.result.t_prd_s),
-        "units": _units(us_first),
+        "units": {"time": _units(_TIME), "sample": _units(_SAMPLE)},
         "texts": {
             "title": f"Array {array_id}, motion {motion_id}, run {chosen.orientation.name}",
-            **_slide_texts(chosen, history, roof, us_first),
+            "relative": "Displacement",
+            **_slide_texts(chosen, history, roof, fmt),
         },
     }
 
@@ -98,35 +107,40 @@ def contour(assessment: Assessment, array_id: str) -> Json:
     InputError
         For an array that the project does not have.
     """
-    item = _named("array", assessment.arrays, array_id, lambda one: one.array.id)
-    us_first = _us_first(assessment)
+    item, fmt = _array(assessment, array_id), _format(assessment)
     with ThreadPoolExecutor(THREADS) as pool:
         found = surface(assessment, item, pool)
     row = int(np.argmin(np.abs(found.slopes_rad - item.array.slope_rad)))
     column = int(np.argmin(np.abs(found.mus - item.array.mu)))
+    here_m, unit = float(found.mean_m[row, column]), fmt.units()[0]
     return {
-        "array": array_id,
         "mus": found.mus.tolist(),
         "slopes_deg": np.degrees(found.slopes_rad).tolist(),
         "prd_m": [_numbers(means) for means in found.mean_m],
-        "levels": list(_levels(found, us_first)),
+        "levels": [
+            {
+                "prd_m": level * unit.si,
+                "text": f"{level:g} {unit.symbol}",
+                "is_major": is_decade(level),
+            }
+            for level in drawn_levels(found, unit.si)
+        ],
         "here": {
             "mu": item.array.mu,
             "slope_deg": math.degrees(item.array.slope_rad),
-            "prd_m": finite(float(found.mean_m[row, column])),
+            "prd_m": finite(here_m),
         },
-        "arrays": [
-            {
-                "id": one.array.id,
-                "mu": one.array.mu,
-                "slope_deg": math.degrees(one.array.slope_rad),
-            }
-            for one in assessment.arrays
-            if one.array.id not in found.others
+        "dots": [
+            {"mu": mu, "slope_deg": slope, "name": dot_name(ids), "is_shown": array_id in ids}
+            for (mu, slope), ids in dots(found, assessment.arrays).items()
         ],
         "least_m": LEAST_M,
-        "units": _units(us_first),
-        "texts": _contour_texts(found, float(found.mean_m[row, column]), us_first),
+        "units": {
+            "mu": _units(_MU),
+            "slope": _units(_SLOPE),
+            "displacement": _units(fmt.units()),
+        },
+        "texts": _contour_texts(found, here_m, fmt),
     }
 
 
@@ -138,18 +152,22 @@ def paths(assessment: Assessment, array_id: str) -> Json:
     InputError
         For an array that the project does not have.
     """
-    item = _named("array", assessment.arrays, array_id, lambda one: one.array.id)
-    us_first = _us_first(assessment)
+    item, fmt = _array(assessment, array_id), _format(assessment)
     return {
-        "array": array_id,
-        "paths": [_path(motion, us_first) for motion in item.motions],
-        "units": _units(us_first),
+        "paths": [_path(motion, fmt) for motion in item.motions],
+        "units": {"time": _units(_TIME), "displacement": _units(fmt.units())},
         "texts": {
             "title": f"Paths of array {array_id} in plan, all at one scale",
-            "caption": "Governing run of each motion, relative to the roof. A cross marks the "
-            "start, a dot the peak relative displacement (PRD).",
+            "notes": [
+                "Governing run of each motion, relative to the roof. A cross marks the start, a "
+                "dot the peak relative displacement (PRD)."
+            ],
         },
     }
+
+
+def _array(assessment: Assessment, wanted: str) -> ArrayAssessment:
+    return _named("array", assessment.arrays, wanted, lambda one: one.id)
 
 
 def _named(kind: str, items: Sequence[_T], wanted: str, name: Callable[[_T], str]) -> _T:
@@ -160,18 +178,16 @@ def _named(kind: str, items: Sequence[_T], wanted: str, name: Callable[[_T], str
     raise InputError(f"there is no {kind} '{wanted}'; choose one of {known}")
 
 
-def _us_first(assessment: Assessment) -> bool:
-    return assessment.project.project.units_first.is_us
+def _format(assessment: Assessment) -> UnitFormat:
+    us_first = assessment.project.project.units_first.is_us
+    return UnitFormat(us_first=us_first, none=NO_VALUE)
 
 
-def _run_choice(motion: MotionRun, run: OrientedRun, us_first: bool) -> Json:
-    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
-    label, prd_m = f"{_orientation(motion, run)}, no PRD", run.result.prd_m
-    if not math.isnan(prd_m):
-        governs = ", governing" if run is motion.governing else ""
-        prd = f"PRD {measured(prd_m, unit)} {unit.symbol}"
-        label = f"{_orientation(motion, run)}, {prd}{governs}"
-    return {"name": run.orientation.name, "label": label}
+def _run_choice(motion: MotionRun, run: OrientedRun, fmt: UnitFormat) -> Json:
+    prd_m = run.result.prd_m
+    governs = run is motion.governing and not math.isnan(prd_m)
+    label = f"{_orientation(motion, run)}, {_prd(prd_m, fmt.short)}"
+    return {"name": run.orientation.name, "label": label + (", governing" if governs else "")}
 
 
 def _orientation(motion: MotionRun, run: OrientedRun) -> str:
@@ -179,8 +195,8 @@ def _orientation(motion: MotionRun, run: OrientedRun) -> str:
     return run.orientation.name if motion.motion.has_transverse else run.orientation.name[-1]
 
 
-def _prd(prd_m: float, us_first: bool) -> str:
-    return "no PRD" if math.isnan(prd_m) else f"PRD {pair(prd_m, Quantity.DISPLACEMENT, us_first)}"
+def _prd(prd_m: float, said: Callable[[float], str]) -> str:
+    return "no PRD" if math.isnan(prd_m) else f"PRD {said(prd_m)}"
 
 
 def _roof(scene: Scene) -> tuple[Record, ...]:
@@ -188,7 +204,7 @@ def _roof(scene: Scene) -> tuple[Record, ...]:
     components = scene.ax_mps2, scene.ay_mps2, scene.az_mps2
     return tuple(
         Record(name=name, dt_s=scene.dt_s, a_mps2=scene.scale * a_mps2)
-        for name, a_mps2 in zip(("downslope", "cross-slope", "vertical"), components, strict=True)
+        for name, a_mps2 in zip(("down", "cross", "vertical"), components, strict=True)
         if a_mps2.size
     )
 
@@ -208,39 +224,44 @@ def _track(history: SlideHistory, roof: Sequence[Record], dt_s: float) -> Json:
     }
 
 
-def _series(
+def _panels(
     run: OrientedRun,
     history: SlideHistory,
     roof: Sequence[Record],
     slips: Sequence[Slip],
-) -> dict[str, object]:
+    fmt: UnitFormat,
+) -> Json:
     """Return the histories with all of their samples, so that every reading is right."""
-    relative = {"downslope": history.u_m}
+    relative = [_history("down", history.u_m)]
     if history.across_m.size:
-        relative["cross-slope"] = history.across_m
+        relative.append(_history("cross", history.across_m))
     normal, demand, used = run_forces(run, history, slips)
     i, with_used = with_jumps(run, used, history.events)
+    velocity = [_history(one.name, velocity_displacement(one)[0]) for one in roof]
+    friction = [_history("used", with_used) | {"i": i.tolist()}, _history("demand", demand)]
+    panels = {
+        "acceleration": (_ACCELERATION, [_history(one.name, one.a_mps2) for one in roof]),
+        "velocity": (_VELOCITY[:: 1 if fmt.us_first else -1], velocity),
+        "relative": (fmt.units(), relative),
+        "normal": (_NORMAL, [_history("N / W", normal)]),
+        "friction": (_RATIO, friction),
+    }
     return {
-        "acceleration": [_history(record.name, record.a_mps2) for record in roof],
-        "velocity": [_history(one.name, velocity_displacement(one)[0]) for one in roof],
-        "relative": [_history(name, values) for name, values in relative.items()],
-        "normal": [_history("normal force", normal)],
-        "friction": [
-            {"name": "used", "i": i.tolist(), "v": _numbers(with_used)},
-            _history("demand", demand),
-        ],
+        kind: {"title": _TITLES[kind], "units": _units(units), "series": series}
+        for kind, (units, series) in panels.items()
     }
 
 
-def _slip(begin: Event, end: Event, us_first: bool) -> Json:
+def _slip(k: int, slips: Sequence[Slip], fmt: UnitFormat) -> Json:
+    begin, end = slips[k]
     net_m = math.hypot(end.u_m - begin.u_m, end.across_m - begin.across_m)
-    moved = pair(net_m, Quantity.DISPLACEMENT, us_first)
-    text = f"{number(begin.t_s, 3)} s to {number(end.t_s, 3)} s, net {moved}"
+    when = f"{number(begin.t_s, 3)} s to {number(end.t_s, 3)} s"
+    text = f"Slip {k + 1} of {len(slips)}: {when}, net {fmt.both(net_m)}"
     return {"from_s": begin.t_s, "to_s": end.t_s, "text": text}
 
 
 def _peak(history: SlideHistory) -> Json | None:
-    """Return when and where the displacement is largest, between the samples beside it."""
+    """Return where the displacement is largest, between the samples beside it."""
     result = history.result
     if math.isnan(result.prd_m):
         return None
@@ -248,47 +269,37 @@ def _peak(history: SlideHistory) -> Json | None:
         float(np.interp(result.t_prd_s, history.t_s, values)) if values.size else 0.0
         for values in (history.u_m, history.across_m)
     )
-    return {"t_s": result.t_prd_s, "down_m": down, "across_m": across}
+    return {"down_m": down, "across_m": across}
 
 
 def _slide_texts(
-    run: OrientedRun, history: SlideHistory, roof: Sequence[Record], us_first: bool
+    run: OrientedRun, history: SlideHistory, roof: Sequence[Record], fmt: UnitFormat
 ) -> Json:
     result = history.result
     travel = max(float(np.abs(velocity_displacement(record)[1]).max()) for record in roof)
     when = "" if math.isnan(result.prd_m) else f" at {number(result.t_prd_s, 2)} s"
+    sentence = result.status.sentence
+    status = [] if result.status is Status.OK else [f"{sentence[0].upper()}{sentence[1:]}."]
     return {
-        "prd": f"{_prd(result.prd_m, us_first)}{when}",
-        "model": f"Model: {run.model}; {run.solution.reason}.",
-        "status": "" if result.status is Status.OK else _capitalized(result.status.sentence),
-        "roof": "Roof velocity and displacement are integrated from the acceleration as analyzed, "
-        "without baseline correction; the roof moves "
-        f"{pair(travel, Quantity.DISPLACEMENT, us_first)} at most.",
-        "axes": "Down is downslope; cross is cross-slope, positive to the left when facing "
-        "downslope.",
+        "prd": f"{_prd(result.prd_m, fmt.both)}{when}",
+        "no_slip": (status or ["The array does not slip in this run."])[0],
+        "notes": [
+            *status,
+            "Down is downslope; cross is cross-slope, positive to the left when facing downslope.",
+            f"Model: {run.model}; {run.solution.reason}.",
+            "Roof velocity and displacement are integrated from the acceleration as analyzed, "
+            f"without baseline correction; the roof moves {fmt.both(travel)} at most.",
+        ],
     }
 
 
-def _capitalized(sentence: str) -> str:
-    return f"{sentence[0].upper()}{sentence[1:]}."
-
-
-def _levels(found: ResponseSurface, us_first: bool) -> Iterator[Json]:
-    """Yield the contours that the package draws."""
-    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
-    mean = np.maximum(found.mean_m, LEAST_M) / unit.si
-    seen = mean[~np.isnan(mean)]
-    if not (found.mean_m > 0.0).any():
-        return
-    for level in levels(seen.tolist()):
-        text = f"{level:g} {unit.symbol}"
-        yield {"prd_m": level * unit.si, "text": text, "is_major": is_decade(level)}
-
-
-def _contour_texts(found: ResponseSurface, here_m: float, us_first: bool) -> Json:
+def _contour_texts(found: ResponseSurface, here_m: float, fmt: UnitFormat) -> Json:
     array, runs = found.array.array, len(found.array.motions)
     lost = int(np.isnan(found.mean_m).sum())
-    notes = []
+    notes = [
+        "Each motion in its governing heading. Crosses are computed points; contours and values "
+        "between them interpolate the logarithm."
+    ]
     if not lost and not (found.mean_m > 0.0).any():
         notes.append("Nothing slides on the whole grid: no contours are drawn.")
     if lost:
@@ -302,31 +313,24 @@ def _contour_texts(found: ResponseSurface, here_m: float, us_first: bool) -> Jso
             "of their record: their PRD is not final."
         )
     if found.others:
-        notes.append(dots(found))
+        notes.append(dots_sentence(found))
     return {
         "title": f"Mean PRD of {runs} motion{'s' if runs > 1 else ''} over friction and slope, "
         f"array {array.id}",
-        "here": f"{array.id}: {_mean(here_m, us_first)}",
-        "caption": "Each motion in its governing heading. Crosses are computed points; contours "
-        "and values between them interpolate the logarithm.",
+        "here": f"{array.id}: {'' if math.isnan(here_m) else 'mean PRD '}{fmt.both(here_m)}",
         "notes": notes,
         "x": "Friction coefficient μ at low velocity",
         "y": "Slope [deg]",
     }
 
 
-def _mean(mean_m: float, us_first: bool) -> str:
-    none = math.isnan(mean_m)
-    return "no value" if none else f"mean PRD {pair(mean_m, Quantity.DISPLACEMENT, us_first)}"
-
-
-def _path(motion: MotionRun, us_first: bool) -> Json:
+def _path(motion: MotionRun, fmt: UnitFormat) -> Json:
     """Return a path, to the right and up the page, as in the package."""
     run, history = motion.governing, motion.history()
     path: Json = {
         "motion": motion.motion.id,
         "run": _orientation(motion, run),
-        "prd": _prd(history.result.prd_m, us_first),
+        "prd": _prd(history.result.prd_m, fmt.both),
         "dt_s": run.scene.dt_s,
         "i": [],
         "x_m": [],
@@ -344,7 +348,7 @@ def _path(motion: MotionRun, us_first: bool) -> Json:
         "i": at.tolist(),
         "x_m": _at(x, at),
         "y_m": _at(y, at),
-        "peak": {"x_m": float(x[top]), "y_m": float(y[top]), "t_s": float(history.t_s[top])},
+        "peak": {"x_m": float(x[top]), "y_m": float(y[top])},
     }
 
 
@@ -360,12 +364,5 @@ def _numbers(values: Floats) -> list[float | None]:
     return [finite(value) for value in values.tolist()]
 
 
-def _units(us_first: bool) -> dict[str, list[Json]]:
-    """Return the units of each quantity, the preferred one first."""
-    both = {"displacement": Quantity.DISPLACEMENT.value, "velocity": _VELOCITY}
-    pairs = {name: units[:: 1 if us_first else -1] for name, units in both.items()}
-    alone = {name: (unit,) for name, unit in _ONE_UNIT.items()}
-    return {
-        name: [{"symbol": u.symbol, "si": u.si, "decimals": u.decimals} for u in units]
-        for name, units in (pairs | alone).items()
-    }
+def _units(units: Sequence[Unit]) -> list[Json]:
+    return [asdict(unit) for unit in units]

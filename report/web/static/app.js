@@ -4,10 +4,10 @@ import { createApi, isUnreached, needsReload, reload } from "./api.js";
 import { showBars } from "./bars.js";
 import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
-import { html, replace } from "./make.js";
+import { button, html, replace } from "./make.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { showArrays, showClearances, showNoVerdict, showProvisional, showVerdict, withoutVerdicts } from "./results.js";
+import { showNoVerdict, showProvisional, showTable, showVerdict, withoutVerdicts } from "./results.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
@@ -86,7 +86,7 @@ function open(next, isRestored) {
 function showErrors({ problems, is_alone: isAlone }) {
   const isLost = isAlone && problems.some(({ cell }) => cell); // a workbook, but no records
   showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
-  if (state) part("problems").querySelector("p").after(html("button", { type: "button", class: "button", on: { click: showDesk } }, `Back to ${state.project.name}`));
+  if (state) part("problems").querySelector("p").after(button(`Back to ${state.project.name}`, showDesk));
   part("problems").querySelector("h2").focus();
   part("desk").hidden = true;
   part("welcome").hidden = true;
@@ -121,17 +121,16 @@ function restore() {
   Object.assign(values, fromFragment(location.hash, sliders, choices));
   session.load(values);
   controls = mountSliders(part("controls"), state, values, session);
-  const isAnswered = state.answer && all.every(({ id, value }) => values[id] === value);
+  const isAnswered = state.answer && all.every(({ id, typed }) => values[id] === typed);
   if (isAnswered) show({ phase: "rest", answer: state.answer });
   else session.rest();
 }
 
 function fillSelects() {
-  const { arrays, motions } = state.views;
-  chosen.array = arrays[0];
-  chosen.motion = motions[0].id;
-  replace(part("array"), arrays.map((id) => html("option", { value: id }, id)));
-  replace(part("motion"), motions.map(({ id }) => html("option", { value: id }, id)));
+  for (const [key, ids] of Object.entries({ array: state.views.arrays, motion: state.views.motions })) {
+    chosen[key] = ids[0];
+    replace(part(key), ids.map((id) => html("option", { value: id }, id)));
+  }
 }
 
 // The session reports: a slider moves, the full model runs, or an answer came.
@@ -153,15 +152,14 @@ function showAnswer(next, values) {
   document.body.dataset.values = values;
   answer = next;
   controls.follow(answer.shown);
-  plan.show(answer);
-  showClearances(part("clearances"), answer.clearances);
+  plan.show(answer.plan);
+  showTable(part("clearances"), answer.clearances, { named: 1 });
   showPicked();
 }
 
 function showPicked() {
-  const array = answer.arrays.find(({ id }) => id === chosen.array);
-  showArrays(part("arrays"), answer.arrays, chosen.array, (id) => choose({ array: id }));
-  if (array) showBars(part("bars"), array, answer.scale_m); // not of a project that was open before
+  showTable(part("arrays"), answer.arrays, { picked: chosen.array, pick: (array) => choose({ array }) });
+  if (chosen.array in answer.bars.arrays) showBars(part("bars"), answer.bars, chosen.array); // not of a project that was open before
 }
 
 function showMoving(phase, next) {
@@ -175,7 +173,7 @@ function showMoving(phase, next) {
 
 function showRest() {
   showVerdict(part("verdict"), answer);
-  announce(`${answer.verdict}. ${answer.verdict_text} ${answer.model_text}`);
+  announce(`${answer.verdict.text}. ${answer.verdict_text} ${answer.model_text}`);
   const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
   history.replaceState(null, "", fragment ? `#${fragment}` : location.pathname);
   takeaway.compare();
@@ -183,14 +181,7 @@ function showRest() {
 }
 
 function scene() {
-  return Object.freeze({
-    values: session.values(),
-    ...chosen,
-    project: state.project,
-    views: state.views,
-    plan: answer.plan,
-    answer,
-  });
+  return { values: session.values(), ...chosen };
 }
 
 function choose(changed) {
@@ -216,7 +207,7 @@ function failAnswer(error, moving) {
 
 function fail(error, what = "Close", act = hideError) {
   const [label, action] = needsReload(error) ? ["Reload", reload] : [what, act];
-  replace(part("error"), html("p", {}, error.message), html("button", { type: "button", class: "button", on: { click: action } }, label));
+  replace(part("error"), html("p", {}, error.message), button(label, action));
   part("error").hidden = false;
 }
 

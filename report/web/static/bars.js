@@ -1,58 +1,32 @@
 // Peak relative displacements of one array, a bar for each motion, as a table with drawn cells.
 
-import { html, replace, svg } from "./make.js";
+import { headings, html, replace, svg } from "./make.js";
 
 const WIDE = 100; // units of the drawing; it stretches with its cell
 
 /** Show the bars of an array at the scale of the answer. */
-export function showBars(element, array, scaleM) {
-  const at = (meters) => (WIDE * meters) / scaleM;
-  const lines = [
-    array.design_m === null ? null : mark("design", at(array.design_m)),
-    array.prescriptive_m === null ? null : mark("prescriptive", at(array.prescriptive_m)),
-  ];
+export function showBars(element, { heads, scale_m: scale, arrays }, id) {
+  const { caption, lines, rows } = arrays[id];
+  const at = (meters) => (WIDE * meters) / scale;
+  const drawn = () => lines.filter(({ length_m: length }) => length !== null).map(({ look, length_m: length }) => mark(look, at(length)));
+  const row = ({ motion, prd_m: prd, text }) => {
+    const bar = prd === null ? null : svg("rect", { class: "prd", x: 0, y: 2, width: at(prd), height: 6 });
+    const drawing = svg("svg", { viewBox: `0 0 ${WIDE} 10`, preserveAspectRatio: "none" }, bar, drawn());
+    return html("tr", {}, html("th", { scope: "row" }, motion), html("td", { class: "bar", "aria-hidden": "true" }, drawing), html("td", { class: "numbers" }, text));
+  };
   replace(
     element,
-    html("caption", {}, `PRD of ${array.id} by motion`),
-    html("thead", { class: "visually-hidden" }, html("tr", {}, ["Motion", "Bar", "PRD"].map((text) => html("th", { scope: "col" }, text)))),
-    html("tbody", {}, array.bars.map((bar) => row(bar, at, lines))),
-    html("tfoot", {}, html("tr", {}, html("td", { colspan: 3 }, legend(array)))),
+    html("caption", {}, caption),
+    headings(heads, { class: "visually-hidden" }),
+    html("tbody", {}, rows.map(row)),
+    html("tfoot", {}, html("tr", {}, html("td", { colspan: heads.length }, lines.map(({ look, text }) => [sample(look), html("span", {}, text)])))),
   );
 }
 
-function row({ motion, prd_m: prd, text, short }, at, lines) {
-  return html(
-    "tr",
-    {},
-    html("th", { scope: "row" }, motion),
-    html(
-      "td",
-      { class: "bar", "aria-hidden": "true" },
-      svg(
-        "svg",
-        { viewBox: `0 0 ${WIDE} 10`, preserveAspectRatio: "none" },
-        prd === null ? null : svg("rect", { class: "prd", x: 0, y: 2, width: at(prd), height: 6 }),
-        lines.map((line) => line?.cloneNode()),
-      ),
-    ),
-    html("td", { class: "numbers" }, short ?? text),
-  );
+function mark(look, x) {
+  return svg("line", { class: look, x1: x, x2: x, y1: 0, y2: 10 });
 }
 
-function mark(kind, x) {
-  return svg("line", { class: kind, x1: x, x2: x, y1: 0, y2: 10 });
-}
-
-function legend(array) {
-  return [
-    sample("design"),
-    `design ${array.design_short ?? array.design}`,
-    html("span", { class: "gap" }),
-    sample("prescriptive"),
-    `prescriptive ${array.prescriptive_short ?? array.prescriptive}`,
-  ];
-}
-
-function sample(kind) {
-  return svg("svg", { class: "sample", viewBox: "0 0 18 10", "aria-hidden": "true" }, svg("line", { class: kind, x1: 0, x2: 18, y1: 5, y2: 5 }));
+function sample(look) {
+  return svg("svg", { class: "sample", viewBox: "0 0 18 10", "aria-hidden": "true" }, svg("line", { class: look, x1: 0, x2: 18, y1: 5, y2: 5 }));
 }

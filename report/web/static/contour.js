@@ -1,29 +1,28 @@
 // Contours of the mean PRD over friction and slope, with the arrays, and the value at a point.
 
-import { html, replace, svg } from "./make.js";
-import { measured, number, reading, tickText } from "./reading.js";
+import { html, note, points, replace, set, svg } from "./make.js";
+import { isFree } from "./place.js";
+import { measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
-import { createView, set } from "./view-frame.js";
+import { createView, onKeys } from "./view-frame.js";
+import { cross, pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
 
 const HEIGHT = 370;
 const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
 const EDGE = 0.03; // of the range, around the outermost points
 const FINE = 0.1; // of a cell
-const LABEL = 13;
+const LABEL = 13; // height of a label
+const DOT = 13; // width of an array's dot
 
 /** Keep the contours in an element. */
 export function mount(element, api, scene) {
-  return createView(element, scene, {
-    ask: ({ array, values }) => ({ array, values }),
-    fetch: api.contour,
-    build,
-  });
+  return createView(element, scene, api.contour, build);
 }
 
 function build(element, data) {
   const { mus, slopes_deg: slopes, units } = data;
-  const cross = svg("path", { class: "cursor", visibility: "hidden" });
+  const cursor = svg("path", { class: "cursor", visibility: "hidden" });
   const plot = svg("svg", { class: "contour", tabindex: 0, role: "application", "aria-label": data.texts.title, "aria-describedby": "contour-keys" });
   const where = html("output", { class: "numbers", role: "status" });
   let x = null;
@@ -32,32 +31,33 @@ function build(element, data) {
 
   function read(mu, slope) {
     at = { mu: within(mu, mus[0], mus.at(-1)), slope: within(slope, slopes[0], slopes.at(-1)) };
-    set(cross, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.end}`, visibility: "visible" });
-    where.textContent = `μ ${number(at.mu, 3)}, slope ${measured(at.slope, units.slope[0])}: ${words(data, at)}`;
+    set(cursor, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.end}`, visibility: "visible" });
+    where.textContent = `μ ${measured(at.mu, units.mu[0])}, slope ${measured(at.slope, units.slope[0])}: ${words(data, at)}`;
   }
 
   plot.addEventListener("pointermove", (event) => {
-    const box = plot.getBoundingClientRect();
-    read(x.inverse(event.clientX - box.left), y.inverse(event.clientY - box.top));
+    const [across, up] = pointerIn(plot, event);
+    read(x.inverse(across), y.inverse(up));
   });
   plot.addEventListener("pointerdown", () => plot.focus());
-  plot.addEventListener("keydown", (event) => {
-    const move = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
-    if (event.key === "Home") read(data.here.mu, data.here.slope_deg);
-    else if (move) read(moved(mus, at.mu, move[0], event.shiftKey), moved(slopes, at.slope, move[1], event.shiftKey));
-    else return;
-    event.preventDefault();
+  const go = (right, up) => ({ shiftKey }) => read(moved(mus, at.mu, right, shiftKey), moved(slopes, at.slope, up, shiftKey));
+  onKeys(plot, {
+    ArrowLeft: go(-1, 0),
+    ArrowRight: go(1, 0),
+    ArrowDown: go(0, -1),
+    ArrowUp: go(0, 1),
+    Home: () => read(data.here.mu, data.here.slope_deg),
   });
 
   function resize() {
     const wide = element.clientWidth;
     if (wide === 0) return;
-    set(plot, { width: wide, height: HEIGHT, viewBox: `0 0 ${wide} ${HEIGHT}` });
+    sized(plot, wide, HEIGHT);
     x = scale(roomy(mus), [MARGIN.left, wide - MARGIN.right]);
     x.end = wide - MARGIN.right;
     y = scale(roomy(slopes), [HEIGHT - MARGIN.bottom, MARGIN.top]);
-    const named = placed(data, x, y);
-    replace(plot, axes(data, x, y, wide), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y, named), cross, named.map(arrayDot));
+    const named = data.dots.map((dot) => ({ ...dot, at: [x(dot.mu), y(dot.slope_deg)] }));
+    replace(plot, axes(data, x, y), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y, named), cursor, named.map(arrayDot));
     read(at.mu, at.slope);
   }
 
@@ -67,7 +67,7 @@ function build(element, data) {
     html("p", { class: "contour-reading" }, html("strong", {}, data.texts.here), where),
     plot,
     html("p", { class: "note", id: "contour-keys" }, "Point, or use the arrow keys: to the next computed value, with Shift a tenth of that, Home back to the array."),
-    html("p", { class: "note" }, [data.texts.caption, ...data.texts.notes].join(" ")),
+    note(data.texts.notes.join(" ")),
   );
   resize();
   return { resize, stop() {} };
@@ -95,22 +95,18 @@ function roomy(axis) {
   return [axis[0] - room, axis.at(-1) + room];
 }
 
-function axes({ mus, slopes_deg: slopes, texts }, x, y, wide) {
-  const across = ticks(...roomy(mus), wide / 90);
+function axes({ mus, slopes_deg: slopes, texts }, x, y) {
+  const across = ticks(...roomy(mus), (x.end + MARGIN.right) / 90);
   const up = ticks(...roomy(slopes), 6);
   const foot = HEIGHT - MARGIN.bottom;
   return svg(
     "g",
     { class: "axes" },
     svg("path", { class: "frame", d: `M${MARGIN.left} ${MARGIN.top}V${foot}H${x.end}` }),
-    across.values.map((mu) => [
-      svg("line", { x1: x(mu), x2: x(mu), y1: foot, y2: foot + 4 }),
-      svg("text", { class: "tick middle-of", x: x(mu), y: foot + 17 }, tickText(mu, across.step)),
-    ]),
-    up.values.map((slope) => [
-      svg("line", { x1: MARGIN.left - 4, x2: MARGIN.left, y1: y(slope), y2: y(slope) }),
-      svg("text", { class: "tick end-at", x: MARGIN.left - 7, y: y(slope) + 4 }, tickText(slope, up.step)),
-    ]),
+    across.values.map((mu) => svg("line", { x1: x(mu), x2: x(mu), y1: foot, y2: foot + 4 })),
+    textsAcross(across, x, foot + 17),
+    up.values.map((slope) => svg("line", { x1: MARGIN.left - 4, x2: MARGIN.left, y1: y(slope), y2: y(slope) })),
+    textsUp(up, MARGIN.left - 7, y),
     svg("text", { class: "label middle-of", x: (MARGIN.left + x.end) / 2, y: HEIGHT - 6 }, texts.x),
     svg("text", { class: "label middle-of", transform: `translate(13 ${(MARGIN.top + foot) / 2}) rotate(-90)` }, texts.y),
   );
@@ -121,59 +117,45 @@ function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
     mus.map((mu, column) => {
       const [a, b] = [x(mu), y(slope)];
       const isLost = prd[row][column] === null;
-      return svg("path", isLost ? { class: "lost", d: `M${a - 4} ${b - 4}l8 8m0 -8l-8 8` } : { d: `M${a - 3} ${b}h6M${a} ${b - 3}v6` });
+      return svg("path", isLost ? { class: "lost", d: `M${a - 4} ${b - 4}l8 8m0 -8l-8 8` } : { d: cross([a, b], 3) });
     }),
   );
 }
 
 // Each level with its value on its longest line, where no other label stands.
 function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, x, y, named) {
-  const taken = named.flatMap(({ at: [a, b], name }) => [[a, b, 8], [a + 9 + halfOf(name), b - 11, halfOf(name)]]);
+  const frame = { x: MARGIN.left, y: MARGIN.top, wide: x.end - MARGIN.left, tall: HEIGHT - MARGIN.bottom - MARGIN.top };
+  const taken = named.flatMap(({ at: [a, b], name }) => [labelBox([a, b], DOT), labelBox([a + 9 + widthOf(name) / 2, b - 11], widthOf(name))]);
   const fine = refined(mus, slopes, prd, least, 6);
   return levels.map(({ prd_m: level, text, is_major: isMajor }) => {
     const found = isolines(...fine, level, least).map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
     const longest = found.toSorted((a, b) => b.length - a.length)[0] ?? [];
-    const place = labelPlace(longest, text, taken, x.end);
+    const place = fromMiddle(longest).find((point) => isFree(labelBox(point, widthOf(text)), taken, frame));
+    if (place) taken.push(labelBox(place, widthOf(text)));
     return [
-      found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: line.map(([a, b]) => `${a.toFixed(1)},${b.toFixed(1)}`).join(" ") })),
+      found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) })),
       place ? svg("text", { class: "label middle-of on-line", x: place[0], y: place[1] + 4 }, text) : null,
     ];
   });
 }
 
-function labelPlace(line, text, taken, right) {
-  const half = halfOf(text);
-  const fits = ([a, b]) =>
-    a - half > MARGIN.left && a + half < right && b > MARGIN.top + 8 && b < HEIGHT - MARGIN.bottom - 8 &&
-    taken.every(([c, d, other]) => Math.abs(a - c) > half + other || Math.abs(b - d) > LABEL + 3);
+// The points of a line, those in its middle first.
+function fromMiddle(line) {
   const middle = (line.length - 1) / 2;
-  const order = line.map((_, k) => k).toSorted((i, j) => Math.abs(i - middle) - Math.abs(j - middle));
-  const k = order.find((one) => fits(line[one]));
-  if (k === undefined) return null;
-  taken.push([...line[k], half]);
-  return line[k];
+  const order = [...line.keys()].toSorted((i, j) => Math.abs(i - middle) - Math.abs(j - middle));
+  return order.map((k) => line[k]);
 }
 
-// Half the width of a label, about.
-function halfOf(text) {
-  return (text.length * LABEL * 0.5) / 2 + 3;
+function labelBox([x, y], wide) {
+  return { x: x - wide / 2, y: y - LABEL / 2, wide, tall: LABEL };
 }
 
-// The arrays at each friction and slope, with the name that they share there.
-function placed({ arrays: all, array }, x, y) {
-  const places = new Map();
-  for (const one of all) {
-    const key = `${one.mu.toFixed(3)} ${one.slope_deg.toFixed(2)}`;
-    places.set(key, [...(places.get(key) ?? []), one]);
-  }
-  return [...places.values()].map((group) => ({
-    at: [x(group[0].mu), y(group[0].slope_deg)],
-    name: group.slice(0, 2).map((one) => one.id).join(", ") + (group.length > 2 ? ` and ${group.length - 2} more` : ""),
-    isShown: group.some((one) => one.id === array),
-  }));
+// Of a label, about.
+function widthOf(text) {
+  return text.length * LABEL * 0.5 + 3;
 }
 
-function arrayDot({ at: [a, b], name, isShown }) {
+function arrayDot({ at: [a, b], name, is_shown: isShown }) {
   return svg(
     "g",
     { class: "array-dot" },

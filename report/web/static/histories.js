@@ -1,18 +1,14 @@
 // Histories of one run: roof acceleration and velocity, relative displacement, normal force.
 
-import { html, replace } from "./make.js";
-import { number } from "./reading.js";
+import { button, html, note, replace } from "./make.js";
+import { measured } from "./reading.js";
 import { within } from "./view-axes.js";
-import { button, createView, onKeys, runSelect } from "./view-frame.js";
+import { createView, onKeys, runSelect } from "./view-frame.js";
 import { createPanels } from "./view-panels.js";
-import { seriesOf } from "./view-series.js";
+import { pointerIn } from "./view-parts.js";
+import { panelOf } from "./view-series.js";
 
-const PANELS = [
-  ["Roof acceleration", "acceleration"],
-  ["Roof velocity", "velocity"],
-  ["Displacement relative to the roof", "relative", "displacement"],
-  ["Normal force", "normal"],
-];
+const PANELS = ["acceleration", "velocity", "relative", "normal"];
 const HEIGHT = 430;
 const NARROW = 570; // below it the headings have two lines
 const LEAST_SAMPLES = 20; // in the shortest span that is shown
@@ -24,11 +20,7 @@ const KEYS = "Drag over a span to enlarge it. Click, then wheel or + and − zoo
 
 /** Keep the histories in an element. */
 export function mount(element, api, scene) {
-  return createView(element, scene, {
-    ask: ({ array, motion, values }) => ({ array, motion, values }),
-    fetch: api.slide,
-    build: (inside, data, again) => build(inside, data, again, api.announce),
-  });
+  return createView(element, scene, api.slide, (inside, data, again) => build(inside, data, again, api.announce));
 }
 
 function build(element, data, again, announce) {
@@ -44,7 +36,7 @@ function build(element, data, again, announce) {
     if (span !== drawn) panels.show(span);
     drawn = span;
     panels.at(time);
-    where.textContent = `t = ${number(time, 3)} s`;
+    where.textContent = `t = ${measured(time, data.units.sample[0])}`;
     buttons.follow(lens);
   });
   zoomByKeys(stage, lens, () => announce(`${where.textContent}. ${panels.words(lens.time)}.`));
@@ -57,7 +49,7 @@ function build(element, data, again, announce) {
     html("div", { class: "toolbar" }, runSelect(data, (run) => again({ run })), buttons.element, where),
     stage,
     html("p", { class: "note", id: "histories-keys" }, KEYS),
-    html("p", { class: "note" }, [texts.status, texts.axes, texts.model, texts.roof].filter(Boolean).join(" ")),
+    note(texts.notes.join(" ")),
   );
   resize();
   lens.reset();
@@ -65,11 +57,8 @@ function build(element, data, again, announce) {
 }
 
 function panelsOf(data) {
-  return PANELS.map(([title, key, unit = key]) => ({
-    title: `${title} [${data.units[unit][0].symbol}]`,
-    units: data.units[unit],
-    series: seriesOf(data, key),
-  }));
+  const panels = PANELS.map((kind) => panelOf(data, kind));
+  return panels.map((panel) => ({ ...panel, title: `${panel.title} [${panel.units[0].symbol}]` }));
 }
 
 // The span of time that is shown, and the sample that is read, within it.
@@ -124,12 +113,16 @@ function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
   };
 }
 
+function named(label, name, key, click) {
+  return button(label, click, { "aria-label": name, title: `${name} (${key})` });
+}
+
 function zoomButtons(lens) {
-  const closer = button("+", "Zoom in (+)", () => lens.zoom(ZOOM), { "aria-label": "Zoom in" });
-  const out = button("−", "Zoom out (−)", () => lens.zoom(1 / ZOOM), { "aria-label": "Zoom out" });
-  const earlier = button("‹", "Earlier (Shift + Left)", () => lens.pan(-PAN), { "aria-label": "Earlier" });
-  const later = button("›", "Later (Shift + Right)", () => lens.pan(PAN), { "aria-label": "Later" });
-  const all = button("All", "Whole record (0)", lens.reset, { "aria-label": "Whole record" });
+  const closer = named("+", "Zoom in", "+", () => lens.zoom(ZOOM));
+  const out = named("−", "Zoom out", "−", () => lens.zoom(1 / ZOOM));
+  const earlier = named("‹", "Earlier", "Shift + Left", () => lens.pan(-PAN));
+  const later = named("›", "Later", "Shift + Right", () => lens.pan(PAN));
+  const all = named("All", "Whole record", "0", lens.reset);
   return {
     element: html("div", { class: "keys" }, closer, out, earlier, later, all),
     follow({ isWhole, isFirst, isLast }) {
@@ -165,7 +158,7 @@ function zoomByKeys(stage, lens, tell) {
 // A pointer reads where it is; pressed and moved along, it marks a span, which is shown on release.
 function zoomByPointer(stage, brush, panels, lens) {
   let from = null;
-  const place = (event) => ({ pixel: event.clientX - stage.getBoundingClientRect().left, time: panels.timeAt(event) });
+  const place = (event) => ({ pixel: pointerIn(stage, event)[0], time: panels.timeAt(event) });
   const drop = () => {
     from = null;
     brush.hidden = true;

@@ -12,6 +12,21 @@ export function svg(name, attributes, ...children) {
   return filled(document.createElementNS(SVG, name), attributes, children);
 }
 
+/** Make a button. */
+export function button(label, click, attributes = {}) {
+  return html("button", { type: "button", class: "button", on: { click }, ...attributes }, label);
+}
+
+/** Make a paragraph beside the matter, in small type. */
+export function note(text) {
+  return html("p", { class: "note" }, text);
+}
+
+/** Make the head of a table. */
+export function headings(texts, attributes = {}) {
+  return html("thead", attributes, html("tr", {}, texts.map((text) => html("th", { scope: "col" }, text))));
+}
+
 /** Replace all that is in an element. */
 export function replace(element, ...children) {
   element.replaceChildren(...nodes(children));
@@ -23,25 +38,14 @@ export function words(text) {
   return parts.map((part, k) => (k % 3 === 2 ? html("sub", {}, part) : part));
 }
 
-/** Return points as the attribute of a polygon. */
-export function points(all) {
-  return all.map(([x, y]) => `${x},${y}`).join(" ");
+/** Set attributes of an element. */
+export function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }
 
-/** Return a curve as the attribute of a path; null breaks the line. */
-export function path(xs, ys) {
-  let drawn = "";
-  let pen = "M";
-  for (const [k, x] of xs.entries()) {
-    const y = ys[k];
-    if (x === null || y === null) {
-      pen = "M";
-    } else {
-      drawn += `${pen}${x} ${y}`;
-      pen = "L";
-    }
-  }
-  return drawn;
+/** Return points as the attribute of a polygon, to a tenth of a pixel. */
+export function points(all) {
+  return all.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(" ");
 }
 
 function filled(element, attributes, children) {

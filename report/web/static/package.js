@@ -1,7 +1,7 @@
 // Follows the making of a package: place in line, progress, cancel, and its files.
 
 import { isSame } from "./changes.js";
-import { html, replace } from "./make.js";
+import { button, html, note, replace } from "./make.js";
 
 const POLL_MS = 500;
 const WHAT = "The package and the workbook get the values of the page.";
@@ -55,7 +55,7 @@ export function mountPackage({ make, status }, api, { values, words, guarded }) 
   // Nothing is made, and nothing can be saved.
   function offer() {
     shown = null;
-    replace(status, html("p", { class: "note" }, WHAT));
+    replace(status, note(WHAT));
   }
 
   make.addEventListener("click", guarded(() => track(() => api.startPackage(values()))));
@@ -72,7 +72,7 @@ export function mountPackage({ make, status }, api, { values, words, guarded }) 
 
 /** Show a sentence and say it to a screen reader. */
 export function say(status, api, sentence) {
-  replace(status, html("p", { class: "note" }, sentence));
+  replace(status, note(sentence));
   api.announce(sentence);
 }
 
@@ -99,16 +99,16 @@ function showPackage(status, api, told, { cancel, keepsFocus }) {
     if (keepsFocus && hasLostFocus()) status.querySelector("a").focus();
     api.announce("The package is made. Its files can be saved.");
   } else {
-    say(status, api, told.state === "failed" ? told.message : "The package was canceled.");
+    say(status, api, told.words);
   }
 }
 
 // Beside a package, what it is made with where the page has other values; no words where not.
 function noteValues(status, words) {
-  const note = status.querySelector(".made-with");
-  if (!note) return;
+  const shown = status.querySelector(".made-with");
+  if (!shown) return;
   const when = status.querySelector(".made") ? "Made" : "Started";
-  note.textContent = words && `${when} before the last change of values, with ${words}.`;
+  shown.textContent = words && `${when} before the last change of values, with ${words}.`;
 }
 
 function isOver({ state }) {
@@ -116,22 +116,21 @@ function isOver({ state }) {
 }
 
 // The elements stay while the package is made, so that Cancel keeps the focus.
-function showProgress(status, api, { state, place, stage, part }, cancel) {
+function showProgress(status, api, { words, part }, cancel) {
   if (!status.querySelector("progress")) {
     replace(
       status,
       html("label", {}, html("span", { class: "stage" }), html("progress", { max: 1 }), madeWith()),
-      html("button", { type: "button", class: "button", on: { click: cancel } }, "Cancel"),
+      button("Cancel", cancel),
     );
   }
-  const words = state === "queued" ? `In line, place ${place}` : stage;
   const shown = status.querySelector(".stage");
   if (shown.textContent !== words) {
     shown.textContent = words;
     api.announce(words);
   }
   const bar = status.querySelector("progress");
-  if (state === "queued") bar.removeAttribute("value");
+  if (part === null) bar.removeAttribute("value");
   else bar.value = part;
 }
 

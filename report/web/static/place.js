@@ -14,10 +14,15 @@ export function place(wide, tall, [x, y], taken, frame) {
       // On an ellipse, so that wide labels go as near above a point as beside it.
       const middle = [x + (reach + wide / 2) * Math.cos(turn), y + (reach + tall / 2) * Math.sin(turn)];
       const box = { x: middle[0] - wide / 2, y: middle[1] - tall / 2, wide, tall };
-      if (isInside(box, frame) && !taken.some((other) => touches(box, other))) return box;
+      if (isFree(box, taken, frame)) return box;
     }
   }
   return null;
+}
+
+/** Whether a box is inside the frame and away from all others. */
+export function isFree(box, taken, frame) {
+  return isInside(box, frame) && !taken.some((other) => touches(box, other));
 }
 
 /** Return thin boxes along a line, to keep labels off it: one, or small ones where it is oblique. */
@@ -29,6 +34,13 @@ export function along([x0, y0], [x1, y1]) {
     const share = k / count;
     return { x: x0 + (x1 - x0) * share - 1, y: y0 + (y1 - y0) * share - 1, wide: 2, tall: 2 };
   });
+}
+
+/** Return the box around points. */
+export function boxAround(points) {
+  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+  const [x, y] = [Math.min(...xs), Math.min(...ys)];
+  return { x, y, wide: Math.max(...xs) - x, tall: Math.max(...ys) - y };
 }
 
 function isInside(box, frame) {

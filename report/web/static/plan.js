@@ -1,7 +1,7 @@
 // The roof plan: outlines, envelopes, clearances with provided and required, north, scale bar.
 // It looks like the plan of the package. A clearance that is not satisfied is heavy and says NG.
 
-import { along, place } from "./place.js";
+import { along, boxAround, place } from "./place.js";
 import { points, replace, svg } from "./make.js";
 
 const MARGIN_PX = 26;
@@ -17,39 +17,39 @@ const ARROW_PX = 6;
 export function mountPlan(element) {
   let latest = null;
   const draw = () => {
-    if (latest && element.clientWidth > 0) replace(element, drawing(latest, element.clientWidth, element.clientHeight));
+    if (latest && element.clientWidth > 2 * MARGIN_PX) replace(element, drawing(latest, element.clientWidth, element.clientHeight));
   };
   new ResizeObserver(draw).observe(element);
   return {
-    show(answer) {
-      latest = answer;
+    show(plan) {
+      latest = plan;
       draw();
     },
   };
 }
 
-function drawing({ plan, arrays, clearances }, wide, tall) {
+function drawing(plan, wide, tall) {
   const to = scaled(plan.extent, wide, tall);
   const frame = { x: 2, y: 2, wide: wide - 4, tall: tall - 4 };
-  const designs = new Map(arrays.map((array) => [array.id, array]));
-  const taken = [foot(tall)];
+  const taken = [{ x: 0, y: tall - 34, wide: 240, tall: 34 }]; // north and scale bar
+  const [solids, edges] = [false, true].map((isEdge) => plan.objects.filter((object) => object.is_edge === isEdge));
   const shapes = [
-    ...plan.objects.filter((object) => !object.is_edge).map((object) => solid(object, to, taken)),
+    ...solids.map((object) => solid(object, to, taken)),
     ...plan.arrays.map((array) => block(array, to)),
-    ...plan.objects.filter((object) => object.is_edge).map((object) => edge(object, to, taken)),
-    ...plan.objects.filter((object) => object.is_edge).map((object) => edgeName(object, to, taken, [wide / 2, tall / 2])),
+    ...edges.map((object) => edge(object, to, taken)),
+    ...edges.map((object) => edgeName(object, to, taken, [wide / 2, tall / 2])),
   ];
   for (const gap of plan.gaps) taken.push(...along(to(gap.from), to(gap.to)));
   // In order of need: a name inside its array, a clearance near its gap, an object where there is room.
-  const arrayNames = plan.arrays.map((array) => arrayName(array, designs.get(array.id), to, taken));
+  const arrayNames = plan.arrays.map((array) => arrayName(array, to, taken));
   const callouts = placed(plan.gaps, to, taken, frame);
   taken.push(...callouts.map(({ at }) => at));
-  const objectNames = plan.objects.filter((object) => !object.is_edge).map((object) => objectName(object, to, taken, frame));
+  const objectNames = solids.map((object) => objectName(object, to, taken, frame));
   return svg(
     "svg",
     { viewBox: `0 0 ${wide} ${tall}`, role: "img", "aria-labelledby": "plan-title plan-description" },
-    svg("title", { id: "plan-title" }, "Roof plan to scale"),
-    svg("desc", { id: "plan-description" }, described(clearances)),
+    svg("title", { id: "plan-title" }, plan.title),
+    svg("desc", { id: "plan-description" }, plan.described.map(sentence).join(" ")),
     svg("defs", {}, hatch()),
     plan.roof.length > 0 ? svg("polygon", { class: "roof", points: points(plan.roof.map(to)) }) : null,
     plan.arrays.map((array) => envelope(array, to)),
@@ -59,7 +59,7 @@ function drawing({ plan, arrays, clearances }, wide, tall) {
     plan.gaps.map((gap) => dimension(gap, to)),
     callouts.map(({ gap, at, isWhole }) => callout(gap, at, isWhole, to)),
     north(plan.north_deg, tall),
-    plan.scale_bar ? scaleBar(plan.scale_bar, to, tall) : null,
+    scaleBar(plan.scale_bar, to, tall),
   );
 }
 
@@ -74,16 +74,8 @@ function scaled([x0, y0, x1, y1], wide, tall) {
   return to;
 }
 
-function foot(tall) {
-  return { x: 0, y: tall - 34, wide: 240, tall: 34 };
-}
-
-function described(clearances) {
-  const said = clearances.map(
-    ({ array, object, direction, provided, required, verdict }, k) =>
-      `Clearance ${k + 1}, ${array} to ${object}, ${direction}: provided ${provided}, required ${required}${verdict ? `, ${verdict}` : ""}.`,
-  );
-  return said.join(" ");
+function sentence({ text, verdict }) {
+  return `${text}${verdict ? `, ${verdict.text}` : ""}.`;
 }
 
 function hatch() {
@@ -114,28 +106,27 @@ function arrow([x, y], degrees) {
   );
 }
 
-function arrayName({ id, center }, array, to, taken) {
+function arrayName({ id, label, center }, to, taken) {
   const [x, y] = to(center);
-  const design = array ? `Δ ${array.design_short ?? array.design}` : "";
-  const wide = LETTER_PX * Math.max(id.length, design.length);
+  const wide = LETTER_PX * Math.max(id.length, label.length);
   taken.push({ x: x - wide / 2, y: y - LINE_PX, wide, tall: 2 * LINE_PX });
   taken.push({ x: x - ARROW_PX, y: y + LINE_PX, wide: 2 * ARROW_PX, tall: 2.6 * LINE_PX });
   return svg(
     "g",
     { class: "middle" },
     svg("text", { class: "strong", x, y: y - 2 }, id),
-    svg("text", { class: "label", x, y: y + LINE_PX - 2 }, design),
+    svg("text", { class: "label", x, y: y + LINE_PX - 2 }, label),
   );
 }
 
-function solid({ kind, outline }, to, taken) {
+function solid({ outline }, to, taken) {
   const drawn = outline.map(to);
-  taken.push(bounds(drawn));
-  return svg("polygon", { class: "object", "data-kind": kind, points: points(drawn) });
+  taken.push(boxAround(drawn));
+  return svg("polygon", { class: "object", points: points(drawn) });
 }
 
 function objectName({ id, outline }, to, taken, frame) {
-  const box = bounds(outline.map(to));
+  const box = boxAround(outline.map(to));
   const [wide, tall] = [LETTER_PX * id.length + 8, LINE_PX + 2];
   const middle = [box.x + box.wide / 2, box.y + box.tall / 2];
   const fits = box.wide > wide + 8 && box.tall > tall + 4;
@@ -159,7 +150,7 @@ function edge({ id, outline, has_parapet: hasParapet }, to, taken) {
 
 // Outside of its edge; turned along one that is more vertical than horizontal.
 function edgeName({ id, outline }, to, taken, [midX, midY]) {
-  const box = bounds(outline.map(to));
+  const box = boxAround(outline.map(to));
   const [x, y] = [box.x + box.wide / 2, box.y + box.tall / 2];
   const long = LETTER_PX * id.length + 4;
   const isTurned = box.tall > box.wide;
@@ -168,12 +159,6 @@ function edgeName({ id, outline }, to, taken, [midX, midY]) {
   taken.push({ x: at[0] - wide / 2, y: at[1] - tall / 2, wide, tall });
   const turn = isTurned ? `rotate(-90 ${at[0]} ${at[1]})` : null;
   return svg("g", { class: "middle" }, svg("text", { class: "tick", x: at[0], y: at[1] + 4.5, transform: turn }, id));
-}
-
-function bounds(drawn) {
-  const [xs, ys] = [drawn.map(([x]) => x), drawn.map(([, y]) => y)];
-  const [x, y] = [Math.min(...xs), Math.min(...ys)];
-  return { x, y, wide: Math.max(...xs) - x, tall: Math.max(...ys) - y };
 }
 
 function backing({ x, y, wide, tall }) {
@@ -186,7 +171,7 @@ function dimension({ from, to: end, verdict }, to) {
   const [nx, ny] = [(-(y1 - y0) / long) * TICK_PX, ((x1 - x0) / long) * TICK_PX];
   const tick = (x, y) => `M${x - nx} ${y - ny}L${x + nx} ${y + ny}`;
   return svg("path", {
-    class: verdict === "NG" ? "gap is-ng" : "gap",
+    class: isNg(verdict) ? "gap is-ng" : "gap",
     d: `M${x0} ${y0}L${x1} ${y1}${tick(x0, y0)}${tick(x1, y1)}`,
   });
 }
@@ -218,44 +203,43 @@ function middleOf({ from, to: end }, to) {
   return [(x0 + x1) / 2, (y0 + y1) / 2];
 }
 
-function calloutLines({ clearance, provided, required }) {
-  return [`${clearance === null ? "not given; in plan" : "provided"} ${provided}`, `required ${required}`];
+function calloutSize({ lines }) {
+  const letters = Math.max(...lines.map((line) => line.length));
+  return [2 * CIRCLE_PX + 12 + letters * LETTER_PX, 2 * LINE_PX + 6];
 }
 
-function calloutSize(gap) {
-  const letters = Math.max(...calloutLines(gap).map((line) => line.length));
-  return [2 * CIRCLE_PX + 12 + letters * LETTER_PX, 2 * LINE_PX + 6];
+function isNg(verdict) {
+  return verdict?.look === "ng";
 }
 
 // Number, provided and required, led to the middle of the gap; the number alone where it is tight.
 // The mark NG is below the number, so that a verdict moves no label.
-function callout(gap, at, isWhole, to) {
+function callout({ number, lines, verdict, ...gap }, at, isWhole, to) {
   const middle = middleOf(gap, to);
-  const isNg = gap.verdict === "NG";
   const left = isWhole ? at.x + CIRCLE_PX + 5 : at.x + at.wide / 2;
   const y = at.y + at.tall / 2;
   const text = (line, k) => svg("text", { class: "label", x: left + CIRCLE_PX + 6, y: at.y + LINE_PX * (k + 1) - 1 }, line);
   return svg(
     "g",
-    { class: isNg ? "callout is-ng" : "callout" },
+    { class: isNg(verdict) ? "callout is-ng" : "callout" },
     svg("line", { class: "leader", x1: middle[0], y1: middle[1], ...nearest(at, middle) }),
     isWhole ? svg("rect", { class: "frame", x: at.x, y: at.y, width: at.wide, height: at.tall }) : null,
-    gap.clearance === null ? null : numbered(gap.clearance + 1, left, isNg ? y - 8 : y),
-    isWhole ? calloutLines(gap).map(text) : null,
-    isNg ? ngBox(left, y + 9) : null,
+    number ? numbered(number, left, isNg(verdict) ? y - 8 : y) : null,
+    isWhole ? lines.map(text) : null,
+    isNg(verdict) ? ngBox(verdict.text, left, y + 9) : null,
   );
 }
 
 function numbered(number, x, y) {
-  return [svg("circle", { cx: x, cy: y, r: CIRCLE_PX - 2 }), svg("text", { class: "label number", x, y: y + 4.5 }, String(number))];
+  return [svg("circle", { cx: x, cy: y, r: CIRCLE_PX - 2 }), svg("text", { class: "label number", x, y: y + 4.5 }, number)];
 }
 
-function ngBox(x, y) {
+function ngBox(text, x, y) {
   return svg(
     "g",
     { class: "ng-box" },
     svg("rect", { x: x - 11.5, y: y - 7, width: 23, height: 14 }),
-    svg("text", { class: "strong", x, y: y + 4.5 }, "NG"),
+    svg("text", { class: "strong", x, y: y + 4.5 }, text),
   );
 }
 

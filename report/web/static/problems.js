@@ -1,6 +1,6 @@
 // The errors of a workbook, by cell, each with a picture of its row.
 
-import { html, replace, words } from "./make.js";
+import { headings, html, replace, words } from "./make.js";
 
 const BESIDE = 2; // columns drawn on either side of the cell
 
@@ -13,7 +13,7 @@ export function showProblems(element, problems, title, advice) {
     html(
       "table",
       { class: "problems" },
-      html("thead", {}, html("tr", {}, ["No.", "Cell", "Found", "Remedy", "Row"].map(head))),
+      headings(["No.", "Cell", "Found", "Remedy", "Row"]),
       html("tbody", {}, problems.map(line)),
     ),
   );
@@ -24,10 +24,6 @@ export function showProblems(element, problems, title, advice) {
 export function drawn(row) {
   const all = row.heads.keys();
   return [...all].filter((k) => k === 0 || row.at === null || Math.abs(k - row.at) <= BESIDE);
-}
-
-function head(text) {
-  return html("th", { scope: "col" }, text);
 }
 
 function line(problem, k) {
@@ -52,7 +48,7 @@ function picture(row) {
   return html(
     "table",
     { class: "row-picture" },
-    html("thead", {}, html("tr", {}, html("th", {}, hidden("Row")), columns.map((k) => head(row.heads[k])))),
+    headings([hidden("Row"), ...columns.map((k) => row.heads[k])]),
     html("tbody", {}, html("tr", {}, html("th", { scope: "row" }, String(row.number)), columns.map(cell))),
   );
 }

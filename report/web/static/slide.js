@@ -1,9 +1,9 @@
 // Watch it slide: one run in time, with what plays it and what tells of its slips.
 
-import { html, replace } from "./make.js";
-import { number } from "./reading.js";
+import { button, html, note, replace } from "./make.js";
+import { measured } from "./reading.js";
 import { within } from "./view-axes.js";
-import { button, createView, onKeys, runSelect } from "./view-frame.js";
+import { createView, onKeys, runSelect } from "./view-frame.js";
 import { createPlayer } from "./view-player.js";
 import { lastUpTo } from "./view-series.js";
 import { createStage } from "./view-stage.js";
@@ -14,25 +14,18 @@ const KEYS = "Space plays and pauses, N and P go to the next slip and the one be
 
 /** Keep the run in motion in an element. */
 export function mount(element, api, scene) {
-  let speed = 1; // kept from run to run
-  const keep = (next) => {
-    speed = next;
-  };
-  return createView(element, scene, {
-    ask: ({ array, motion, values }) => ({ array, motion, values }),
-    fetch: api.slide,
-    build: (inside, data, again) => build(inside, data, { again, announce: api.announce, speed, keep }),
-  });
+  const settings = { speed: 1 }; // kept from run to run
+  return createView(element, scene, api.slide, (inside, data, again) => build(inside, data, again, { announce: api.announce, settings }));
 }
 
-function build(element, data, { again, announce, speed, keep }) {
+function build(element, data, again, { announce, settings }) {
   const { seconds, texts } = data;
   const slips = createSlips(data);
-  const player = createPlayer(seconds, slips.events, show);
+  const player = createPlayer(seconds, slips.events, settings, show);
   const stage = createStage(data, player.seek);
   const caption = html("p", { class: "numbers slip-text" });
-  const speeds = speedSelect(player, speed, keep);
-  const parts = controls(player, { seconds, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
+  const speeds = speedSelect(settings);
+  const parts = controls(player, { data, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
 
   function show(time) {
     const k = slips.at(time);
@@ -75,7 +68,7 @@ function build(element, data, { again, announce, speed, keep }) {
     stage.element,
     html("div", { class: "player" }, parts.play, parts.back, parts.next, speeds.element, parts.scrub, parts.clock),
     html("p", { class: "note", id: "slide-keys" }, KEYS),
-    html("p", { class: "note" }, [texts.status, texts.axes, texts.model, texts.roof].filter(Boolean).join(" ")),
+    note(texts.notes.join(" ")),
   );
   resize();
   player.seek(data.t_prd_s ?? 0);
@@ -94,15 +87,16 @@ function createSlips({ slips, texts }) {
     at: (time) => (begins[firstToEnd(time)] <= time ? firstToEnd(time) : -1),
     before: (time) => firstToEnd(time) - 1,
     after: past,
-    text: (k) => `Slip ${k + 1} of ${slips.length}: ${slips[k].text}`,
-    rest: (time) => (slips.length === 0 ? texts.status || "The array does not slip in this run." : `At rest, after ${past(time)} of ${slips.length} slips`),
+    text: (k) => slips[k].text,
+    rest: (time) => (slips.length === 0 ? texts.no_slip : `At rest, after ${past(time)} of ${slips.length} slips`),
   };
 }
 
-function controls(player, { seconds, before, after }) {
-  const play = button("Play", "Play or pause (Space)", player.toggle, { class: "button primary play" });
-  const back = button("‹ Slip", "Slip before (P)", before, { "aria-label": "Slip before" });
-  const next = button("Slip ›", "Next slip (N)", after, { "aria-label": "Next slip" });
+function controls(player, { data: { seconds, units }, before, after }) {
+  const said = (time) => measured(time, units.time[0]);
+  const play = button("Play", player.toggle, { title: "Play or pause (Space)", class: "button primary play" });
+  const back = button("‹ Slip", before, { title: "Slip before (P)", "aria-label": "Slip before" });
+  const next = button("Slip ›", after, { title: "Next slip (N)", "aria-label": "Next slip" });
   const scrub = html("input", { type: "range", class: "scrub", min: 0, max: seconds, step: STEP_S, "aria-label": "Time", on: { input: ({ target }) => player.seek(Number(target.value)) } });
   const clock = html("span", { class: "numbers clock" });
   return {
@@ -113,8 +107,8 @@ function controls(player, { seconds, before, after }) {
     clock,
     show(time, { isFirst, isLast }) {
       scrub.value = time;
-      scrub.setAttribute("aria-valuetext", `${number(time, 2)} s`);
-      clock.textContent = `${number(time, 2)} s of ${number(seconds, 2)} s`;
+      scrub.setAttribute("aria-valuetext", said(time));
+      clock.textContent = `${said(time)} of ${said(seconds)}`;
       play.textContent = player.isPlaying ? "Pause" : "Play";
       back.disabled = isFirst;
       next.disabled = isLast;
@@ -122,23 +116,21 @@ function controls(player, { seconds, before, after }) {
   };
 }
 
-// How fast the player plays, which `keep` remembers.
-function speedSelect(player, speed, keep) {
-  const choose = (next) => {
-    player.speed = next;
-    keep(next);
-  };
+// How fast the player plays.
+function speedSelect(settings) {
   const element = html(
     "select",
-    { "aria-label": "Speed", title: "Speed (< and >)", on: { change: ({ target }) => choose(Number(target.value)) } },
-    SPEEDS.map((one) => html("option", { value: one, selected: one === speed }, `${one}×`)),
+    { "aria-label": "Speed", title: "Speed (< and >)", on: { change: choose } },
+    SPEEDS.map((one) => html("option", { value: one, selected: one === settings.speed }, `${one}×`)),
   );
-  player.speed = speed;
+  function choose() {
+    settings.speed = Number(element.value);
+  }
   return {
     element,
     change(way) {
       element.selectedIndex = within(element.selectedIndex + way, 0, SPEEDS.length - 1);
-      choose(Number(element.value));
+      choose();
     },
   };
 }

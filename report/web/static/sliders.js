@@ -1,7 +1,7 @@
 // Sliders and choices: native controls, so that the keyboard and a screen reader know them.
 
 import { own } from "./changes.js";
-import { html, replace, words } from "./make.js";
+import { button, html, replace, words } from "./make.js";
 
 /** Show the controls of a project; returns how to follow its answers. */
 export function mountSliders(element, { sliders, choices }, values, session) {
@@ -35,24 +35,17 @@ function slider(item, values, session) {
       pointerup: session.release,
     },
   });
-  const back = html(
-    "button",
-    {
-      type: "button",
-      class: "back",
-      title: "Back to the workbook's value",
-      "aria-label": `${item.label}: back to the workbook's value`,
-      on: {
-        click: () => {
-          input.value = item.typed;
-          session.set({ [item.id]: item.typed });
-          mark();
-          input.focus();
-        },
-      },
-    },
-    "Reset",
-  );
+  const reset = () => {
+    input.value = item.typed;
+    session.set({ [item.id]: item.typed });
+    mark();
+    input.focus();
+  };
+  const back = button("Reset", reset, {
+    class: "back",
+    title: "Back to the workbook's value",
+    "aria-label": `${item.label}: back to the workbook's value`,
+  });
   // `hidden` would move the focus; an untouched slider keeps the button's place.
   const mark = () => {
     const value = session.values()[item.id];

@@ -30,16 +30,6 @@ function panel(tab) {
 
 /** Return the index that a key goes to from another, around the ends; -1 if it is no such key. */
 export function destination(key, from, count) {
-  switch (key) {
-    case "ArrowRight":
-      return (from + 1) % count;
-    case "ArrowLeft":
-      return (from + count - 1) % count;
-    case "Home":
-      return 0;
-    case "End":
-      return count - 1;
-    default:
-      return -1;
-  }
+  const to = { ArrowRight: (from + 1) % count, ArrowLeft: (from + count - 1) % count, Home: 0, End: count - 1 };
+  return to[key] ?? -1;
 }

@@ -1,6 +1,6 @@
 // What the user takes away: the package, the workbook, and a link.
 
-import { html, replace } from "./make.js";
+import { html, note, replace } from "./make.js";
 import { mountPackage, say } from "./package.js";
 
 const COPIED = "The link is copied. It restores these values in this browser, as long as the session lives.";
@@ -37,7 +37,7 @@ export function mountTakeaway({ make, workbook, copy, status }, api, { values, w
 
 function showLink(status) {
   const link = html("input", { type: "text", readonly: true, value: location.href, "aria-label": "Link that restores these values" });
-  replace(status, link, html("p", { class: "note" }, "Copy this link."));
+  replace(status, link, note("Copy this link."));
   link.select();
 }
 

@@ -1,14 +1,14 @@
 // What all views share: ask, draw, draw again in another size, and say what went wrong.
 
 import { needsReload, reload } from "./api.js";
-import { html, replace } from "./make.js";
+import { button, html, note, replace } from "./make.js";
 
 /**
- * Return a view: `ask(scene)` returns what to send, `fetch(request)` its answer, and
+ * Return a view of a scene, which is what it asks with: `fetch(request)` returns the answer, and
  * `build(element, data, again)` draws it and returns `{ resize(), stop() }`. `again(changes)` asks
  * with other values of the view's own.
  */
-export function createView(element, scene, { ask, fetch, build }) {
+export function createView(element, scene, fetch, build) {
   let drawing = null;
   let shown = ""; // the request that is drawn
   let own = {};
@@ -19,7 +19,7 @@ export function createView(element, scene, { ask, fetch, build }) {
     if (next.array !== last.array || next.motion !== last.motion) own = {};
     last = next;
     isMoving = false;
-    const request = { ...ask(next), ...own };
+    const request = { ...next, ...own };
     const key = JSON.stringify(request);
     if (key === shown) {
       element.classList.remove("is-stale");
@@ -29,7 +29,7 @@ export function createView(element, scene, { ask, fetch, build }) {
     drawing?.stop();
     element.setAttribute("aria-busy", "true");
     if (drawing) element.classList.add("is-stale");
-    else replace(element, html("p", { class: "note" }, "Calculating …"));
+    else replace(element, note("Calculating …"));
     try {
       const data = await fetch(request);
       if (data === null) return;
@@ -39,7 +39,7 @@ export function createView(element, scene, { ask, fetch, build }) {
       shown = key;
     } catch (error) {
       drawing = null;
-      const remedy = needsReload(error) ? button("Reload", "Load the page again", reload) : null;
+      const remedy = needsReload(error) ? button("Reload", reload, { title: "Load the page again" }) : null;
       replace(element, html("p", { role: "alert" }, error.message), remedy);
     }
     element.classList.toggle("is-stale", isMoving);
@@ -82,11 +82,6 @@ export function runSelect(data, chosen) {
   return html("label", { class: "field" }, "Run ", html("select", { on: { change: ({ target }) => chosen(target.value) } }, options));
 }
 
-/** Return a button of a view; `title` names its key. */
-export function button(label, title, click, attributes = {}) {
-  return html("button", { type: "button", class: "button", title, on: { click }, ...attributes }, label);
-}
-
 /** Have an element, not what is in it, answer keys: `keys` are functions of the event by key. */
 export function onKeys(element, keys) {
   element.addEventListener("keydown", (event) => {
@@ -95,9 +90,4 @@ export function onKeys(element, keys) {
     event.preventDefault();
     keys[key](event);
   });
-}
-
-/** Set attributes of an element. */
-export function set(element, attributes) {
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }

@@ -1,9 +1,9 @@
 // Histories one above the other over one axis of time, with the value at a time in their headings.
 
-import { html, svg } from "./make.js";
-import { measured, tickText } from "./reading.js";
+import { html, replace, set, svg } from "./make.js";
+import { measured } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
-import { set } from "./view-frame.js";
+import { pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
 import { curve, rangeIn, valueAt } from "./view-series.js";
 
 const LEFT = 46;
@@ -65,10 +65,7 @@ export function createPanels({ panels, seconds, slips }) {
     /** Return the values at a time in words. */
     words: (time) => drawn.map((panel) => panel.words(time)).join("; "),
     /** Return the time under a pointer. */
-    timeAt({ clientX }) {
-      const pixel = clientX - element.getBoundingClientRect().left;
-      return within(x.inverse(pixel), ...span);
-    },
+    timeAt: (event) => within(x.inverse(pointerIn(element, event)[0]), ...span),
   };
 }
 
@@ -97,26 +94,23 @@ function createPanel({ title, units, series, least, most, over }) {
     element: html("div", { class: "panel" }, head, plot),
     draw({ width, tall, span, x, times, slips }) {
       const right = width - RIGHT;
-      set(plot, { width, height: tall, viewBox: `0 0 ${width} ${tall}` });
+      sized(plot, width, tall);
       set(window, { width: right - LEFT, height: tall });
       set(band, { height: tall });
       set(cursor, { y2: tall });
       const [low, high] = limits(series, over ?? span, least, most, units[0].si);
-      const y = scale([low, high], [tall, 0]);
+      const y = scale([low / units[0].si, high / units[0].si], [tall, 0]);
       const levels = ticks(low / units[0].si, high / units[0].si, tall / 20);
-      const at = levels.values.map((value) => [value, y(value * units[0].si)]);
-      grid.replaceChildren(
-        ...times.values.map((time) => svg("line", { x1: x(time), x2: x(time), y1: 0, y2: tall })),
-        ...at.map(([value, level]) => svg("line", { class: value === 0 ? "zero" : null, x1: LEFT, x2: right, y1: level, y2: level })),
+      replace(
+        grid,
+        times.values.map((time) => svg("line", { x1: x(time), x2: x(time), y1: 0, y2: tall })),
+        levels.values.map((value) => svg("line", { class: value === 0 ? "zero" : null, x1: LEFT, x2: right, y1: y(value), y2: y(value) })),
         svg("path", { class: "frame", d: `M${LEFT} 0V${tall}H${right}` }),
       );
-      labels.replaceChildren(
-        ...at
-          .filter(([, level]) => level > 6 && level < tall - 3)
-          .map(([value, level]) => svg("text", { class: "tick", x: LEFT - 6, y: level + 4 }, tickText(value, levels.step))),
-      );
+      const inside = levels.values.filter((value) => y(value) > 6 && y(value) < tall - 3);
+      replace(labels, textsUp({ ...levels, values: inside }, LEFT - 6, y));
       set(bands, { d: slips.filter((slip) => slip.to_s > span[0] && slip.from_s < span[1]).map((slip) => `M${x(slip.from_s).toFixed(2)} 0H${x(slip.to_s).toFixed(2)}V${tall}H${x(slip.from_s).toFixed(2)}Z`).join("") });
-      series.forEach((one, k) => set(lines[k], { d: curve(one, span, x, y) }));
+      series.forEach((one, k) => set(lines[k], { d: curve(one, span, x, (value) => y(value / units[0].si)) }));
     },
     mark(time, x, span, picked) {
       const inside = time >= span[0] && time <= span[1];
@@ -132,12 +126,10 @@ function createPanel({ title, units, series, least, most, over }) {
 }
 
 function drawAxis(axis, width, x, { values, step }) {
-  set(axis, { width, height: AXIS, viewBox: `0 0 ${width} ${AXIS}` });
+  sized(axis, width, AXIS);
   const room = width - RIGHT - 68; // "Time [s]" and half of a number
-  axis.replaceChildren(
-    ...values.filter((time) => x(time) < room).map((time) => svg("text", { class: "tick middle-of", x: x(time), y: 15 }, tickText(time, step))),
-    svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"),
-  );
+  const shown = { step, values: values.filter((time) => x(time) < room) };
+  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"));
 }
 
 // The range of what is drawn in a span of time, with some room.

@@ -6,12 +6,13 @@ const REST_MS = 700; // at each event, where motion is to be reduced
 const MOST_MS = 100; // between two frames: after a longer pause, playing goes on where it was
 
 /**
- * Return a player of a record of some seconds; `show` is called with each time. Where the user wants
- * motion reduced, it goes from one of the events to the next and rests there.
+ * Return a player of a record of some seconds, at the speed of the settings; `show` is called with
+ * each time. Where the user wants motion reduced, it goes from one of the events to the next and rests
+ * there.
  */
-export function createPlayer(seconds, events, show) {
+export function createPlayer(seconds, events, settings, show) {
   const isReduced = matchMedia("(prefers-reduced-motion: reduce)");
-  const player = { time: 0, speed: 1, isPlaying: false, seek, pause, toggle, rewind };
+  const player = { time: 0, isPlaying: false, seek, pause, toggle, rewind };
   let isAtStart = false;
   let stop = null;
 
@@ -41,7 +42,7 @@ export function createPlayer(seconds, events, show) {
     if (isAtStart || player.time === seconds) player.time = 0;
     isAtStart = false;
     player.isPlaying = true;
-    stop = isReduced.matches ? step(() => move(events.find((event) => event > player.time) ?? seconds)) : run((elapsed) => move(player.time + elapsed * player.speed));
+    stop = isReduced.matches ? step(() => move(events.find((event) => event > player.time) ?? seconds)) : run((elapsed) => move(player.time + elapsed * settings.speed));
     show(player.time);
   }
 

@@ -1,17 +1,19 @@
 // Histories as the server sends them: values at the samples, or at the numbers of samples beside them,
 // null where there is none.
 
-const NAMES = { downslope: "down", "cross-slope": "cross", "normal force": "N / W" };
-const LOOKS = { "cross-slope": "is-across", vertical: "is-third", demand: "is-third" };
+import { within } from "./view-axes.js";
 
-/** Return the histories of a kind, such as `velocity`: their times and values, name and look. */
-export function seriesOf(data, kind) {
-  return data[kind].map(({ name, i, v }) => ({
-    name: NAMES[name] ?? name,
+const LOOKS = { cross: "is-across", vertical: "is-third", demand: "is-third" };
+
+/** Return the panel of a kind, such as `velocity`: its title and units, and histories with times and look. */
+export function panelOf(data, kind) {
+  const series = data[kind].series.map(({ name, i, v }) => ({
+    name,
     look: LOOKS[name] ?? "is-first",
     t: Float64Array.from(i ?? v.keys(), (k) => k * data.dt_s),
     v,
   }));
+  return { ...data[kind], series };
 }
 
 /** Return the number of the last of ascending values that is not above one; -1 if all are. */
@@ -28,7 +30,7 @@ export function lastUpTo(ascending, value) {
 
 /** Return the value at a time, linear between the samples drawn; null where there is none. */
 export function valueAt({ t, v }, time) {
-  const k = Math.min(Math.max(lastUpTo(t, time), 0), t.length - 1);
+  const k = within(lastUpTo(t, time), 0, t.length - 1);
   if (k === t.length - 1 || time <= t[k]) return v[k];
   if (v[k] === null || v[k + 1] === null) return null;
   return v[k] + ((v[k + 1] - v[k]) * (time - t[k])) / (t[k + 1] - t[k]);

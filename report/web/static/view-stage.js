@@ -3,7 +3,7 @@
 import { html } from "./make.js";
 import { within } from "./view-axes.js";
 import { createPanels } from "./view-panels.js";
-import { rangeIn, seriesOf } from "./view-series.js";
+import { panelOf, rangeIn } from "./view-series.js";
 import { createTrack } from "./view-track.js";
 
 const HEIGHT = 330;
@@ -55,12 +55,12 @@ export function createStage(data, seek) {
 }
 
 function panelsOf(data) {
-  const friction = seriesOf(data, "friction");
+  const [relative, normal, friction] = ["relative", "normal", "friction"].map((kind) => panelOf(data, kind));
   const over = [0, data.seconds];
-  const [, most] = rangeIn(friction[0], over) ?? [0, 1];
+  const [, most] = rangeIn(friction.series[0], over) ?? [0, 1];
   return [
-    { title: "Displacement", units: data.units.displacement, series: seriesOf(data, "relative") },
-    { title: "Normal force", units: data.units.normal, series: seriesOf(data, "normal"), over },
-    { title: "Friction F / N", units: data.units.friction, series: friction, least: 0, most: MOST_DEMAND * Math.max(most, 0.1), over },
+    { ...relative, title: data.texts.relative },
+    { ...normal, over },
+    { ...friction, least: 0, most: MOST_DEMAND * Math.max(most, 0.1), over },
   ];
 }

@@ -1,8 +1,9 @@
 // The plan in motion: the roof moves over the ground, the array over the roof, and leaves its path.
 
-import { points, replace, svg } from "./make.js";
-import { roundBelow } from "./view-axes.js";
-import { set } from "./view-frame.js";
+import { points, replace, set, svg } from "./make.js";
+import { boxAround } from "./place.js";
+import { roundBelow, within } from "./view-axes.js";
+import { arrow, cross, scaleBar } from "./view-parts.js";
 import { lastUpTo } from "./view-series.js";
 
 const ARRAY = 0.3; // of the drawing, that the array fills
@@ -57,7 +58,7 @@ function makeShapes(isFromRoof) {
   };
   const { grid, start, block, whole, done, picked, peak, ground, foot } = parts;
   const moving = svg("g", {}, block, svg("circle", { class: "track-center", r: 3.5 }));
-  const onRoof = svg("g", {}, grid, start, moving, whole, done, picked, svg("path", { class: "start", d: "M-6 0h12M0 -6v12" }), peak);
+  const onRoof = svg("g", {}, grid, start, moving, whole, done, picked, svg("path", { class: "start", d: cross([0, 0], 6) }), peak);
   const drawing = svg("svg", { role: "img", class: "track", "aria-label": `Plan in motion. ${title}` }, onRoof, ground, foot);
   return { ...parts, moving, onRoof, drawing };
 }
@@ -65,7 +66,7 @@ function makeShapes(isFromRoof) {
 // Pixels of a meter, of the plan and of the motion, with the path and its length at that scale.
 function scaleOf({ reach, relative }, outline, width, height) {
   const least = Math.min(width, height);
-  const box = boxOf(outline);
+  const box = boxAround(outline);
   const perMeter = (ARRAY * least) / Math.max(box.wide, box.tall, 1e-9);
   const moves = reach >= LEAST_M;
   const factor = moves ? roundBelow((MOTION * least) / (reach * perMeter)) : 1;
@@ -78,9 +79,9 @@ function place(shapes, { peak }, data, scale) {
   const { width, height, box, perMeter, pixel, path } = scale;
   const [cx, cy] = [width / 2, height / 2];
   set(shapes.drawing, { width, height, viewBox: `${-cx} ${-cy} ${width} ${height}` });
-  const shape = points(data.plan.outline.map(([x, y]) => [(x - box.x) * perMeter, (box.y - y) * perMeter].map((value) => value.toFixed(1))));
+  const shape = points(data.plan.outline.map(([x, y]) => [(x - box.x - box.wide / 2) * perMeter, (box.y + box.tall / 2 - y) * perMeter]));
   for (const polygon of [shapes.start, shapes.block]) set(polygon, { points: shape });
-  const line = points(path.map(([x, y]) => [x.toFixed(1), y.toFixed(1)]));
+  const line = points(path);
   for (const one of [shapes.whole, shapes.done]) set(one, { points: line });
   set(shapes.grid, { d: gridOf(width, height) });
   if (shapes.ground) set(shapes.ground, { d: `M${-cx} 0h10M${cx} 0h-10M0 ${cy}v-10` });
@@ -124,15 +125,9 @@ function lengths(path) {
 }
 
 function between(t, places, time) {
-  const k = Math.min(Math.max(lastUpTo(t, time), 0), t.length - 2);
-  const share = Math.min(Math.max((time - t[k]) / (t[k + 1] - t[k]), 0), 1);
+  const k = within(lastUpTo(t, time), 0, t.length - 2);
+  const share = within((time - t[k]) / (t[k + 1] - t[k]), 0, 1);
   return [0, 1].map((axis) => places[k][axis] + share * (places[k + 1][axis] - places[k][axis]));
-}
-
-function boxOf(outline) {
-  const [x, y] = [0, 1].map((axis) => outline.map((point) => point[axis]));
-  const [x0, x1, y0, y1] = [Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
-  return { x: (x0 + x1) / 2, y: (y0 + y1) / 2, wide: x1 - x0, tall: y1 - y0 };
 }
 
 // Lines on the roof, beyond the drawing on all sides, so that it never ends while it moves.
@@ -151,18 +146,12 @@ function translation([x, y]) {
 
 function drawFoot(foot, { cx, cy, scale: { pixel, moves, factor }, title, data }) {
   const shown = factor === 1 ? "motion to scale" : `motion × ${factor}`;
-  const unit = data.units.displacement[0];
-  const length = roundBelow(BAR / pixel / unit.si);
-  const wide = length * unit.si * pixel;
-  const [left, low] = [-cx + 10, cy - 12];
   const [dx, dy] = inPlan(1, 0, data.plan.downslope_deg);
-  const [ax, ay] = [cx - 26, cy - 26];
   replace(
     foot,
-    svg("path", { class: "bar-line", d: `M${left} ${low - 4}v8M${left} ${low}h${wide}m0 -4v8` }),
-    svg("text", { class: "label on-line", x: left + wide + 6, y: low + 4 }, `${length} ${unit.symbol}`),
-    svg("text", { class: "tick on-line", x: left, y: -cy + 16 }, moves ? `${title}, ${shown}` : title),
-    svg("path", { class: "arrow", d: `M${-14 * dx} ${14 * dy}L${14 * dx} ${-14 * dy}m${-8 * dx - 4 * dy} ${8 * dy - 4 * dx}l${8 * dx + 4 * dy} ${-8 * dy + 4 * dx}l${-8 * dx + 4 * dy} ${8 * dy + 4 * dx}`, transform: `translate(${ax} ${ay})` }),
+    scaleBar([-cx + 10, cy - 12], data.relative.units[0], pixel, BAR),
+    svg("text", { class: "tick on-line", x: -cx + 10, y: -cy + 16 }, moves ? `${title}, ${shown}` : title),
+    arrow([cx - 26, cy - 26], [dx, -dy], 14),
     svg("text", { class: "tick on-line end-at", x: cx - 8, y: cy - 48 }, "downslope"),
   );
 }

@@ -4,7 +4,7 @@ import { replace, html } from "./make.js";
 
 const part = (id) => document.getElementById(id);
 
-// What each drawing needs chosen.
+// What each drawing needs chosen, beside the values.
 const NEEDS = { slide: ["array", "motion"], contour: ["array"], paths: ["array"], histories: ["array", "motion"] };
 const STALE = "Drawn for the values before the slider moved.";
 
@@ -17,15 +17,16 @@ export function createViews(api) {
   async function draw() {
     const id = current;
     if (!(id in NEEDS) || !scene) return;
+    const needed = () => Object.fromEntries([...NEEDS[id], "values"].map((key) => [key, scene[key]]));
     const element = part(id).querySelector(".view");
     element.classList.remove("is-stale");
     if (mounted.has(id)) {
-      mounted.get(id).update(scene);
+      mounted.get(id).update(needed());
       return;
     }
     try {
       const { mount } = await import(`./${id}.js`);
-      if (!mounted.has(id)) mounted.set(id, mount(element, api, scene));
+      if (scene && !mounted.has(id)) mounted.set(id, mount(element, api, needed()));
     } catch (error) {
       replace(element, html("p", {}, `This drawing could not be loaded. Reload the page. (${error.message})`));
     }

@@ -10,12 +10,12 @@ import stand_in
 from report.assessment.plan_gaps import parapet_note, plan_gaps
 from report.drawing.layers import Layer
 from report.drawing.plan import plan_drawing
-from report.entities.clearance import clearance_results
-from report.entities.marks import Marked
+from report.entities.columns import UnitFormat
 from report.figures import charts
 from report.figures.plan_sheet import LANDSCAPE
 from report.pages.pictures import load_charts
 from report.web.plan import plan
+from report.web.tables import stamp
 
 PARAPET = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=0.3)
 HIGH = stand_in.roof_object("S", "edge with parapet", 0, 400, -202, -200, height=1.2)
@@ -54,11 +54,10 @@ def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     shown = re.findall(r"<text[^>]*>([^<]*)</text>", charts.roof_plan(done, LANDSCAPE))
     assert "NG" in shown
     assert "not given; in plan 12.0 in" in shown
-    marked = Marked(assessment=done, has_daggers=False)
-    rows = list(clearance_results(marked, dict(enumerate(done.clearances))))
-    gap = plan(done, rows, marked.fmt, lambda verdict: verdict.word)["gaps"][-1]
-    assert (gap["clearance"], gap["verdict"]) == (None, "NG")
-    assert (gap["provided"], gap["required"]) == ("12.0 in", "40.8 in")
+    designs = {item.id: {"text": ""} for item in done.arrays}
+    gap = plan(done, designs, (), UnitFormat(us_first=True), stamp)["gaps"][-1]
+    assert (gap["number"], gap["verdict"]["text"]) == (None, "NG")
+    assert gap["lines"] == ("not given; in plan 12.0 in", "required 40.8 in")
 
 
 def lowered(**changes):
@@ -87,9 +86,9 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     (row,) = (row for row in done.rows if row.id == "neighbors")
     assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", row.limit)
     assert done.is_overridden
-    fmt = Marked(assessment=done, has_daggers=False).fmt
-    (shown,) = plan(done, (), fmt, lambda verdict: verdict.word)["gaps"]
-    assert shown["required"].endswith(" in‡")
+    designs = {item.id: {"text": ""} for item in done.arrays}
+    (shown,) = plan(done, designs, (), UnitFormat(us_first=True), stamp)["gaps"]
+    assert shown["lines"][1].endswith(" in‡")
     load_charts()
     assert re.search(r"required [\d.]+ in‡", charts.roof_plan(done, LANDSCAPE))
     words = [t.words for t in plan_drawing(done).texts if t.layer is Layer.CLEARANCE_NG]

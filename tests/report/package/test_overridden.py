@@ -102,9 +102,10 @@ def test_terminal_and_page_mark_it(done, tmp_path):
     assert "‡: changed by an override or a departure" in lines
     assert any(line.startswith("condition: override of the separation") for line in lines)
     shown = answer(done, is_provisional=False)
-    assert all(item["design"].endswith("‡") for item in shown["arrays"])
-    assert all(item["design_short"].endswith("‡") for item in shown["arrays"])
-    for gap in shown["clearances"]:
-        assert all(gap[key].endswith("‡") for key in ("required", "required_short", "ratio_text"))
-    assert all(gap["required"].endswith("‡") for gap in shown["plan"]["gaps"])
+    for table, columns in {"arrays": ["Design"], "clearances": ["Required", "D/C"]}.items():
+        for cells in shown[table]["rows"]:
+            row = dict(zip(shown[table]["heads"], cells, strict=True))
+            assert all(row[column]["text"].endswith("‡") for column in columns)
+            assert all("‡" in row[column].get("title", "‡") for column in columns)
+    assert all(gap["lines"][1].endswith("‡") for gap in shown["plan"]["gaps"])
     assert "‡: changed by an override" in shown["model_text"]

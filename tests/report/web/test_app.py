@@ -61,9 +61,10 @@ def test_a_first_visit_shows_the_example_with_its_answer(client):
     state = state_of(client)
     assert state["project"]["is_example"]
     assert state["problems"] == []
-    assert state["answer"]["verdict"] == "OK with conditions"
+    assert state["answer"]["verdict"]["text"] == "OK with conditions"
     assert state["answer"]["model"] == "full"
-    assert [array["id"] for array in state["answer"]["arrays"]] == state["views"]["arrays"]
+    rows = state["answer"]["arrays"]["rows"]
+    assert [cells[0]["text"] for cells in rows] == state["views"]["arrays"]
 
 
 def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(client):
@@ -95,9 +96,11 @@ def test_values_that_no_page_sends_are_refused(client, values, sentence):
 
 def test_values_of_a_slider_that_moves_are_provisional_and_carry_no_verdict(client):
     found = asked(client, {"friction": 0.95}, moving=True).json()
-    assert (found["model"], found["is_provisional"], found["reasons"]) == ("one axis", True, [])
-    of = [found, *found["arrays"], *found["clearances"], *found["plan"]["gaps"]]
-    assert {item["verdict"] for item in of} == {None}
+    assert (found["model"], found["reasons"]) == ("one axis", [])
+    of = [found, *found["plan"]["gaps"], *found["plan"]["described"]]
+    verdicts = [item["verdict"] for item in of]
+    verdicts += [cells[-1] for name in ("arrays", "clearances") for cells in found[name]["rows"]]
+    assert set(verdicts) == {None}
 
 
 @pytest.mark.parametrize("body", [b"", b"[]", b"{", b'{"values": 3}', b'{"n": "1"}', b"[" * 90000])
@@ -147,7 +150,7 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
     assert first.pop("opened") != second.pop("opened")
     assert first == second
     assert not first["project"]["is_example"]
-    assert first["answer"]["verdict"] == "OK with conditions"
+    assert first["answer"]["verdict"]["text"] == "OK with conditions"
     assert client.post("/api/example").json()["project"]["is_example"]
 
 
@@ -167,7 +170,7 @@ def test_of_two_uploads_the_last_is_open_whichever_arrives_first(client, monkeyp
     assert told.startswith("Another project was opened meanwhile")
     state = state_of(client)
     assert arrived == [state["project"]["name"]]
-    assert state["answer"]["verdict"] == "NG"
+    assert state["answer"]["verdict"]["text"] == "NG"
 
 
 def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, sessions):
@@ -176,7 +179,7 @@ def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, session
     assert sent(client, [("records/x.csv", b"0")]).status_code == 422
     state = state_of(client)
     assert state["opened"] == before
-    assert state["answer"]["verdict"] == "OK with conditions"
+    assert state["answer"]["verdict"]["text"] == "OK with conditions"
     folder = folder_of_session(client, sessions)
     assert [each.name for each in folder.iterdir()] == [before]
 
@@ -327,7 +330,7 @@ def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, s
     next(folder_of_session(client, sessions).rglob("records/*")).unlink()
     about = over(client, begun(client)["ticket"])
     assert about["state"] == "failed"
-    assert about["message"].startswith("Motions!")
+    assert about["words"].startswith("Motions!")
 
 
 def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, monkeypatch):

@@ -234,10 +234,10 @@ def test_the_page_works_with_the_keyboard_alone(page):
     assert page.locator("#histories").is_visible()
     page.keyboard.press("Home")
     assert page.locator("#plan").is_visible()
-    tabbed_to('[data-array="A2"]')
+    tabbed_to('[data-name="A2"]')
     page.keyboard.press("Enter")
     assert "A2" in page.inner_text("#bars caption")
-    assert page.evaluate("document.activeElement.dataset.array") == "A2"
+    assert page.evaluate("document.activeElement.dataset.name") == "A2"
 
 
 def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
@@ -362,6 +362,9 @@ def test_on_a_tablet_nothing_is_cut_off_and_in_print_no_control_is_left(page):
         assert page.locator(gone).first.is_hidden(), gone
     assert page.locator("#controls output").first.is_visible()
     assert page.locator("#controls .print-only").first.is_visible()
+    page.set_viewport_size({"width": 400, "height": 1100})
+    page.wait_for_selector("#plan-drawing > svg[viewBox^='0 0 400 ']")
+    assert page.locator("#plan-drawing").evaluate("(one) => one.clientHeight") > 300
 
 
 def drawn(page, view, selector, wanted):

@@ -198,13 +198,14 @@ TAKEAWAY = """
     document.body.innerHTML = `${button}${button}${button}<div></div>`;
     const [make, workbook, copy, status] = document.body.children;
     let values = { friction: 0.9 };
-    let state = { ticket: "t", state: "running", stage: "Plans", part: 0.2, values };
+    let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values };
+    const canceled = { state: "canceled", words: "The package was canceled." };
     const failed = [], asked = [];
     const api = {
       announce() {},
       startPackage: async () => state,
       packageState: async () => (asked.push("state"), state),
-      cancelPackage: async () => (asked.push("cancel"), (state = { ...state, state: "canceled" })),
+      cancelPackage: async () => (asked.push("cancel"), (state = { ...state, ...canceled })),
       ...g?.api,
     };
     const all = { values: () => values, words: ({ friction }) => `friction ${friction}`,
@@ -242,9 +243,9 @@ def test_a_package_that_is_canceled_and_made_again_at_once_is_the_one_that_is_fo
         make.focus();
         make.click(); await has("progress");
         const focused = [document.activeElement.textContent];
-        const canceled = { ...state, state: "canceled" };
         let answer;
-        api.cancelPackage = () => new Promise((done) => { answer = () => done(canceled); });
+        const over = { ...state, ...canceled };
+        api.cancelPackage = () => new Promise((done) => { answer = () => done(over); });
         status.querySelector("button").click();
         const seen = [make.disabled];
         answer(); await until(() => !make.disabled);
@@ -375,10 +376,6 @@ def test_a_subscript_is_set_as_one(page):
     body = "return m.html('p', {}, m.words('S_DS and F_a of A_1B, a_b')).innerHTML;"
     words = called(page, "make", body)
     assert words == "S<sub>DS</sub> and F<sub>a</sub> of A<sub>1B</sub>, a_b"
-
-
-def test_a_null_breaks_a_drawn_curve(page):
-    assert called(page, "make", "return m.path([0, 1, 2, 3], [5, null, 6, 7]);") == "M0 5M2 6L3 7"
 
 
 def test_no_script_or_page_uses_the_network_or_inline_code():

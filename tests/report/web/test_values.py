@@ -60,6 +60,11 @@ def anticipated(project, **values):
         yield from zip(array.motions, provisional.motions, strict=True)
 
 
+def rows(table):
+    """The rows of a table as cells by heading."""
+    return [dict(zip(table["heads"], cells, strict=True)) for cells in table["rows"]]
+
+
 @pytest.mark.parametrize(
     ("project", "values"),
     [
@@ -102,9 +107,10 @@ def test_where_no_run_gives_a_displacement_the_page_says_no_value():
         clearances=[stand_in.clearance("A1", "RTU-1", 9.0)],
     )
     found = answer(stand_in.assess_input(data, [lifted]), is_provisional=True)
-    (array,), (gap,), (drawn,) = found["arrays"], found["clearances"], found["plan"]["gaps"]
-    assert {array["mean_prd"], array["mean_prd_short"]} == {"no value"}
-    assert {gap["required"], gap["required_short"], drawn["required"]} == {"no value"}
+    (array,), (gap,) = (rows(found[name]) for name in ("arrays", "clearances"))
+    (drawn,) = found["plan"]["gaps"]
+    assert array["Mean PRD"] == gap["Required"] == {"text": "no value"}
+    assert drawn["lines"][1] == "required no value"
     assert '"none"' not in json.dumps(found)
 
 
@@ -164,9 +170,10 @@ def test_a_clearance_that_moves_runs_nothing_again(monkeypatch):
     before = at_rest("example", friction=0.91)
     monkeypatch.setattr(least_model, "solve", lambda *_: pytest.fail("a run"))
     narrower = at_rest("example", friction=0.91, clearance=-5.0)
-    provided = [[gap["provided_m"] for gap in one["clearances"]] for one in (before, narrower)]
-    assert all(after < given for given, after in zip(*provided, strict=True))
-    assert [a["bars"] for a in narrower["arrays"]] == [a["bars"] for a in before["arrays"]]
+    gaps = zip(*(rows(one["clearances"]) for one in (before, narrower)), strict=True)
+    provided = [[float(gap["Provided"]["text"].split()[0]) for gap in pair] for pair in gaps]
+    assert all(after < given for given, after in provided)
+    assert narrower["bars"] == before["bars"]
     with pytest.raises(pytest.fail.Exception):
         at_rest("example", friction=0.92, clearance=-5.0)
 
@@ -233,13 +240,18 @@ def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_
     weak = with_values(start("school"), {"intensity": 0.32, "together": "no"})
     done = assess(weak.sheet, weak.shaking)
     found = answer(done, is_provisional=False)
-    for array in found["arrays"]:
-        shown_as = (array["design"], array["design_m"], array["design_short"])
-        assert shown_as == ("0 mm (0.0 in)", None, "not permitted")
-        assert (array["source"], array["verdict"]) == ("analysis, not permitted", "NG")
-    for gap in (*found["clearances"], *found["plan"]["gaps"]):
-        assert (gap["required"], gap["verdict"]) == ("no value", "none")
-    assert {gap["ratio"] for gap in found["clearances"]} == {None}
+    title = "0 mm (0.0 in), analysis, not permitted"
+    for array in rows(found["arrays"]):
+        assert array["Design"] == {"text": "not permitted", "title": title}
+        assert array["Verdict"] == {"text": "NG", "look": "ng"}
+        line, _ = found["bars"]["arrays"][array["Array"]["text"]]["lines"]
+        assert (line["length_m"], line["text"]) == (None, "design not permitted")
+    for gap in rows(found["clearances"]):
+        assert gap["Required"] == gap["D/C"] == {"text": "no value"}
+        assert gap["Verdict"]["text"] == "none"
+    for gap in found["plan"]["gaps"]:
+        assert (gap["lines"][1], gap["verdict"]["text"]) == ("required no value", "none")
     assert not any(array["envelope"] for array in found["plan"]["arrays"])
-    assert found["verdict"] == "NG"
-    assert answer(done, is_provisional=True)["arrays"][0]["design_short"] == "0 mm"
+    assert found["verdict"]["text"] == "NG"
+    design = rows(answer(done, is_provisional=True)["arrays"])[0]["Design"]
+    assert design == {"text": "0 mm", "title": "0 mm (0.0 in), analysis"}

@@ -1,0 +1,50 @@
+// Parts that the drawings of the views share: sizes, pointers, ticks, crosses, arrows, scale bars.
+
+import { set, svg } from "./make.js";
+import { tickText } from "./reading.js";
+import { roundBelow } from "./view-axes.js";
+
+const BAR = 4; // half the height of the ends of a scale bar
+
+/** Give a drawing a width and height in pixels. */
+export function resize(drawing, width, height) {
+  set(drawing, { width, height, viewBox: `0 0 ${width} ${height}` });
+}
+
+/** Return where a pointer is in an element, in pixels. */
+export function pointerIn(element, { clientX, clientY }) {
+  const { left, top } = element.getBoundingClientRect();
+  return [clientX - left, clientY - top];
+}
+
+/** Return the texts of ticks along an axis to the right, centered below their places. */
+export function textsAcross({ values, step }, x, y) {
+  return values.map((value) => svg("text", { class: "tick middle-of", x: x(value), y }, tickText(value, step)));
+}
+
+/** Return the texts of ticks along an axis upward, which end at a place. */
+export function textsUp({ values, step }, x, y) {
+  return values.map((value) => svg("text", { class: "tick end-at", x, y: y(value) + 4 }, tickText(value, step)));
+}
+
+/** Return the path of a cross, by half its width. */
+export function cross([x, y], half) {
+  return `M${x - half} ${y}h${2 * half}M${x} ${y - half}v${2 * half}`;
+}
+
+/** Return an arrow in a direction, by its middle and half its length. */
+export function arrow([x, y], [dx, dy], half) {
+  const [tip, tail] = [half, -half].map((along) => `${x + along * dx} ${y + along * dy}`);
+  const wing = (side) => `${x + (half - 8) * dx - 4 * side * dy} ${y + (half - 8) * dy + 4 * side * dx}`;
+  return svg("path", { class: "arrow", d: `M${tail}L${tip}M${wing(1)}L${tip}L${wing(-1)}` });
+}
+
+/** Return a bar of a round length in a unit, at most so many pixels wide, with its text. */
+export function scaleBar([x, y], unit, pixelsPerMeter, most) {
+  const length = roundBelow(most / pixelsPerMeter / unit.si);
+  const wide = length * unit.si * pixelsPerMeter;
+  return [
+    svg("path", { class: "bar-line", d: `M${x} ${y - BAR}v${2 * BAR}M${x} ${y}h${wide}m0 ${-BAR}v${2 * BAR}` }),
+    svg("text", { class: "label on-line", x: x + wide + 6, y: y + 4 }, `${length} ${unit.symbol}`),
+  ];
+}
