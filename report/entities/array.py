@@ -16,6 +16,7 @@ from report.assessment.causes import unshown_cause
 from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
+from report.entities.cells import column
 from report.entities.marks import Marked
 from report.entities.requirement import limit
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
@@ -25,6 +26,21 @@ from report.words.units import Quantity, compared, number, ratio, rounded_apart
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
+TAKES_LARGEST = f'{{design.statistic}}="{Basis.LARGEST_FACTORED.value}"'
+"""Whether the design displacement follows from the largest peak, in the formulas of a sheet."""
+
+_COMPUTED = (
+    f'=IF({{statistic}}="{Basis.TOO_FEW.value}","none",{{analysis_factor}}'
+    f'*IF({{statistic}}="{Basis.LARGEST_FACTORED.value}",{{largest_prd_m}},{{mean_prd_m}}))'
+)
+_TOWARD = f"={{factor}}*IF({TAKES_LARGEST},{{largest_m}},{{mean_m}})"
+_PRESCRIPTIVE = "=MAX({factor_m}*{importance}*MAX({s_ds_g}-0.4,0)^2,{minimum_m})"
+_DESIGN = '=IF(ISTEXT({computed_m}),"none",MAX({computed_m},{floor_m}))'
+_DESIGN_MM = '=IF(ISTEXT({design_m}),"none",{design_m}*25.4)'
+_STRENGTH = (
+    "=MAX({inputs[interconnection_sds]}*{s_ds_g},{inputs[interconnection_min]})*{weight_n}/2"
+)
+
 
 def _weight(head: str) -> Shown:
     return Shown(head=head, quantity=Quantity.WEIGHT)
@@ -33,15 +49,37 @@ def _weight(head: str) -> Shown:
 class Displacements(Entity):
     """The displacements of an array: by analysis, prescriptive and design."""
 
-    computed_m: Annotated[Number, at("analysis.value_m"), length("Analysis")]
+    computed_m: Annotated[
+        Number,
+        at("analysis.value_m"),
+        length("Analysis"),
+        column("Computed [in]", 2, _COMPUTED, is_always=True),
+    ]
     computed_basis: Annotated[Basis, at("analysis.basis")]
-    mean_prd_m: Annotated[Number, at("analysis.mean_m"), length("Mean")]
-    largest_prd_m: Annotated[Number, at("analysis.largest_m"), length("Largest")]
+    mean_prd_m: Annotated[
+        Number,
+        at("analysis.mean_m"),
+        length("Mean"),
+        column("Mean PRD [in]", 2, "=AVERAGE({peaks})"),
+    ]
+    largest_prd_m: Annotated[
+        Number,
+        at("analysis.largest_m"),
+        length("Largest"),
+        column("Largest PRD [in]", 2, "=MAX({peaks})"),
+    ]
     prd_variation: Annotated[Number, at("variation")]
-    prescriptive_m: Annotated[float, at("prescriptive.value_m"), length("Prescriptive")]
+    prescriptive_m: Annotated[
+        float, at("prescriptive.value_m"), length("Prescriptive"), column("[in]", 1, _PRESCRIPTIVE)
+    ]
     prescriptive_governs: Annotated[PrescriptiveBasis, at("prescriptive.governs")]
-    floor_m: Annotated[float, length("Floor")]
-    design_m: Annotated[Number, length("Design")]
+    floor_m: Annotated[float, length("Floor"), column("[in]", 2, "={floor_share}*{prescriptive_m}")]
+    design_m: Annotated[
+        Number,
+        length("Design"),
+        column("[in]", 2, _DESIGN, is_always=True),
+        column("[mm]", 1, _DESIGN_MM),
+    ]
     design_is_overridden: Annotated[bool, at("design_mark"), BeforeValidator(bool)]
     design_governs: Annotated[DesignBasis, at("governs")]
     design_permitted: Annotated[bool, at("is_permitted")]
@@ -72,17 +110,17 @@ class LowVelocityResult(Displacements):
 
     first: ClassVar[tuple[str, ...]] = ("id", "mu")
 
-    id: Annotated[str, words("Array", 1.1)]
+    id: Annotated[str, words("Array", 1.1), column()]
     mu: Annotated[float, at("array.mu")]
 
 
 class DirectionResult(Entity):
     """The displacements of an array in a direction."""
 
-    mean_m: Number
-    largest_m: Number
-    computed_m: Annotated[Number, at("value_m")]
-    design_m: Number
+    mean_m: Annotated[Number, column("Mean of peaks [in]", 2, "=AVERAGE({peaks})")]
+    largest_m: Annotated[Number, column("Largest peak [in]", 2, "=MAX({peaks})")]
+    computed_m: Annotated[Number, at("value_m"), column("Computed [in]", 2, _TOWARD)]
+    design_m: Annotated[Number, column("In this direction [in]", 2, "=MAX({computed_m},{floor_m})")]
     design_by_chosen_model_m: Number
 
 
@@ -117,7 +155,7 @@ class ArrayResult(LowVelocityResult):
         "friction_as_run",
     )
 
-    verdict: Annotated[Verdict, Shown(head="Verdict", align="center", share=1.65)]
+    verdict: Annotated[Verdict, Shown(head="Verdict", align="center", share=1.65), column()]
     slope_rad: Annotated[float, at("array.slope_rad")]
     friction: Annotated[Friction, at("array.friction")]
     friction_as_run: Annotated[str, Shown(head="μ")]
@@ -126,7 +164,9 @@ class ArrayResult(LowVelocityResult):
     directions: Mapping[Direction, DirectionResult]
     peaks: tuple[PeakResult, ...]
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
-    interconnection_n: Annotated[float, _weight("Required")]
+    interconnection_n: Annotated[
+        float, _weight("Required"), column("Interconnection required [lb]", 0, _STRENGTH)
+    ]
     tipping: TippingResult
     uplift: UpliftResult
     route: Route
@@ -142,12 +182,14 @@ class ArrayResult(LowVelocityResult):
         default="none given", exclude=True
     )
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = Field(default="—", exclude=True)
-    weight_n: Annotated[float, at("array.weight_n"), _weight("Weight W")] = Field(
-        default=math.nan, exclude=True
-    )
-    given_n: Annotated[float | None, at("array.interconnection_n")] = Field(
-        default=None, exclude=True
-    )
+    weight_n: Annotated[
+        float, at("array.weight_n"), _weight("Weight W"), column("Weight [lb]", 0, is_input=True)
+    ] = Field(default=math.nan, exclude=True)
+    given_n: Annotated[
+        float | None,
+        at("array.interconnection_n"),
+        column("Interconnection provided [lb]", 0, is_input=True),
+    ] = Field(default=None, exclude=True)
     clause: Annotated[str, words("Clause", 1.9)] = Field(default="", exclude=True)
 
     cause: str = Field(default="", exclude=True)
@@ -201,7 +243,7 @@ def array_result(
         rounds={"interconnection_n": required, "provided_n": provided},
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
-        directions={direction: _direction(item, direction) for direction in item.directions},
+        directions={direction: direction_result(item, direction) for direction in item.directions},
         peaks=tuple(map(peak_result, item.motions)),
         uplift=UpliftResult.of(item.uplift),
         checks=tuple(map(limit, item.checks)),
@@ -229,7 +271,8 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
         )
 
 
-def _direction(item: ArrayAssessment, direction: Direction) -> DirectionResult:
+def direction_result(item: ArrayAssessment, direction: Direction) -> DirectionResult:
+    """Return the displacements of an array in a direction."""
     return DirectionResult.of(
         item.directions[direction],
         design_m=item.directional_m(direction),

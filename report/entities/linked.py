@@ -12,7 +12,10 @@ from pydantic import Field
 
 from report.assessment.links import LinkedArray
 from report.assessment.verdict import Verdict
+from report.entities.array import TAKES_LARGEST
+from report.entities.cells import column
 from report.entities.columns import NO_VALUE
+from report.entities.run import polarity_words, status_words
 from report.entities.shown import (
     Entity,
     Number,
@@ -26,24 +29,34 @@ from report.entities.shown import (
     words,
 )
 from report.words.units import Quantity, number
-from solver.model import Status
+from solver.model import INCH_M, Status
+
+
+def _listed(places_m: tuple[float, ...]) -> str:
+    if any(map(math.isnan, places_m)):
+        return NO_VALUE
+    return ", ".join(f"{place / INCH_M:.2f}" for place in places_m)
 
 
 class LinkedRunResult(Entity):
     """A run as a row of blocks, and as one block."""
 
-    motion: str
-    along: Annotated[str, at("orientation.component")]
-    polarity: Annotated[int, at("orientation.polarity")]
-    status: Annotated[Status, at("row.status")]
+    motion: Annotated[str, column("Motion")]
+    along: Annotated[str, at("orientation.component"), column("Component along slope")]
+    polarity: Annotated[int, at("orientation.polarity"), column("Polarity", value=polarity_words)]
+    status: Annotated[Status, at("row.status"), column("Outcome", value=status_words)]
     rigid_status: Annotated[Status, at("rigid.status")]
-    rigid_prd_m: Annotated[Number, at("rigid.prd_m")]
-    prd_m: Annotated[tuple[Number, ...], at("row.prd_m")]
+    rigid_prd_m: Annotated[Number, at("rigid.prd_m"), column("PRD, rigid [in]")]
+    prd_m: Annotated[
+        tuple[Number, ...],
+        at("row.prd_m"),
+        column("PRD of blocks, from the upslope end [in]", value=_listed),
+    ]
     residual_m: Annotated[tuple[Number, ...], at("row.residual_m")]
-    stretch_m: Annotated[Number, at("row.stretch_m")]
-    link_force_n: Number
-    error_m: Annotated[Number, at("row.error_m")]
-    n_stops: Annotated[int, at("row.n_stops")]
+    stretch_m: Annotated[Number, at("row.stretch_m"), column("Largest link elongation [in]")]
+    link_force_n: Annotated[Number, column("Largest link force [lb]")]
+    error_m: Annotated[Number, at("row.error_m"), column("Error bound [in]")]
+    n_stops: Annotated[int, at("row.n_stops"), column("Stops")]
 
 
 def ratio_up(value: float) -> str:
@@ -53,10 +66,19 @@ def ratio_up(value: float) -> str:
     return number(math.ceil(value * 1e3 - 1e-6) / 1e3 if math.isfinite(value) else value, 3)
 
 
+_RIGID = f"={{factor}}*IF({TAKES_LARGEST},{{rigid_largest_m}},{{rigid_mean_m}})"
+_ROW = f"={{factor}}*IF({TAKES_LARGEST},{{row_largest_m}},{{row_mean_m}})"
+
+
+_RIGID = f"={{factor}}*IF({TAKES_LARGEST},{{rigid_largest_m}},{{rigid_mean_m}})"
+_ROW = f"={{factor}}*IF({TAKES_LARGEST},{{row_largest_m}},{{row_mean_m}})"
+_DESIGN = "=MAX(MAX(1,{ratio})*{computed_m},{floor_m})"
+
+
 class LinkedResult(Entity):
     """An array as a row of linked blocks, beside its design as one rigid block."""
 
-    array: Annotated[str, at("design.id"), words("Array", 0.9)]
+    array: Annotated[str, at("design.id"), words("Array", 0.9), column()]
     mus: Annotated[tuple[float, ...], at("row.mus")]
     stiffness_n_per_m: Annotated[
         float,
@@ -66,11 +88,23 @@ class LinkedResult(Entity):
     damping_ratio: Annotated[
         float, at("links.damping_ratio"), plain("Damping", 3, unit="of critical", share=1.2)
     ]
-    rigid_one_axis_m: Annotated[Number, at("rigid.value_m"), length("Rigid, one axis")]
-    linked_one_axis_m: Annotated[Number, at("linked.value_m"), length("Row, one axis")]
-    ratio: Annotated[Number, Shown(head="Ratio r", text=ratio_up, share=0.9)]
-    design_m: Annotated[Number, at("design.design_m")]
-    estimated_m: Annotated[Number, length("Design, with links")]
+    rigid_one_axis_m: Annotated[
+        Number, at("rigid.value_m"), length("Rigid, one axis"), column("Rigid [in]", 3, _RIGID)
+    ]
+    linked_one_axis_m: Annotated[
+        Number, at("linked.value_m"), length("Row, one axis"), column("Row [in]", 3, _ROW)
+    ]
+    ratio: Annotated[
+        Number,
+        Shown(head="Ratio r", text=ratio_up, share=0.9),
+        column("Ratio", 3, "={linked_one_axis_m}/{rigid_one_axis_m}"),
+    ]
+    design_m: Annotated[
+        Number, at("design.design_m"), column("Design used [in]", 3, "={design.design_m}")
+    ]
+    estimated_m: Annotated[
+        Number, length("Design, with links"), column("Design with links [in]", 3, _DESIGN)
+    ]
     link_force_n: Annotated[Number, Shown(head="Link force", quantity=Quantity.WEIGHT, share=0.9)]
     rigid_is_enough: Annotated[bool, at("is_rigid_enough")]
     runs: tuple[LinkedRunResult, ...]

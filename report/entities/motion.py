@@ -6,8 +6,9 @@ Computes nothing: see `report.motions`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, ClassVar
 
+from report.entities.cells import column
 from report.entities.shown import Entity, at
 from report.motions.history import PreparedMotion
 from report.sheet.schema import RecordedAt
@@ -18,15 +19,17 @@ from solver.records.measures import Measures
 class RecordResult(Entity):
     """A record as it was read."""
 
-    motion: Annotated[str, at("motion_id")]
-    component: str
-    name: str
-    format: str
+    across: ClassVar[str] = "motion component name format npts dt_s peak_g"
+
+    motion: Annotated[str, at("motion_id"), column("Motion")]
+    component: Annotated[str, column("Component")]
+    name: Annotated[str, column("Record")]
+    format: Annotated[str, column("Format")]
     notes: tuple[str, ...]
-    sha256: str
-    npts: int
-    dt_s: float
-    peak_g: float
+    sha256: Annotated[str, column("SHA-256")]
+    npts: Annotated[int, column("Samples")]
+    dt_s: Annotated[float, column("Time step [s]")]
+    peak_g: Annotated[float, column("Peak [g]")]
 
 
 class RoofResult(Entity):
@@ -44,11 +47,11 @@ class RoofResult(Entity):
 class MotionResult(Entity):
     """A motion as it was run."""
 
-    id: str
-    recorded_at: RecordedAt
-    processing: Annotated[str, at("done")]
-    scaling: str
-    scale: float
+    id: Annotated[str, column("Motion")]
+    recorded_at: Annotated[RecordedAt, column("Recorded at")]
+    processing: Annotated[str, at("done"), column("Processing")]
+    scaling: Annotated[str, column("Scaling")]
+    scale: Annotated[float, column("Factor")]
     dt_s: float
     npts: int
     components: Annotated[Mapping[str, Measures], at("measures")]

@@ -7,7 +7,7 @@ The value of a field is that of the attribute of the assessment with its name, o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import Annotated, Any, ClassVar, Self
@@ -24,6 +24,7 @@ from pydantic import (
 )
 from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
+from report.entities.cells import Column
 from report.entities.columns import TableColumn, UnitFormat
 from report.words.units import Quantity, Show, measured, number
 
@@ -130,6 +131,8 @@ class Entity(BaseModel):
 
     first: ClassVar[tuple[str, ...]] = ()
     """Fields that are written first: those of a base class would be."""
+    across: ClassVar[str] = ""
+    """Fields in the order of their columns on a sheet of results.xlsx; others follow."""
 
     marks: SkipJsonSchema[Mapping[str, str]] = Field(default={}, exclude=True)
     rounds: SkipJsonSchema[Mapping[str, Show]] = Field(default={}, exclude=True)
@@ -201,3 +204,19 @@ def shown_by(model: type[Entity], name: str) -> Shown:
         return next(item for item in model.model_fields[name].metadata if isinstance(item, Shown))
     shown: Shown = getattr(model, name).fget.shown
     return shown
+
+
+@cache
+def columns_of(model: type[Entity]) -> tuple[tuple[str, str, Column], ...]:
+    """Return the columns of a model on a sheet of results.xlsx: field, heading and the rest."""
+    return tuple(_columns(model))
+
+
+def _columns(model: type[Entity]) -> Iterator[tuple[str, str, Column]]:
+    for name in dict.fromkeys((*model.across.split(), *model.model_fields)):
+        about = model.model_fields[name].metadata
+        head = next((item.head for item in about if isinstance(item, Shown)), "")
+        for item in about:
+            if isinstance(item, Column):
+                is_unit = item.head.startswith("[") or not item.head
+                yield name, f"{head} {item.head}".strip() if is_unit else item.head, item
