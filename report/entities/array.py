@@ -9,18 +9,30 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.causes import unshown_cause
+from report.assessment.changes import ChangeKind
 from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.entities.cells import column
+from report.entities.cells import Column, Told
 from report.entities.marks import Marked
 from report.entities.requirement import limit
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
-from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
+from report.entities.shown import (
+    Entity,
+    Number,
+    Shown,
+    at,
+    centered,
+    length,
+    plain,
+    printed,
+    unwritten,
+    words,
+)
 from report.sheet.schema import Direction, ModelChoice
 from report.words.units import Quantity, compared, number, ratio, rounded_apart
 from solver.model import Friction
@@ -53,32 +65,42 @@ class Displacements(Entity):
         Number,
         at("analysis.value_m"),
         length("Analysis"),
-        column("Computed [in]", 2, _COMPUTED, is_always=True),
+        Column("Computed [in]", 2, _COMPUTED, is_always=True),
+        Told(),
     ]
     computed_basis: Annotated[Basis, at("analysis.basis")]
     mean_prd_m: Annotated[
         Number,
         at("analysis.mean_m"),
         length("Mean"),
-        column("Mean PRD [in]", 2, "=AVERAGE({peaks})"),
+        Column("Mean PRD [in]", 2, "=AVERAGE({peaks})"),
+        Told(),
     ]
     largest_prd_m: Annotated[
         Number,
         at("analysis.largest_m"),
         length("Largest"),
-        column("Largest PRD [in]", 2, "=MAX({peaks})"),
+        Column("Largest PRD [in]", 2, "=MAX({peaks})"),
+        Told(),
     ]
     prd_variation: Annotated[Number, at("variation")]
     prescriptive_m: Annotated[
-        float, at("prescriptive.value_m"), length("Prescriptive"), column("[in]", 1, _PRESCRIPTIVE)
+        float,
+        at("prescriptive.value_m"),
+        length("Prescriptive"),
+        Column("[in]", 1, _PRESCRIPTIVE),
+        Told(),
     ]
     prescriptive_governs: Annotated[PrescriptiveBasis, at("prescriptive.governs")]
-    floor_m: Annotated[float, length("Floor"), column("[in]", 2, "={floor_share}*{prescriptive_m}")]
+    floor_m: Annotated[
+        float, length("Floor"), Column("[in]", 2, "={floor_share}*{prescriptive_m}"), Told()
+    ]
     design_m: Annotated[
         Number,
         length("Design"),
-        column("[in]", 2, _DESIGN, is_always=True),
-        column("[mm]", 1, _DESIGN_MM),
+        Column("[in]", 2, _DESIGN, is_always=True),
+        Column("[mm]", 1, _DESIGN_MM),
+        Told(ChangeKind.DESIGN, "Array {row.id}"),
     ]
     design_is_overridden: Annotated[bool, at("design_mark"), BeforeValidator(bool)]
     design_governs: Annotated[DesignBasis, at("governs")]
@@ -110,17 +132,17 @@ class LowVelocityResult(Displacements):
 
     first: ClassVar[tuple[str, ...]] = ("id", "mu")
 
-    id: Annotated[str, words("Array", 1.1), column()]
+    id: Annotated[str, words("Array", 1.1), Column()]
     mu: Annotated[float, at("array.mu")]
 
 
 class DirectionResult(Entity):
     """The displacements of an array in a direction."""
 
-    mean_m: Annotated[Number, column("Mean of peaks [in]", 2, "=AVERAGE({peaks})")]
-    largest_m: Annotated[Number, column("Largest peak [in]", 2, "=MAX({peaks})")]
-    computed_m: Annotated[Number, at("value_m"), column("Computed [in]", 2, _TOWARD)]
-    design_m: Annotated[Number, column("In this direction [in]", 2, "=MAX({computed_m},{floor_m})")]
+    mean_m: Annotated[Number, Column("Mean of peaks [in]", 2, "=AVERAGE({peaks})")]
+    largest_m: Annotated[Number, Column("Largest peak [in]", 2, "=MAX({peaks})")]
+    computed_m: Annotated[Number, at("value_m"), Column("Computed [in]", 2, _TOWARD)]
+    design_m: Annotated[Number, Column("In this direction [in]", 2, "=MAX({computed_m},{floor_m})")]
     design_by_chosen_model_m: Number
 
 
@@ -155,7 +177,12 @@ class ArrayResult(LowVelocityResult):
         "friction_as_run",
     )
 
-    verdict: Annotated[Verdict, Shown(head="Verdict", align="center", share=1.65), column()]
+    verdict: Annotated[
+        Verdict,
+        centered("Verdict", 1.65),
+        Column(),
+        Told(ChangeKind.VERDICT, "Array {row.id}", of_gone=True),
+    ]
     slope_rad: Annotated[float, at("array.slope_rad")]
     friction: Annotated[Friction, at("array.friction")]
     friction_as_run: Annotated[str, Shown(head="μ")]
@@ -165,7 +192,7 @@ class ArrayResult(LowVelocityResult):
     peaks: tuple[PeakResult, ...]
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
     interconnection_n: Annotated[
-        float, _weight("Required"), column("Interconnection required [lb]", 0, _STRENGTH)
+        float, _weight("Required"), Column("Interconnection required [lb]", 0, _STRENGTH)
     ]
     tipping: TippingResult
     uplift: UpliftResult
@@ -174,25 +201,23 @@ class ArrayResult(LowVelocityResult):
     analysis_checks: tuple[Mapping[str, Any], ...]
     prescriptive_checks: tuple[Mapping[str, Any], ...]
     runs: tuple[RunResult, ...]
-    source: Annotated[str, words("Governs", 1.55)] = Field(default="", exclude=True)
-    limits: Annotated[
-        Verdict, at("limits_verdict"), Shown(head="Limits", align="center", share=0.85)
-    ] = Field(default=Verdict.NONE, exclude=True)
-    governing_gap: Annotated[str, words("Clearance", 1.4)] = Field(
-        default="none given", exclude=True
+    source: Annotated[str, words("Governs", 1.55)] = printed("")
+    limits: Annotated[Verdict, at("limits_verdict"), centered("Limits", 0.85)] = printed(
+        Verdict.NONE
     )
-    largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = Field(default="—", exclude=True)
+    governing_gap: Annotated[str, words("Clearance", 1.4)] = printed("none given")
+    largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
     weight_n: Annotated[
-        float, at("array.weight_n"), _weight("Weight W"), column("Weight [lb]", 0, is_input=True)
-    ] = Field(default=math.nan, exclude=True)
+        float, at("array.weight_n"), _weight("Weight W"), Column("Weight [lb]", 0, is_input=True)
+    ] = printed(math.nan)
     given_n: Annotated[
         float | None,
         at("array.interconnection_n"),
-        column("Interconnection provided [lb]", 0, is_input=True),
-    ] = Field(default=None, exclude=True)
-    clause: Annotated[str, words("Clause", 1.9)] = Field(default="", exclude=True)
+        Column("Interconnection provided [lb]", 0, is_input=True),
+    ] = printed(None)
+    clause: Annotated[str, words("Clause", 1.9)] = printed("")
 
-    cause: str = Field(default="", exclude=True)
+    cause: str = printed("")
     """Of a verdict that the D/C beside it does not show."""
 
     @unwritten(Shown(head="Slope", unit="deg", share=0.8, text=lambda deg: number(deg, 2)))

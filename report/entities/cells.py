@@ -1,6 +1,6 @@
-"""How a field is a column of a sheet of results.xlsx.
+"""How a field is a column of a sheet of results.xlsx, and how its change is told by `--since`.
 
-Writes nothing: see `report.results.sheets`. Read `Column`.
+Writes and compares nothing: see `report.results.sheets` and `report.results.compare`.
 """
 
 from __future__ import annotations
@@ -9,13 +9,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from report.assessment.changes import ChangeKind
 from report.words.units import NEWTONS_PER_POUND
 from solver.model import INCH_M
-
-
-def _as_it_is(value: Any) -> Any:
-    return value
-
 
 _FROM_SI: Mapping[str, Callable[[Any], Any]] = {
     "in": lambda value_m: value_m / INCH_M,
@@ -26,9 +22,9 @@ _FROM_SI: Mapping[str, Callable[[Any], Any]] = {
 """What a value in SI is in the units of a sheet; a value in another unit stays as it is."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Column:
-    """A column of a sheet of results.xlsx.
+    """A column of a sheet; a field may have several.
 
     Attributes
     ----------
@@ -38,38 +34,47 @@ class Column:
         Of a number; None to show it as it is.
     formula : str
         Live formula, with names of fields of the row and of other cells in braces; empty for none.
-    value : callable
-        Returns what a cell holds of the value of the field.
+    value : callable or None
+        Returns what a cell holds of the value of the field, where the unit does not say it.
     is_always : bool
         Whether the formula is written also where it gives no value.
     is_input : bool
         Whether what has no formula may be changed there.
     """
 
-    head: str
-    decimals: int | None
-    formula: str
-    value: Callable[[Any], Any]
-    is_always: bool
-    is_input: bool
+    head: str = ""
+    decimals: int | None = None
+    formula: str = ""
+    value: Callable[[Any], Any] | None = None
+    is_always: bool = False
+    is_input: bool = False
+
+    def heading(self, of_field: str) -> str:
+        """Return the heading, from that of the field where it has none of its own."""
+        is_unit = not self.head or self.head.startswith("[")
+        return f"{of_field} {self.head}".strip() if is_unit else self.head
+
+    def held(self, value: Any) -> Any:
+        """Return what a cell holds of the value of the field."""
+        convert = self.value or _FROM_SI.get(self.head.partition("[")[2].rstrip("]"))
+        return convert(value) if convert else value
 
 
-def column(
-    head: str = "",
-    decimals: int | None = None,
-    formula: str = "",
-    *,
-    value: Callable[[Any], Any] | None = None,
-    is_always: bool = False,
-    is_input: bool = False,
-) -> Column:
-    """Return how a field is a column of results.xlsx; a field may be several."""
-    unit = head.partition("[")[2].rstrip("]")
-    return Column(
-        head=head,
-        decimals=decimals,
-        formula=formula,
-        value=value or _FROM_SI.get(unit, _as_it_is),
-        is_always=is_always,
-        is_input=is_input,
-    )
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A change of a field, which marks its row in the package and may be listed.
+
+    Attributes
+    ----------
+    kind : ChangeKind or None
+        None if it is not listed.
+    title : str
+        What changed, with what it says of the `row` in braces.
+    of_new, of_gone : bool
+        Whether it is listed of a row that the former revision did not have, or that is gone.
+    """
+
+    kind: ChangeKind | None = None
+    title: str = ""
+    of_new: bool = True
+    of_gone: bool = False

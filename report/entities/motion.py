@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, ClassVar
 
-from report.entities.cells import column
+from report.entities.cells import Column
 from report.entities.shown import Entity, at
 from report.motions.history import PreparedMotion
 from report.sheet.schema import RecordedAt
@@ -21,15 +21,15 @@ class RecordResult(Entity):
 
     across: ClassVar[str] = "motion component name format npts dt_s peak_g"
 
-    motion: Annotated[str, at("motion_id"), column("Motion")]
-    component: Annotated[str, column("Component")]
-    name: Annotated[str, column("Record")]
-    format: Annotated[str, column("Format")]
+    motion: Annotated[str, at("motion_id"), Column("Motion")]
+    component: Annotated[str, Column("Component")]
+    name: Annotated[str, Column("Record")]
+    format: Annotated[str, Column("Format")]
     notes: tuple[str, ...]
-    sha256: Annotated[str, column("SHA-256")]
-    npts: Annotated[int, column("Samples")]
-    dt_s: Annotated[float, column("Time step [s]")]
-    peak_g: Annotated[float, column("Peak [g]")]
+    sha256: Annotated[str, Column("SHA-256")]
+    npts: Annotated[int, Column("Samples")]
+    dt_s: Annotated[float, Column("Time step [s]")]
+    peak_g: Annotated[float, Column("Peak [g]")]
 
 
 class RoofResult(Entity):
@@ -47,11 +47,11 @@ class RoofResult(Entity):
 class MotionResult(Entity):
     """A motion as it was run."""
 
-    id: Annotated[str, column("Motion")]
-    recorded_at: Annotated[RecordedAt, column("Recorded at")]
-    processing: Annotated[str, at("done"), column("Processing")]
-    scaling: Annotated[str, column("Scaling")]
-    scale: Annotated[float, column("Factor")]
+    id: Annotated[str, Column("Motion")]
+    recorded_at: Annotated[RecordedAt, Column("Recorded at")]
+    processing: Annotated[str, at("done"), Column("Processing")]
+    scaling: Annotated[str, Column("Scaling")]
+    scale: Annotated[float, Column("Factor")]
     dt_s: float
     npts: int
     components: Annotated[Mapping[str, Measures], at("measures")]

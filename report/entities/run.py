@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from report.assessment.runs import MotionRun, OrientedRun
-from report.entities.cells import column
+from report.entities.cells import Column
 from report.entities.shown import Entity, Number, at
 from report.sheet.schema import Direction
 from solver.model import Status
@@ -32,49 +32,49 @@ def _model_words(rung: int) -> str:
 class PeakResult(Entity):
     """The largest displacements of an array in all runs of a motion, by direction."""
 
-    motion: Annotated[str, column("Motion")]
-    down_m: Annotated[Number, column("Downslope [in]", 2, "=MAX({runs.down_m})")]
-    up_m: Annotated[Number, column("Upslope [in]", 2, "=MAX({runs.up_m})")]
-    across_m: Annotated[Number, column("Cross-slope [in]", 2, "=MAX({runs.across_m})")]
-    any_m: Annotated[Number, column("Any direction [in]", 2, "=MAX({runs.prd_m})")]
+    motion: Annotated[str, Column("Motion")]
+    down_m: Annotated[Number, Column("Downslope [in]", 2, "=MAX({runs.down_m})")]
+    up_m: Annotated[Number, Column("Upslope [in]", 2, "=MAX({runs.up_m})")]
+    across_m: Annotated[Number, Column("Cross-slope [in]", 2, "=MAX({runs.across_m})")]
+    any_m: Annotated[Number, Column("Any direction [in]", 2, "=MAX({runs.prd_m})")]
 
 
 class RunResult(Entity):
     """An array under a motion with one component along the slope, in one polarity."""
 
-    motion: Annotated[str, column("Motion")]
-    along: Annotated[str, at("orientation.component"), column("Component along slope")]
-    polarity: Annotated[int, at("orientation.polarity"), column("Polarity", value=polarity_words)]
-    scale: Annotated[float, column("Scale")]
+    motion: Annotated[str, Column("Motion")]
+    along: Annotated[str, at("orientation.component"), Column("Component along slope")]
+    polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=polarity_words)]
+    scale: Annotated[float, Column("Scale")]
     dt_s: float
-    status: Annotated[Status, at("result.status"), column("Outcome", value=status_words)]
-    prd_m: Annotated[Number, at("result.prd_m"), column("PRD [in]"), column("PRD [mm]")]
+    status: Annotated[Status, at("result.status"), Column("Outcome", value=status_words)]
+    prd_m: Annotated[Number, at("result.prd_m"), Column("PRD [in]"), Column("PRD [mm]")]
     residual_m: Annotated[
-        Number, at("result.residual_m"), column("Residual [in]"), column("Residual [mm]")
+        Number, at("result.residual_m"), Column("Residual [in]"), Column("Residual [mm]")
     ]
-    down_m: Annotated[Number, at("result.down_m"), column("Downslope [in]")]
-    up_m: Annotated[Number, at("result.up_m"), column("Upslope [in]")]
-    across_m: Annotated[Number, at("result.across_m"), column("Cross-slope [in]")]
+    down_m: Annotated[Number, at("result.down_m"), Column("Downslope [in]")]
+    up_m: Annotated[Number, at("result.up_m"), Column("Upslope [in]")]
+    across_m: Annotated[Number, at("result.across_m"), Column("Cross-slope [in]")]
     residual_across_m: Annotated[
-        Number, at("result.residual_across_m"), column("Residual cross-slope [in]")
+        Number, at("result.residual_across_m"), Column("Residual cross-slope [in]")
     ]
-    t_prd_s: Annotated[Number, at("result.t_prd_s"), column("Time of PRD [s]")]
-    n_stops: Annotated[int, at("result.n_stops"), column("Stops")]
-    n_min_g: Annotated[Number, at("result.n_min_g"), column("Minimum N/(m g)")]
+    t_prd_s: Annotated[Number, at("result.t_prd_s"), Column("Time of PRD [s]")]
+    n_stops: Annotated[int, at("result.n_stops"), Column("Stops")]
+    n_min_g: Annotated[Number, at("result.n_min_g"), Column("Minimum N/(m g)")]
     t_uplift_s: Annotated[Number, at("result.t_uplift_s")]
     end_speed_mps: Annotated[Number, at("result.end_speed_mps")]
     peak_speed_mps: Annotated[
-        Number, at("result.peak_speed_mps"), column("Largest velocity [in/s]")
+        Number, at("result.peak_speed_mps"), Column("Largest velocity [in/s]")
     ]
-    error_m: Annotated[Number, at("result.error_m"), column("Error bound [in]")]
-    rung: Annotated[int, at("solution.model"), column("Model", value=_model_words)]
+    error_m: Annotated[Number, at("result.error_m"), Column("Error bound [in]")]
+    rung: Annotated[int, at("solution.model"), Column("Model", value=_model_words)]
     model: Annotated[str, at("solution.model.title")]
-    reason: Annotated[str, at("solution.reason"), column("Reason")]
-    next_rung: Annotated[int, at("solution.next_model"), column("Next model", value=_model_words)]
+    reason: Annotated[str, at("solution.reason"), Column("Reason")]
+    next_rung: Annotated[int, at("solution.next_model"), Column("Next model", value=_model_words)]
     next_effect_m: Annotated[
-        Number, at("solution.next_effect_m"), column("Effect of next model [in]")
+        Number, at("solution.next_effect_m"), Column("Effect of next model [in]")
     ]
-    friction_demand: Annotated[Number, at("solution.friction_demand"), column("Friction demand")]
+    friction_demand: Annotated[Number, at("solution.friction_demand"), Column("Friction demand")]
 
 
 def peak_result(motion: MotionRun) -> PeakResult:

@@ -7,10 +7,10 @@ The value of a field is that of the attribute of the assessment with its name, o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self, TypeVar
 
 from pydantic import (
     AliasPath,
@@ -27,6 +27,8 @@ from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 from report.entities.cells import Column
 from report.entities.columns import TableColumn, UnitFormat
 from report.words.units import Quantity, Show, measured, number
+
+_Mark = TypeVar("_Mark")
 
 Number = Annotated[
     float,
@@ -102,6 +104,11 @@ def centered(head: str, share: float = 1.0) -> Shown:
 def at(path: str) -> Any:
     """Return where the assessment has the value of a field: names of attributes, with dots."""
     return Field(validation_alias=AliasPath(*path.split(".")))
+
+
+def printed(default: Any) -> Any:
+    """Return a field that is shown, and not written to results.json."""
+    return Field(default=default, exclude=True)
 
 
 def unwritten(shown: Shown) -> Callable[[Callable[[Any], Any]], Any]:
@@ -200,23 +207,26 @@ class _Beside:
 @cache
 def shown_by(model: type[Entity], name: str) -> Shown:
     """Return how a field of a model is shown."""
-    if name in model.model_fields:
-        return next(item for item in model.model_fields[name].metadata if isinstance(item, Shown))
-    shown: Shown = getattr(model, name).fget.shown
+    fields = dict(marks_of(model, Shown))
+    shown: Shown = fields[name] if name in fields else getattr(model, name).fget.shown
     return shown
+
+
+@cache
+def marks_of(model: type[Entity], kind: type[_Mark]) -> tuple[tuple[str, _Mark], ...]:
+    """Return the fields of a model with what they say of one kind: `Shown`, `Column`, `Told`."""
+    names = dict.fromkeys((*model.across.split(), *model.model_fields))
+    return tuple(
+        (name, item)
+        for name in names
+        for item in model.model_fields[name].metadata
+        if isinstance(item, kind)
+    )
 
 
 @cache
 def columns_of(model: type[Entity]) -> tuple[tuple[str, str, Column], ...]:
     """Return the columns of a model on a sheet of results.xlsx: field, heading and the rest."""
-    return tuple(_columns(model))
-
-
-def _columns(model: type[Entity]) -> Iterator[tuple[str, str, Column]]:
-    for name in dict.fromkeys((*model.across.split(), *model.model_fields)):
-        about = model.model_fields[name].metadata
-        head = next((item.head for item in about if isinstance(item, Shown)), "")
-        for item in about:
-            if isinstance(item, Column):
-                is_unit = item.head.startswith("[") or not item.head
-                yield name, f"{head} {item.head}".strip() if is_unit else item.head, item
+    heads = {name: shown.head for name, shown in marks_of(model, Shown)}
+    columns = marks_of(model, Column)
+    return tuple((name, item.heading(heads.get(name, "")), item) for name, item in columns)

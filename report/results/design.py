@@ -14,7 +14,7 @@ from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, worst
 from report.entities.array import ArrayResult, array_result
-from report.entities.cells import column
+from report.entities.cells import Column
 from report.entities.shown import Number
 from report.results.directions import PeakRanges
 from report.results.inputs import InputCells
@@ -54,19 +54,19 @@ class DesignRow(SheetRow, ArrayResult):
         " difference verdict statistic others slack_m weight_n interconnection_n given_n"
     )
 
-    s_ds_g: Annotated[float, column("S_DS [g]", 4, "={inputs[s_ds_g]}")]
-    factor_m: Annotated[float, column("Factor [in]", 1, is_input=True)]
-    importance: Annotated[float, column("I_e in displacement", 2, "={inputs[i_e]}")]
-    minimum_m: Annotated[float, column("Minimum [in]", 1, is_input=True)]
-    n_motions: Annotated[int, column("Number of motions", 0, "=COUNT({peaks})")]
-    analysis_factor: Annotated[float, column("Analysis factor", 2, _FACTOR)]
-    floor_share: Annotated[float, column("Floor / prescriptive", 2, _FLOOR_SHARE)]
-    over_prescriptive: Annotated[Number, column("Design / prescriptive", 3, _RATIO)]
-    by_roofslip_m: Annotated[Number, column("Design by Roofslip [in]", 2)]
-    difference: Annotated[float, column("Difference [in]", 4, _DIFFERENCE)] = 0.0
-    statistic: Annotated[Basis, column("Statistic", formula=_STATISTIC)]
-    others: Annotated[Verdict, column("Other requirements")]
-    slack_m: Annotated[float | None, column("Electrical slack [in]", 1, is_input=True)]
+    s_ds_g: Annotated[float, Column("S_DS [g]", 4, "={inputs[s_ds_g]}")]
+    factor_m: Annotated[float, Column("Factor [in]", 1, is_input=True)]
+    importance: Annotated[float, Column("I_e in displacement", 2, "={inputs[i_e]}")]
+    minimum_m: Annotated[float, Column("Minimum [in]", 1, is_input=True)]
+    n_motions: Annotated[int, Column("Number of motions", 0, "=COUNT({peaks})")]
+    analysis_factor: Annotated[float, Column("Analysis factor", 2, _FACTOR)]
+    floor_share: Annotated[float, Column("Floor / prescriptive", 2, _FLOOR_SHARE)]
+    over_prescriptive: Annotated[Number, Column("Design / prescriptive", 3, _RATIO)]
+    by_roofslip_m: Annotated[Number, Column("Design by Roofslip [in]", 2)]
+    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
+    statistic: Annotated[Basis, Column("Statistic", formula=_STATISTIC)]
+    others: Annotated[Verdict, Column("Other requirements")]
+    slack_m: Annotated[float | None, Column("Electrical slack [in]", 1, is_input=True)]
 
 
 def write_design(

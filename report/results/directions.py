@@ -13,7 +13,7 @@ from typing import Annotated, ClassVar
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.project import Assessment
 from report.entities.array import DirectionResult, direction_result
-from report.entities.cells import column
+from report.entities.cells import Column
 from report.entities.run import PeakResult, peak_result
 from report.entities.shown import Number
 from report.results.runs import RunRow
@@ -30,7 +30,7 @@ class PeakRow(SheetRow, PeakResult):
     sheet: ClassVar[str] = "Peaks"
     across: ClassVar[str] = "array"
 
-    array: Annotated[str, column("Array")]
+    array: Annotated[str, Column("Array")]
 
 
 class DirectionRow(SheetRow, DirectionResult):
@@ -41,17 +41,18 @@ class DirectionRow(SheetRow, DirectionResult):
         "array direction mean_m largest_m factor computed_m floor_m design_m by_roofslip_m"
     )
 
-    array: Annotated[str, column("Array")]
-    direction: Annotated[Direction, column("Direction")]
-    factor: Annotated[float, column("Analysis factor", 2, "={design.analysis_factor}")]
-    floor_m: Annotated[float, column("Floor [in]", 2, "={design.floor_m}")]
-    by_roofslip_m: Annotated[Number, column("By Roofslip [in]", 2)]
-    difference: Annotated[float, column("Difference [in]", 4, "={design_m}-{by_roofslip_m}")] = 0.0
+    array: Annotated[str, Column("Array")]
+    direction: Annotated[Direction, Column("Direction")]
+    factor: Annotated[float, Column("Analysis factor", 2, "={design.analysis_factor}")]
+    floor_m: Annotated[float, Column("Floor [in]", 2, "={design.floor_m}")]
+    by_roofslip_m: Annotated[Number, Column("By Roofslip [in]", 2)]
+    difference: Annotated[float, Column("Difference [in]", 4, "={design_m}-{by_roofslip_m}")] = 0.0
 
 
 def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
     """Write the largest excursion of all runs of each motion, by direction; return its cells."""
-    rows, ranges = [], {}
+    rows: list[PeakRow] = []
+    ranges: dict[tuple[str, Direction], str] = {}
     first_run = 2
     for item in assessment.arrays:
         first = TOP + len(rows)

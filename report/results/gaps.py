@@ -13,7 +13,7 @@ from report.assessment.clearances import ClearanceCheck, facing
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.entities.cells import column
+from report.entities.cells import Column
 from report.entities.clearance import ClearanceResult
 from report.entities.shown import Number
 from report.results.design import DesignRow
@@ -35,11 +35,11 @@ class GapRow(SheetRow, ClearanceResult):
         " demand_capacity verdict by_roofslip_m difference rule_factor importance"
     )
 
-    governing: Annotated[str, column("Governing array, direction")]
-    least_m: Annotated[float, column("Minimum [in]", 1, is_input=True)]
-    by_roofslip_m: Annotated[Number, column("Required by Roofslip [in]", 2)]
-    difference: Annotated[float, column("Difference [in]", 4, _DIFFERENCE)] = 0.0
-    rule_factor: Annotated[float, column("Separation / displacement", 2, is_input=True)]
+    governing: Annotated[str, Column("Governing array, direction")]
+    least_m: Annotated[float, Column("Minimum [in]", 1, is_input=True)]
+    by_roofslip_m: Annotated[Number, Column("Required by Roofslip [in]", 2)]
+    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
+    rule_factor: Annotated[float, Column("Separation / displacement", 2, is_input=True)]
 
 
 def result_cells(assessment: Assessment, array_id: str) -> Sequence[str]:

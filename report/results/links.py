@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar
 
 from report.assessment.links import LinkedArray
 from report.assessment.project import Assessment
-from report.entities.cells import column
+from report.entities.cells import Column
 from report.entities.linked import LinkedResult, LinkedRunResult, linked_result
 from report.entities.shown import Number, columns_of
 from report.results.sheets import TOP, Cells, Pages, SheetRow, fixed, write_live, write_rows
@@ -31,9 +31,9 @@ class LinkRunRow(SheetRow, LinkedRunResult):
         " error_m n_stops status"
     )
 
-    array: Annotated[str, column("Array")]
-    largest_m: Annotated[Number, column("PRD, row [in]")]
-    block: Annotated[str, column("Block with largest PRD")]
+    array: Annotated[str, Column("Array")]
+    largest_m: Annotated[Number, Column("PRD, row [in]")]
+    block: Annotated[str, Column("Block with largest PRD")]
 
 
 class LinkPeakRow(SheetRow):
@@ -41,10 +41,10 @@ class LinkPeakRow(SheetRow):
 
     sheet: ClassVar[str] = "Links"
 
-    array: Annotated[str, column("Array")]
-    motion: Annotated[str, column("Motion")]
-    rigid_m: Annotated[Number, column("PRD, rigid [in]", 3, "=MAX({runs.rigid_prd_m})")]
-    row_m: Annotated[Number, column("PRD, row [in]", 3, "=MAX({runs.largest_m})")]
+    array: Annotated[str, Column("Array")]
+    motion: Annotated[str, Column("Motion")]
+    rigid_m: Annotated[Number, Column("PRD, rigid [in]", 3, "=MAX({runs.rigid_prd_m})")]
+    row_m: Annotated[Number, Column("PRD, row [in]", 3, "=MAX({runs.largest_m})")]
 
 
 class LinkRow(SheetRow, LinkedResult):
@@ -57,17 +57,17 @@ class LinkRow(SheetRow, LinkedResult):
         " by_roofslip_m difference"
     )
 
-    rigid_mean_m: Annotated[Number, column("Mean, rigid [in]", 3, "=AVERAGE({peaks.rigid_m})")]
-    rigid_largest_m: Annotated[Number, column("Largest, rigid [in]", 3, "=MAX({peaks.rigid_m})")]
-    row_mean_m: Annotated[Number, column("Mean, row [in]", 3, "=AVERAGE({peaks.row_m})")]
-    row_largest_m: Annotated[Number, column("Largest, row [in]", 3, "=MAX({peaks.row_m})")]
-    factor: Annotated[float, column("Analysis factor", 3, "={design.analysis_factor}")]
-    computed_m: Annotated[Number, column("Computed [in]", 3, "={design.computed_m}")]
-    floor_m: Annotated[float, column("Floor [in]", 3, "={design.floor_m}")]
-    tolerance_m: Annotated[Number, column("Tolerance [in]", 3, _TOLERANCE)]
-    result: Annotated[str, column("Result", formula=_RESULT)]
-    by_roofslip_m: Annotated[Number, column("With links by Roofslip [in]", 3)]
-    difference: Annotated[float, column("Difference [in]", 4, "={estimated_m}-{by_roofslip_m}")] = (
+    rigid_mean_m: Annotated[Number, Column("Mean, rigid [in]", 3, "=AVERAGE({peaks.rigid_m})")]
+    rigid_largest_m: Annotated[Number, Column("Largest, rigid [in]", 3, "=MAX({peaks.rigid_m})")]
+    row_mean_m: Annotated[Number, Column("Mean, row [in]", 3, "=AVERAGE({peaks.row_m})")]
+    row_largest_m: Annotated[Number, Column("Largest, row [in]", 3, "=MAX({peaks.row_m})")]
+    factor: Annotated[float, Column("Analysis factor", 3, "={design.analysis_factor}")]
+    computed_m: Annotated[Number, Column("Computed [in]", 3, "={design.computed_m}")]
+    floor_m: Annotated[float, Column("Floor [in]", 3, "={design.floor_m}")]
+    tolerance_m: Annotated[Number, Column("Tolerance [in]", 3, _TOLERANCE)]
+    result: Annotated[str, Column("Result", formula=_RESULT)]
+    by_roofslip_m: Annotated[Number, Column("With links by Roofslip [in]", 3)]
+    difference: Annotated[float, Column("Difference [in]", 4, "={estimated_m}-{by_roofslip_m}")] = (
         0.0
     )
 
@@ -104,7 +104,9 @@ def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cell
     The peaks of the motions are below the arrays.
     """
     top = TOP + len(assessment.linked) + 2
-    rows, peaks, first_run = [], [], 2
+    rows: list[LinkRow] = []
+    peaks: list[LinkPeakRow] = []
+    first_run = 2
     for linked in assessment.linked:
         first = top + len(peaks)
         for motion in linked.motions:

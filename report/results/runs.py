@@ -11,7 +11,7 @@ from dataclasses import asdict
 from typing import Annotated, ClassVar
 
 from report.assessment.project import Assessment
-from report.entities.cells import column
+from report.entities.cells import Column
 from report.entities.motion import MotionResult, motion_result
 from report.entities.run import RunResult, run_result
 from report.entities.shown import Number
@@ -31,9 +31,9 @@ class RunRow(SheetRow, RunResult):
         " next_rung next_effect_m error_m status"
     )
 
-    array: Annotated[str, column("Array")]
-    governs: Annotated[str, column("Governs")]
-    over_mean: Annotated[Number, column("PRD / mean")]
+    array: Annotated[str, Column("Array")]
+    governs: Annotated[str, Column("Governs")]
+    over_mean: Annotated[Number, Column("PRD / mean")]
 
 
 class MotionRow(SheetRow, MotionResult):
@@ -42,14 +42,14 @@ class MotionRow(SheetRow, MotionResult):
     sheet: ClassVar[str] = "Motions"
     across: ClassVar[str] = "id component"
 
-    component: Annotated[str, column("Component")]
-    pga_g: Annotated[float, column("PGA [g]")]
-    pgv_mps: Annotated[float, column("PGV [m/s]")]
-    pgd_m: Annotated[float, column("PGD [m]")]
-    arias_mps: Annotated[float, column("Arias intensity [m/s]")]
-    d5_95_s: Annotated[float, column("Duration 5-95 % [s]")]
-    final_velocity_mps: Annotated[float, column("Velocity at end [m/s]")]
-    final_displacement_m: Annotated[float, column("Displacement at end [m]")]
+    component: Annotated[str, Column("Component")]
+    pga_g: Annotated[float, Column("PGA [g]")]
+    pgv_mps: Annotated[float, Column("PGV [m/s]")]
+    pgd_m: Annotated[float, Column("PGD [m]")]
+    arias_mps: Annotated[float, Column("Arias intensity [m/s]")]
+    d5_95_s: Annotated[float, Column("Duration 5-95 % [s]")]
+    final_velocity_mps: Annotated[float, Column("Velocity at end [m/s]")]
+    final_displacement_m: Annotated[float, Column("Displacement at end [m]")]
 
 
 def run_rows(assessment: Assessment) -> Iterator[RunRow]:

@@ -161,7 +161,7 @@ def write_rows(pages: Pages, sheet: Worksheet, top: int, rows: Iterable[SheetRow
                 formula = row.formulas.get(name, formula)
             place, decimals, is_input = (number - 1, at), column.decimals, column.is_input
             if formula and (column.is_always or value != NO_VALUE):
-                formula = formula.format_map(own | row.refs)
+                formula = formula.format(**own, **row.refs)
                 sheet.write_formula(*place, formula, pages.number(decimals, mark), value)
             elif isinstance(value, str):
                 sheet.write_string(*place, value, pages.typed_text if is_input else None)
@@ -204,7 +204,7 @@ def _value(row: Entity, name: str, column: Column) -> Any:
     value = getattr(row, name)
     if value is None:
         return "not given"
-    return value.word if isinstance(value, Verdict) else column.value(value)
+    return value.word if isinstance(value, Verdict) else column.held(value)
 
 
 def _finite(value: Any) -> Any:

@@ -67,11 +67,11 @@ def _write_live(pages: Pages, assessment: Assessment) -> None:
     write_clearances(pages, assessment, inputs)
 
 
-def _spectra_table(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float | str]]:
+def _spectra_table(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
     """Return one row for each period; targets and motions in columns, by component."""
-    columns = {"Period [s]": spectra[0].periods_s}
+    columns = {"Period [s]": spectra[0].periods_s.tolist()}
     for part in spectra:
-        columns[f"{part.title}, target [g]"] = part.target_g
+        columns[f"{part.title}, target [g]"] = part.target_g.tolist()
         for name, row in zip(part.ids, part.sa_g, strict=True):
-            columns[f"{part.title}, {name} [g]"] = row
+            columns[f"{part.title}, {name} [g]"] = row.tolist()
     return columns
