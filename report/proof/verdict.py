@@ -6,10 +6,9 @@ names, all of it is compared; other versions explain other drawings and nothing 
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 from report.proof.numbers import listed, number_differences, parsed
 from report.proof.package import Manifest, Package, guarded, mismatched, reader
@@ -189,8 +188,3 @@ def _results(package: Package, ours: Written, tolerance: float) -> list[str]:
     expected = ours.results | {"roofslip_version": package.manifest.roofslip_version}
     found = number_differences(package.results, expected, tolerance)
     return [f"{RESULTS}: {text}" for text in found]
-
-
-def as_json(proof: Proof) -> str:
-    """Return the outcome as JSON."""
-    return json.dumps(asdict(proof), ensure_ascii=False)

@@ -1,4 +1,4 @@
-"""Errors, shares and times of a verification for print; names for files.
+"""Errors, shares and times of a verification for print; names for files; data for JSON.
 
 An em dash is NaN. Owns no sentence.
 """
@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
+from typing import Any
 
 from report.words.letters import power_of_ten
 from report.words.units import number
@@ -71,3 +73,14 @@ def unbroken(text: str) -> str:
 def slug(text: str) -> str:
     """Return a text as part of a file name."""
     return re.sub(r"[^a-z0-9.]+", "-", text.lower()).strip("-")
+
+
+def finite(value: Any) -> Any:
+    """Return data for JSON: null for every NaN or infinity, which it does not have."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(item) for item in value]
+    return value
