@@ -19,6 +19,7 @@ from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT
 
 _TOLERANCE = f"=MAX({DEFAULT.matters_m}/{INCH_M},{DEFAULT.matters_share}*{{design_m}})"
+_DIFFERENCE = "={estimated_m}-{by_roofslip_m}"
 _RESULT = '=IF({estimated_m}<={design_m}+{tolerance_m},"OK","NG")'
 
 
@@ -67,9 +68,7 @@ class LinkRow(SheetRow, LinkedResult):
     tolerance_m: Annotated[Number, Column("Tolerance [in]", 3, _TOLERANCE)]
     result: Annotated[str, Column("Result", formula=_RESULT)]
     by_roofslip_m: Annotated[Number, Column("With links by Roofslip [in]", 3)]
-    difference: Annotated[float, Column("Difference [in]", 4, "={estimated_m}-{by_roofslip_m}")] = (
-        0.0
-    )
+    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
 
 
 _WITHOUT_VALUE = {"array", "estimated_m", "result"}
@@ -154,6 +153,8 @@ def _row(linked: LinkedArray, refs: Mapping[str, Cells]) -> LinkRow:
         refs=refs,
         formulas=formulas,
         blanks=set() if has_value else names - _WITHOUT_VALUE,
+        # Without bound where the blocks slide and the single one does not.
+        estimated_m=linked.estimated_m if has_value else math.nan,
         rigid_mean_m=rigid.mean_m,
         rigid_largest_m=rigid.largest_m,
         row_mean_m=row.mean_m,
