@@ -6,6 +6,7 @@ Computes nothing: see `report.assessment.links`. Read `LinkedResult`.
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 from typing import Annotated
 
 from report.assessment.links import LinkedArray
@@ -13,7 +14,7 @@ from report.assessment.verdict import Verdict
 from report.entities.array import TAKES_LARGEST
 from report.entities.cells import Column
 from report.entities.columns import NO_VALUE
-from report.entities.run import polarity_words, status_words
+from report.entities.run import OrientedResult
 from report.entities.shown import (
     Entity,
     Number,
@@ -37,13 +38,10 @@ def _listed(places_m: tuple[float, ...]) -> str:
     return ", ".join(f"{place / INCH_M:.2f}" for place in places_m)
 
 
-class LinkedRunResult(Entity):
+class LinkedRunResult(OrientedResult):
     """A run as a row of blocks, and as one block."""
 
-    motion: Annotated[str, Column("Motion")]
-    along: Annotated[str, at("orientation.component"), Column("Component along slope")]
-    polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=polarity_words)]
-    status: Annotated[Status, at("row.status"), Column("Outcome", value=status_words)]
+    status: Annotated[Status, at("row.status"), Column("Outcome", value=attrgetter("sentence"))]
     rigid_status: Annotated[Status, at("rigid.status")]
     rigid_prd_m: Annotated[Number, at("rigid.prd_m"), Column("PRD, rigid [in]")]
     prd_m: Annotated[

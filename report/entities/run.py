@@ -5,6 +5,7 @@ Computes nothing: see `report.assessment.runs`. Read `RunResult`.
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import Annotated
 
 from report.assessment.runs import MotionRun, OrientedRun
@@ -15,14 +16,8 @@ from solver.model import Status
 from solver.sliding.least_model import Model
 
 
-def polarity_words(polarity: int) -> str:
-    """Return whether a component acts as recorded."""
+def _polarity_words(polarity: int) -> str:
     return "as recorded" if polarity > 0 else "reversed"
-
-
-def status_words(status: Status) -> str:
-    """Return how a run ended, as a sentence."""
-    return status.sentence
 
 
 def _model_words(rung: int) -> str:
@@ -39,15 +34,20 @@ class PeakResult(Entity):
     any_m: Annotated[Number, Column("Any direction [in]", 2, "=MAX({runs.prd_m})")]
 
 
-class RunResult(Entity):
-    """An array under a motion with one component along the slope, in one polarity."""
+class OrientedResult(Entity):
+    """A motion with one component along the slope, in one polarity."""
 
     motion: Annotated[str, Column("Motion")]
     along: Annotated[str, at("orientation.component"), Column("Component along slope")]
-    polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=polarity_words)]
+    polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=_polarity_words)]
+
+
+class RunResult(OrientedResult):
+    """An array under a motion with one component along the slope, in one polarity."""
+
     scale: Annotated[float, Column("Scale")]
     dt_s: float
-    status: Annotated[Status, at("result.status"), Column("Outcome", value=status_words)]
+    status: Annotated[Status, at("result.status"), Column("Outcome", value=attrgetter("sentence"))]
     prd_m: Annotated[Number, at("result.prd_m"), Column("PRD [in]"), Column("PRD [mm]")]
     residual_m: Annotated[
         Number, at("result.residual_m"), Column("Residual [in]"), Column("Residual [mm]")

@@ -11,12 +11,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.proof.numbers import listed, number_differences, parsed
-from report.proof.package import Manifest, Package, guarded, mismatched, reader
+from report.proof.package import Package, guarded, mismatched, reader
 from report.proof.shape import parts
 from report.proof.sheets import Restated, changes
 from report.proof.signatures import Signature
 from report.proof.updates import Appended
-from report.provenance.files import MANIFEST, RESULTS, Source
+from report.provenance.files import MANIFEST, RESULTS, Manifest, Source
 from report.provenance.software import NEVER_DRAWS, ROOT, distributions
 
 SAME_VERSION, OTHER_VERSION = 1e-12, 1e-9
@@ -65,7 +65,6 @@ class Written:
         self.parts = parts(self.pdf)
         files = {file.name: file.content for file in self.pdf.attachment_list}
         self.manifest = Manifest.model_validate_json(files[MANIFEST])
-        self.listing = parsed(files[MANIFEST], MANIFEST)
         self.results = parsed(files[RESULTS], RESULTS)
 
 
@@ -165,12 +164,12 @@ def _listing(
 ) -> Iterator[str]:
     """Yield where the manifest is not what the versions that it names write from this input."""
     theirs, held = package.manifest, package.files.get(RESULTS, b"")
-    own = Source(path=RESULTS, name=RESULTS, content=held, kind="results").entry
-    here = ours.listing
-    expected = here | {
+    own = Source(path=RESULTS, name=RESULTS, content=held, kind="results").listed
+    files = (own if file.kind == own.kind else file for file in ours.manifest.files)
+    expected = ours.manifest.model_dump() | {
         "roofslip_version": theirs.environment.get(ROOT),
         "hash": short,
-        "files": [file | own if file["name"] == RESULTS else file for file in here["files"]],
+        "files": [file.model_dump() for file in files],
         "environment": theirs.environment,
     }
     if others:
