@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any, ClassVar, Self
 
 from xlsxwriter.format import Format
@@ -72,6 +73,7 @@ def fixed(model: type[SheetRow], name: str, row: int) -> str:
     return f"{model.sheet}!${_letters(model)[name]}${row}"
 
 
+@cache
 def _letters(model: type[SheetRow]) -> Mapping[str, str]:
     """Return the letter of the first column of each field."""
     names = [name for name, _, _ in columns_of(model)]
@@ -149,27 +151,35 @@ def write_live(
 def write_rows(pages: Pages, sheet: Worksheet, top: int, rows: Iterable[SheetRow]) -> None:
     """Write rows from a row of a sheet on: each formula with the value that it gives."""
     for number, row in enumerate(rows, start=top):
-        model = type(row)
-        letters = _letters(model)
+        letters = _letters(type(row))
         own = {name: f"{letter}{number}" for name, letter in letters.items()}
-        for at, (name, _, column) in enumerate(columns_of(model)):
+        for at, (name, _, column) in enumerate(columns_of(type(row))):
             if name in row.blanks:
                 continue
-            value, mark = _finite(_value(row, name, column)), row.marks.get(name, "")
-            formula = column.formula
-            if letters[name] == xl_col_to_name(at):
-                formula = row.formulas.get(name, formula)
-            place, decimals, is_input = (number - 1, at), column.decimals, column.is_input
-            if formula and (column.is_always or value != NO_VALUE):
-                formula = formula.format(**own, **row.refs)
-                sheet.write_formula(*place, formula, pages.number(decimals, mark), value)
-            elif isinstance(value, str):
-                sheet.write_string(*place, value, pages.typed_text if is_input else None)
-            elif is_input:
-                shown = pages.number(decimals, mark, is_input=True)
-                sheet.write_number(*place, typed(value), shown)
-            else:
-                sheet.write_number(*place, value, pages.number(decimals, mark))
+            is_first = letters[name] == xl_col_to_name(at)
+            formula = row.formulas.get(name, column.formula) if is_first else column.formula
+            formula = formula.format(**own, **row.refs)
+            _write(pages, sheet, (number - 1, at), row, name, column, formula)
+
+
+def _write(
+    pages: Pages,
+    sheet: Worksheet,
+    place: tuple[int, int],
+    row: SheetRow,
+    name: str,
+    column: Column,
+    formula: str,
+) -> None:
+    value = _finite(_value(row, name, column))
+    is_input = column.is_input and not formula
+    shown = pages.number(column.decimals, row.marks.get(name, ""), is_input=is_input)
+    if formula and (column.is_always or value != NO_VALUE):
+        sheet.write_formula(*place, formula, shown, value)
+    elif isinstance(value, str):
+        sheet.write_string(*place, value, pages.typed_text if is_input else None)
+    else:
+        sheet.write_number(*place, typed(value) if is_input else value, shown)
 
 
 def write_list(pages: Pages, name: str, rows: Sequence[Entity]) -> None:
