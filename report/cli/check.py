@@ -140,19 +140,13 @@ def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:
 
 def as_data(sheet: Sheet, found: Iterable[Finding]) -> list[Mapping[str, str]]:
     """Return findings for JSON."""
+    from report.entities.requirement import FindingResult
     from report.sheet.findings import located
 
     found = tuple(found)
-    return [
-        {
-            "level": finding.level.value,
-            "id": finding.id,
-            "cell": cell,
-            "text": finding.text,
-            "reason": finding.reason,
-        }
-        for finding, cell in zip(found, located(found, sheet.addresses), strict=True)
-    ]
+    cells = located(found, sheet.addresses)
+    rows = (FindingResult.of(one, cell=cell) for one, cell in zip(found, cells, strict=True))
+    return [row.model_dump(mode="json") for row in rows]
 
 
 def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
