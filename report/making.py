@@ -166,13 +166,13 @@ def lay_out(
     from report.drawing.plan import plan_drawing
     from report.provenance.files import attachments, fingerprint
     from report.results.json import results_json
-    from report.results.tables import results_table
+    from report.results.xlsx import results_xlsx
     from report.typeset.pdf import draw_ahead, lay_out, pictures
 
     drawn = worker.submit(draw_ahead, pictures(html))
     results = worker.submit(results_json, assessment, evidence)
     plan = worker.submit(write_dxf, plan_drawing(assessment))
-    table = worker.submit(results_table, assessment, evidence.spectra)
+    table = worker.submit(results_xlsx, assessment, evidence.spectra)
     short = fingerprint(assessment.sheet, assessment.shaking)
     pdf = lay_out(html, drawn, lambda: attachments(found, results.result(), short))
     return dict(zip(OUTPUTS, (pdf, plan.result(), table.result(), results.result()), strict=True))

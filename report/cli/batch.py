@@ -5,7 +5,6 @@ A project that fails stops no other. Read `report.making` first.
 
 from __future__ import annotations
 
-import json
 import math
 import os
 import sys
@@ -14,7 +13,7 @@ import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,10 +27,13 @@ from report.cli.terminal import (
     NOT_OK,
     QUIET,
     SCHEMA_VERSION,
+    SOURCE,
     Progress,
     no_collections,
+    print_json,
     system_problem,
 )
+from report.words.counts import numbered
 
 if TYPE_CHECKING:
     from solver.model import Problem
@@ -71,7 +73,7 @@ class BatchOutcome:
     def word(self) -> str:
         """The verdict, or which error there is instead."""
         count = len(self.problems)
-        errors = f"{count} problem{'s' if count > 1 else ''}" if count else "internal error"
+        errors = numbered(count, "problem") if count else "internal error"
         return self.verdict or errors
 
     @property
@@ -81,9 +83,7 @@ class BatchOutcome:
 
 
 @click.command()
-@click.argument(
-    "sources", metavar="DIR|WORKBOOK...", nargs=-1, required=True, type=click.Path(path_type=Path)
-)
+@click.argument("sources", metavar="DIR|WORKBOOK...", nargs=-1, required=True, type=SOURCE)
 @FAIL_ON_NG
 @QUIET
 @AS_JSON
@@ -97,7 +97,7 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
 
     outcomes = run(sources, quiet=quiet or as_json)
     if as_json:
-        click.echo(json.dumps(document(outcomes), ensure_ascii=False))
+        print_json(document(outcomes))
     elif not quiet:
         for line in table(outcomes):
             click.echo(line)
@@ -176,15 +176,7 @@ def package(source: Path, make: Callable[[Path], BatchOutcome] | None = None) ->
             problems=error.parts if isinstance(error, InputError) else (),
             internal="" if is_input else traceback.format_exc(),
         )
-    return BatchOutcome(
-        source=source,
-        verdict=done.verdict,
-        ratios=done.ratios,
-        package=done.package,
-        problems=done.problems,
-        internal=done.internal,
-        seconds=time.monotonic() - started,
-    )
+    return replace(done, seconds=time.monotonic() - started)
 
 
 def _package(source: Path) -> BatchOutcome:

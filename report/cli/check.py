@@ -6,14 +6,22 @@ Parses, calls, prints. Read `report.assessment.precheck`.
 from __future__ import annotations
 
 import datetime as dt
-import json
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.terminal import AS_JSON, QUIET, SCHEMA_VERSION, Progress, input_errors
+from report.cli.terminal import (
+    AS_JSON,
+    QUIET,
+    SOURCE,
+    Progress,
+    document,
+    input_errors,
+    print_json,
+)
+from report.words.counts import numbered
 
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
@@ -25,7 +33,7 @@ STEPS = 3
 
 
 @click.command()
-@click.argument("source", metavar="DIR|WORKBOOK", type=click.Path(path_type=Path))
+@click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--repair", is_flag=True,
               help="First restore the formulas that were typed over.")  # fmt: skip
 @QUIET
@@ -46,11 +54,10 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
             restored = _repaired(source)
             if not (as_json or quiet):
                 listed = f": {', '.join(restored)}" if restored else ""
-                count = len(restored)
-                click.echo(f"{count} formula{'' if count == 1 else 's'} restored{listed}")
+                click.echo(f"{numbered(len(restored), 'formula')} restored{listed}")
         sheet, shaking, found = checked(source, progress)
     if as_json:
-        click.echo(json.dumps(_document(sheet, found) | {"restored": restored}, ensure_ascii=False))
+        print_json(_document(sheet, found) | {"restored": restored})
     elif not quiet:
         click.echo(_summary(sheet, shaking, found))
         for line in lines(sheet, found):
@@ -135,10 +142,7 @@ def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
     from report.entities.requirement import finding_results
 
     data, rows = sheet.project, finding_results(found, sheet.addresses)
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "workbook": str(sheet.path),
-        "errors": [],
+    return document(sheet.path) | {
         "findings": [row.model_dump(mode="json") for row in rows],
         "arrays": len(data.arrays),
         "clearances": len(data.clearances),
@@ -153,11 +157,7 @@ def _summary(sheet: Sheet, shaking: Shaking, found: Iterable[Finding]) -> str:
 
     data = sheet.project
     levels = [finding.level for finding in found]
-    counts = ", ".join(
-        f"{count} {level}{'s' if count > 1 else ''}"
-        for level in Level
-        if (count := levels.count(level))
-    )
+    counts = ", ".join(numbered(count, level) for level in Level if (count := levels.count(level)))
     return (
         f"{sheet.path}: {f'no errors, {counts}' if counts else 'no problems found'}. "
         f"{len(data.arrays)} arrays, {len(data.clearances)} clearances, "

@@ -14,14 +14,12 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import Progress, UnitChoice, input_errors
+from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors
 
 if TYPE_CHECKING:
     from report.suite.inputs import SuiteTargets
     from solver.formats import MotionFile
     from solver.records.record import Record
-
-_FILE = click.Path(path_type=Path)
 
 # Rounding error allowed in a converted record, relative to its peak.
 _KEPT_WITHIN = 1e-9
@@ -60,13 +58,11 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 
 
 @motion.command()
-@click.argument("file", metavar="FILE", type=_FILE)
+@click.argument("file", metavar="FILE", type=SOURCE)
 @_channel
 @_reading
-@click.option(
-    "--json", "as_json", is_flag=True, help="Print JSON in SI units, with the units in the keys."
-)
-@click.option("--plot", metavar="OUT.svg|OUT.png", type=_FILE, callback=_picture,
+@AS_JSON
+@click.option("--plot", metavar="OUT.svg|OUT.png", type=SOURCE, callback=_picture,
               help="Plot the records and their 5 % damped response spectra.")  # fmt: skip
 def info(
     file: Path, channel: str, units: str | None, dt_s: float, as_json: bool, plot: Path | None
@@ -97,8 +93,8 @@ def info(
 
 
 @motion.command()
-@click.argument("file", metavar="FILE", type=_FILE)
-@click.argument("out", metavar="OUT.csv", type=_FILE)
+@click.argument("file", metavar="FILE", type=SOURCE)
+@click.argument("out", metavar="OUT.csv", type=SOURCE)
 @_channel
 @_reading
 def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float) -> None:
@@ -115,7 +111,7 @@ def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float)
 
 
 @motion.command()
-@click.argument("folder", metavar="DIR", type=_FILE)
+@click.argument("folder", metavar="DIR", type=SOURCE)
 @click.argument("more", metavar="", nargs=-1)
 @click.option("--sds", "s_ds_g", type=float, default=math.nan, help="S_DS [g].")
 @click.option("--zh", "z_over_h", type=float, default=1.0, show_default=True,

@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import input_errors, plain
+from report.cli.terminal import SOURCE, input_errors, plain
 
 if TYPE_CHECKING:
     from report.drawing.plan_read import DrawnOutline, RoofPlan
 
-SOURCE = click.Path(path_type=Path)
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
 MOST_HANDLES = 20
 

@@ -5,7 +5,6 @@ Parse and print; `report.making` goes from workbook to package.
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Callable, Mapping
@@ -19,18 +18,18 @@ from report.cli.terminal import (
     FAIL_ON_NG,
     NOT_OK,
     QUIET,
-    SCHEMA_VERSION,
+    SOURCE,
     Progress,
+    document,
     input_errors,
     no_collections,
     plain,
+    print_json,
 )
 
 if TYPE_CHECKING:
     from report.assessment.changes import Changes
     from report.assessment.project import Assessment
-
-SOURCE = click.Path(path_type=Path)
 
 EXAMPLE_STEPS = 7
 """Motions of the example, each of which `new --example` reports."""
@@ -120,7 +119,7 @@ def report(
     ):
         made = make(source, out, since, progress, worker)
     if as_json:
-        click.echo(_json(*made))
+        print_json(_document(*made))
     elif not quiet:
         _print(*made)
     if fail_on_ng and made[0].verdict != "OK":
@@ -141,18 +140,13 @@ def _print(
         click.echo(folder / name)
 
 
-def _json(
+def _document(
     assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
-) -> str:
-    from report.pages.summary import document
+) -> Mapping[str, object]:
+    from report.pages import summary
 
-    about = {
-        "schema_version": SCHEMA_VERSION,
-        "workbook": str(assessment.sheet.path),
-        "errors": [],
-    }
     written = {"files": [str(folder / name) for name in files]}
-    return json.dumps(about | document(assessment) | written, ensure_ascii=False)
+    return document(assessment.sheet.path) | summary.document(assessment) | written
 
 
 def _print_changes(assessment: Assessment, changed: Changes) -> None:

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from report.cli.report import SOURCE
-from report.cli.terminal import input_errors
+from report.cli.terminal import SOURCE, input_errors
 
 
 @click.command()

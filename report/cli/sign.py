@@ -7,8 +7,7 @@ from pathlib import Path
 
 import click
 
-from report.cli.report import SOURCE
-from report.cli.terminal import input_errors
+from report.cli.terminal import SOURCE, input_errors
 
 _THERE = click.Path(exists=True, dir_okay=False, path_type=Path)
 

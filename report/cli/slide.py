@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.terminal import UnitChoice, input_errors
+from report.cli.terminal import AS_JSON, UnitChoice, input_errors
 
 if TYPE_CHECKING:
     from solver.model import Scene
@@ -41,9 +41,7 @@ velocity-dependent friction."""
               help="Units of the records, if the files do not state them.")  # fmt: skip
 @click.option("--model", type=click.Choice(MODELS), help="Run this model instead of the simplest "
               "adequate one.")  # fmt: skip
-@click.option(
-    "--json", "as_json", is_flag=True, help="Print JSON in SI units, with the units in the keys."
-)
+@AS_JSON
 def slide(
     record: str,
     transverse: str | None,
@@ -71,17 +69,14 @@ def slide(
         values = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": scene.dt_s}
         values |= _solved(scene, model)
     if as_json:
-        click.echo(json.dumps({k: _finite(v) for k, v in values.items()}))
+        from report.words.formats import finite
+
+        click.echo(json.dumps(finite(values)))
         return
     width = max(map(len, values))
     for key, value in values.items():
         shown = f"{value:.6g}" if isinstance(value, float) else value
         click.echo(f"{key:>{width}}  {shown}")
-
-
-def _finite(value: Any) -> Any:
-    """Replace NaN and infinity, which JSON does not have, by null."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record | None]:

@@ -12,19 +12,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import QUIET, Progress, input_errors, no_collections, plain
+from report.cli.terminal import QUIET, SOURCE, Progress, input_errors, no_collections, plain
 
 if TYPE_CHECKING:
     from report.study.plan import StudyPlan
     from report.study.results import StudyResults
     from report.study.run import Estimate
 
-_SOURCE = click.Path(path_type=Path)
-
 
 @click.command()
-@click.argument("source", metavar="DIR|WORKBOOK", type=_SOURCE)
-@click.option("--out", type=_SOURCE, help="Output folder; default: out/study/ beside the input.")
+@click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
+@click.option("--out", type=SOURCE, help="Output folder; default: out/study/ beside the input.")
 @click.option("--dry-run", is_flag=True, help="Print runs, processor time and disk; run nothing.")
 @click.option("--scheduler", metavar="tcp://HOST:PORT", default="",
               help="Run on an existing Dask cluster instead of this machine.")  # fmt: skip

@@ -22,8 +22,12 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
+from report.words.counts import numbered
+
 if TYPE_CHECKING:
     from solver.model import Problem
+
+SOURCE = click.Path(path_type=Path)
 
 
 class UnitChoice(click.Choice[str]):
@@ -92,20 +96,31 @@ def input_errors(source: Path, *, as_json: bool = False) -> Iterator[None]:
 
 def _refuse(source: Path, problems: Sequence[Problem], *, as_json: bool) -> NoReturn:
     if as_json:
-        about = {"schema_version": SCHEMA_VERSION, "workbook": str(source)}
-        about["errors"] = list(map(str, problems))
-        click.echo(json.dumps(about, ensure_ascii=False))
-        sys.exit(INPUT_ERROR)
-    say_problems(source, problems)
+        print_json(document(source, problems))
+    else:
+        say_problems(source, problems)
     sys.exit(INPUT_ERROR)
+
+
+def document(source: Path, problems: Sequence[Problem] = ()) -> dict[str, Any]:
+    """Return what every document about a workbook has: which one it is, and its errors."""
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "workbook": str(source),
+        "errors": [str(each) for each in problems],
+    }
+
+
+def print_json(document: Any) -> None:
+    """Print a document."""
+    click.echo(json.dumps(document, ensure_ascii=False))
 
 
 def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     """Print the problems of an input, one per line; those of several cells once."""
     from report.sheet.grouped import grouped
 
-    count = len(problems)
-    click.echo(f"{plain(source)}: {count} problem{'s' if count > 1 else ''} found.", err=True)
+    click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
     for problem in grouped(problems):
         click.echo(f"  {plain(problem.line)}", err=True)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import Progress, input_errors, no_collections
+from report.cli.terminal import SOURCE, Progress, input_errors, no_collections
 
 if TYPE_CHECKING:
     from solver.verification.evidence import Verification
@@ -19,17 +19,15 @@ if TYPE_CHECKING:
 STEPS = 14
 """Steps that a verification reports."""
 
-_FOLDER = click.Path(path_type=Path)
-
 
 @click.command()
-@click.option("--out", type=_FOLDER, default=Path("out"), show_default=True,
+@click.option("--out", type=SOURCE, default=Path("out"), show_default=True,
               help="Folder for the outputs.")  # fmt: skip
 @click.option("--quick", is_flag=True, help="Run fewer records, cases and settings; takes seconds.")
-@click.option("--records", type=_FOLDER, help="Folder of recorded motions. Files with three "
+@click.option("--records", type=SOURCE, help="Folder of recorded motions. Files with three "
               "components are run with every model; roof_575_market (ground and floor records of "
               "575 Market Street) is compared with the building model.")  # fmt: skip
-@click.option("--table", type=_FOLDER, help="Folder of shake-table tests: tests.csv and the "
+@click.option("--table", type=SOURCE, help="Folder of shake-table tests: tests.csv and the "
               "table accelerations. Measured slip is compared with the computed one.")  # fmt: skip
 def verify(out: Path, quick: bool, records: Path | None, table: Path | None) -> None:
     """Check the solver and the comparison methods; write verification.pdf, its table and charts.

@@ -8,21 +8,23 @@ from __future__ import annotations
 import sys
 import tempfile
 from concurrent.futures import Executor
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.report import SOURCE
 from report.cli.terminal import (
     AS_JSON,
     NOT_COMPARED,
     NOT_OK,
     QUIET,
+    SOURCE,
     Progress,
     input_errors,
     no_collections,
     plain,
+    print_json,
 )
 from report.making import STEPS, make
 
@@ -57,9 +59,7 @@ def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool)
     ):
         proof = _proof(file, records, Path(folder), progress, worker)
     if as_json:
-        from report.proof.verdict import as_json as written
-
-        click.echo(written(proof))
+        print_json(asdict(proof))
     elif not quiet:
         _print(proof)
     if proof.differences:

@@ -25,6 +25,7 @@ import click
 
 from report.cli.terminal import (
     INPUT_ERROR,
+    SOURCE,
     input_errors,
     no_collections,
     plain,
@@ -45,8 +46,8 @@ _SUFFIXES = (".tmp", ".bak", ".swp", ".lock")
 
 
 @click.command()
-@click.argument("source", metavar="DIR|WORKBOOK", type=click.Path(path_type=Path))
-@click.option("--out", type=click.Path(path_type=Path),
+@click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
+@click.option("--out", type=SOURCE,
               help="Output folder; default: out/ beside the input.")  # fmt: skip
 @click.option("--once", is_flag=True, help="End after one round.")
 def watch(source: Path, out: Path | None, once: bool) -> None:

@@ -9,21 +9,49 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, ClassVar
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.causes import unshown_cause
+from report.assessment.changes import ChangeKind
 from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
+from report.entities.cells import Column, Told
 from report.entities.marks import Marked
 from report.entities.requirement import LimitResult, limit_result
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
-from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
+from report.entities.shown import (
+    Entity,
+    Number,
+    Shown,
+    at,
+    centered,
+    length,
+    plain,
+    printed,
+    unwritten,
+    words,
+)
 from report.sheet.schema import Direction, ModelChoice
 from report.words.units import Quantity, compared, number, ratio, rounded_apart
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
+
+TAKES_LARGEST = f'{{design.statistic}}="{Basis.LARGEST_FACTORED.value}"'
+"""Whether the design displacement follows from the largest peak, in the formulas of a sheet."""
+
+_COMPUTED = (
+    f'=IF({{statistic}}="{Basis.TOO_FEW.value}","none",{{analysis_factor}}'
+    f'*IF({{statistic}}="{Basis.LARGEST_FACTORED.value}",{{largest_prd_m}},{{mean_prd_m}}))'
+)
+_TOWARD = f"={{factor}}*IF({TAKES_LARGEST},{{largest_m}},{{mean_m}})"
+_PRESCRIPTIVE = "=MAX({factor_m}*{importance}*MAX({s_ds_g}-0.4,0)^2,{minimum_m})"
+_DESIGN = '=IF(ISTEXT({computed_m}),"none",MAX({computed_m},{floor_m}))'
+_DESIGN_MM = '=IF(ISTEXT({design_m}),"none",{design_m}*25.4)'
+_STRENGTH = (
+    "=MAX({inputs[interconnection_sds]}*{s_ds_g},{inputs[interconnection_min]})*{weight_n}/2"
+)
 
 
 def _weight(head: str) -> Shown:
@@ -33,15 +61,47 @@ def _weight(head: str) -> Shown:
 class Displacements(Entity):
     """The displacements of an array: by analysis, prescriptive and design."""
 
-    computed_m: Annotated[Number, at("analysis.value_m"), length("Analysis")]
+    computed_m: Annotated[
+        Number,
+        at("analysis.value_m"),
+        length("Analysis"),
+        Column("Computed [in]", 2, _COMPUTED, is_always=True),
+        Told(),
+    ]
     computed_basis: Annotated[Basis, at("analysis.basis")]
-    mean_prd_m: Annotated[Number, at("analysis.mean_m"), length("Mean")]
-    largest_prd_m: Annotated[Number, at("analysis.largest_m"), length("Largest")]
+    mean_prd_m: Annotated[
+        Number,
+        at("analysis.mean_m"),
+        length("Mean"),
+        Column("Mean PRD [in]", 2, "=AVERAGE({peaks})"),
+        Told(),
+    ]
+    largest_prd_m: Annotated[
+        Number,
+        at("analysis.largest_m"),
+        length("Largest"),
+        Column("Largest PRD [in]", 2, "=MAX({peaks})"),
+        Told(),
+    ]
     prd_variation: Annotated[Number, at("variation")]
-    prescriptive_m: Annotated[float, at("prescriptive.value_m"), length("Prescriptive")]
+    prescriptive_m: Annotated[
+        float,
+        at("prescriptive.value_m"),
+        length("Prescriptive"),
+        Column("[in]", 1, _PRESCRIPTIVE),
+        Told(),
+    ]
     prescriptive_governs: Annotated[PrescriptiveBasis, at("prescriptive.governs")]
-    floor_m: Annotated[float, length("Floor")]
-    design_m: Annotated[Number, length("Design")]
+    floor_m: Annotated[
+        float, length("Floor"), Column("[in]", 2, "={floor_share}*{prescriptive_m}"), Told()
+    ]
+    design_m: Annotated[
+        Number,
+        length("Design"),
+        Column("[in]", 2, _DESIGN, is_always=True),
+        Column("[mm]", 1, _DESIGN_MM),
+        Told(ChangeKind.DESIGN, "Array {row.id}"),
+    ]
     design_is_overridden: Annotated[bool, at("design_mark"), BeforeValidator(bool)]
     design_governs: Annotated[DesignBasis, at("governs")]
     design_permitted: Annotated[bool, at("is_permitted")]
@@ -72,17 +132,17 @@ class LowVelocityResult(Displacements):
 
     first: ClassVar[tuple[str, ...]] = ("id", "mu")
 
-    id: Annotated[str, words("Array", 1.1)]
+    id: Annotated[str, words("Array", 1.1), Column()]
     mu: Annotated[float, at("array.mu")]
 
 
 class DirectionResult(Entity):
     """The displacements of an array in a direction."""
 
-    mean_m: Number
-    largest_m: Number
-    computed_m: Annotated[Number, at("value_m")]
-    design_m: Number
+    mean_m: Annotated[Number, Column("Mean of peaks [in]", 2, "=AVERAGE({peaks})")]
+    largest_m: Annotated[Number, Column("Largest peak [in]", 2, "=MAX({peaks})")]
+    computed_m: Annotated[Number, at("value_m"), Column("Computed [in]", 2, _TOWARD)]
+    design_m: Annotated[Number, Column("In this direction [in]", 2, "=MAX({computed_m},{floor_m})")]
     design_by_chosen_model_m: Number
 
 
@@ -117,7 +177,12 @@ class ArrayResult(LowVelocityResult):
         "friction_as_run",
     )
 
-    verdict: Annotated[Verdict, Shown(head="Verdict", align="center", share=1.65)]
+    verdict: Annotated[
+        Verdict,
+        centered("Verdict", 1.65),
+        Column(),
+        Told(ChangeKind.VERDICT, "Array {row.id}", of_gone=True),
+    ]
     slope_rad: Annotated[float, at("array.slope_rad")]
     friction: Annotated[Friction, at("array.friction")]
     friction_as_run: Annotated[str, Shown(head="μ")]
@@ -126,7 +191,9 @@ class ArrayResult(LowVelocityResult):
     directions: Mapping[Direction, DirectionResult]
     peaks: tuple[PeakResult, ...]
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
-    interconnection_n: Annotated[float, _weight("Required")]
+    interconnection_n: Annotated[
+        float, _weight("Required"), Column("Interconnection required [lb]", 0, _STRENGTH)
+    ]
     tipping: TippingResult
     uplift: UpliftResult
     route: Route
@@ -134,23 +201,23 @@ class ArrayResult(LowVelocityResult):
     analysis_checks: tuple[LimitResult, ...]
     prescriptive_checks: tuple[LimitResult, ...]
     runs: tuple[RunResult, ...]
-    source: Annotated[str, words("Governs", 1.55)] = Field(default="", exclude=True)
-    limits: Annotated[
-        Verdict, at("limits_verdict"), Shown(head="Limits", align="center", share=0.85)
-    ] = Field(default=Verdict.NONE, exclude=True)
-    governing_gap: Annotated[str, words("Clearance", 1.4)] = Field(
-        default="none given", exclude=True
+    source: Annotated[str, words("Governs", 1.55)] = printed("")
+    limits: Annotated[Verdict, at("limits_verdict"), centered("Limits", 0.85)] = printed(
+        Verdict.NONE
     )
-    largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = Field(default="—", exclude=True)
-    weight_n: Annotated[float, at("array.weight_n"), _weight("Weight W")] = Field(
-        default=math.nan, exclude=True
-    )
-    given_n: Annotated[float | None, at("array.interconnection_n")] = Field(
-        default=None, exclude=True
-    )
-    clause: Annotated[str, words("Clause", 1.9)] = Field(default="", exclude=True)
+    governing_gap: Annotated[str, words("Clearance", 1.4)] = printed("none given")
+    largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
+    weight_n: Annotated[
+        float, at("array.weight_n"), _weight("Weight W"), Column("Weight [lb]", 0, is_input=True)
+    ] = printed(math.nan)
+    given_n: Annotated[
+        float | None,
+        at("array.interconnection_n"),
+        Column("Interconnection provided [lb]", 0, is_input=True),
+    ] = printed(None)
+    clause: Annotated[str, words("Clause", 1.9)] = printed("")
 
-    cause: str = Field(default="", exclude=True)
+    cause: str = printed("")
     """Of a verdict that the D/C beside it does not show."""
 
     @unwritten(Shown(head="Slope", unit="deg", share=0.8, text=lambda deg: number(deg, 2)))
@@ -201,7 +268,7 @@ def array_result(
         rounds={"interconnection_n": required, "provided_n": provided},
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
-        directions={direction: _direction(item, direction) for direction in item.directions},
+        directions={direction: direction_result(item, direction) for direction in item.directions},
         peaks=tuple(map(peak_result, item.motions)),
         uplift=UpliftResult.of(item.uplift),
         checks=tuple(map(limit_result, item.checks)),
@@ -229,7 +296,8 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
         )
 
 
-def _direction(item: ArrayAssessment, direction: Direction) -> DirectionResult:
+def direction_result(item: ArrayAssessment, direction: Direction) -> DirectionResult:
+    """Return the displacements of an array in a direction."""
     return DirectionResult.of(
         item.directions[direction],
         design_m=item.directional_m(direction),

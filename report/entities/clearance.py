@@ -9,44 +9,98 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator
 
+from report.assessment.changes import ChangeKind
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.plan_gaps import PlanGap
 from report.assessment.verdict import Verdict
+from report.entities.cells import Column, Told
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked, joined
-from report.entities.shown import Entity, Number, Shown, at, length, plain, unwritten, words
+from report.entities.shown import (
+    Entity,
+    Number,
+    Shown,
+    at,
+    centered,
+    length,
+    plain,
+    printed,
+    unwritten,
+    words,
+)
 from report.sheet.schema import Direction
 from report.words.units import Quantity, compared, ratio, rounded_apart
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
+
+_REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
+_REQUIRED_MM = '=IF(ISTEXT({required_m}),"none",{required_m}*25.4)'
+_UP = "MAX(0,ROUNDUP({required_m}/{provided_m}-0.000000001,2))"  # as `ratio`
+_RATIO = f'=IF(ISTEXT({{required_m}}),"none",IF({{provided_m}}>0,{_UP},"none"))'
+_OK = '=IF(ISTEXT({required_m}),"{unknown}",IF({required_m}<={provided_m},"OK","NG"))'
+
+
+def _as_printed(value: float) -> float:
+    return float(ratio(value)) if math.isfinite(value) else math.nan
 
 
 class ClearanceResult(Entity):
     """A clearance: required and provided separation."""
 
-    array: Annotated[str, at("clearance.array"), words("From", 0.9)]
-    object: Annotated[str, at("clearance.object"), words("To", 1.3)]
-    direction: Annotated[Direction, at("clearance.direction")]
-    neighbor: Neighbor
+    array: Annotated[str, at("clearance.array"), words("From", 0.9), Column("Array")]
+    object: Annotated[str, at("clearance.object"), words("To", 1.3), Column("Object")]
+    direction: Annotated[Direction, at("clearance.direction"), Column("Direction")]
+    neighbor: Annotated[Neighbor, Column("Condition")]
     governing_array: Annotated[str, words("Array", 0.75)]
     governing_direction: Annotated[Direction, words("Direction", 1.05)]
-    design_m: Annotated[Number, length("Displ.", 0.8)]
-    importance: float
-    factor: Annotated[float, plain("Factor", share=0.75)]
-    required_m: Annotated[Number, length("Required", 0.8)]
+    design_m: Annotated[
+        Number, length("Displ.", 0.8), Column("Design [in]", 2, "={largest}", is_always=True)
+    ]
+    importance: Annotated[float, Column("Importance factor", 2, "={inputs[i_e]}", is_input=True)]
+    factor: Annotated[
+        float, plain("Factor", share=0.75), Column("", 2, "={rule_factor}*{importance}")
+    ]
+    required_m: Annotated[
+        Number,
+        length("Required", 0.8),
+        Column("[in]", 2, _REQUIRED, is_always=True),
+        Column("[mm]", 1, _REQUIRED_MM, is_always=True),
+        Told(
+            ChangeKind.CLEARANCE, "{row.array} to {row.object}{row.toward}, required", of_new=False
+        ),
+    ]
     required_is_overridden: Annotated[bool, at("mark"), BeforeValidator(bool)]
-    provided_m: Annotated[float, at("clearance.provided_m"), length("Provided", 0.8)]
-    demand_capacity: Annotated[Number, Shown(head="D/C", text=ratio, share=0.75)]
-    verdict: Annotated[Verdict, Shown(head="Verdict", align="center", share=0.95)]
-    count: Annotated[int, Shown(head="No.", share=0.42)] = Field(default=0, exclude=True)
-    clause: Annotated[str, words("Clause", 2.1)] = Field(default="", exclude=True)
+    provided_m: Annotated[
+        float,
+        at("clearance.provided_m"),
+        length("Provided", 0.8),
+        Column("[in]", 1, is_input=True),
+        Told(),
+    ]
+    demand_capacity: Annotated[
+        Number,
+        Shown(head="D/C", text=ratio, share=0.75),
+        Column("", 2, _RATIO, value=_as_printed, is_always=True),
+    ]
+    verdict: Annotated[
+        Verdict,
+        centered("Verdict", 0.95),
+        Column("Result", formula=_OK, is_always=True),
+        Told(ChangeKind.VERDICT, "Clearance {row.array} to {row.object}"),
+    ]
+    count: Annotated[int, Shown(head="No.", share=0.42)] = printed(0)
+    clause: Annotated[str, words("Clause", 2.1)] = printed("")
+
+    @property
+    def toward(self) -> str:
+        """The direction after a comma, if it has one."""
+        return "" if self.direction is Direction.ANY else f", {self.direction.value}"
 
     @unwritten(words("Condition", 2.2))
     def condition(self) -> str:
         """Kind of what is across it, and the direction, if it has one."""
-        where = "" if self.direction is Direction.ANY else f", {self.direction.value}"
-        return self.neighbor.value + where
+        return self.neighbor.value + self.toward
 
     @property
     def is_rounded_apart(self) -> bool:

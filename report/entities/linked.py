@@ -6,13 +6,15 @@ Computes nothing: see `report.assessment.links`. Read `LinkedResult`.
 from __future__ import annotations
 
 import math
+from operator import attrgetter
 from typing import Annotated
-
-from pydantic import Field
 
 from report.assessment.links import LinkedArray
 from report.assessment.verdict import Verdict
+from report.entities.array import TAKES_LARGEST
+from report.entities.cells import Column
 from report.entities.columns import NO_VALUE
+from report.entities.run import OrientedResult
 from report.entities.shown import (
     Entity,
     Number,
@@ -21,29 +23,37 @@ from report.entities.shown import (
     centered,
     length,
     plain,
+    printed,
     text,
     unwritten,
     words,
 )
 from report.words.units import Quantity, number
-from solver.model import Status
+from solver.model import INCH_M, Status
 
 
-class LinkedRunResult(Entity):
+def _listed(places_m: tuple[float, ...]) -> str:
+    if any(map(math.isnan, places_m)):
+        return NO_VALUE
+    return ", ".join(f"{place / INCH_M:.2f}" for place in places_m)
+
+
+class LinkedRunResult(OrientedResult):
     """A run as a row of blocks, and as one block."""
 
-    motion: str
-    along: Annotated[str, at("orientation.component")]
-    polarity: Annotated[int, at("orientation.polarity")]
-    status: Annotated[Status, at("row.status")]
+    status: Annotated[Status, at("row.status"), Column("Outcome", value=attrgetter("sentence"))]
     rigid_status: Annotated[Status, at("rigid.status")]
-    rigid_prd_m: Annotated[Number, at("rigid.prd_m")]
-    prd_m: Annotated[tuple[Number, ...], at("row.prd_m")]
+    rigid_prd_m: Annotated[Number, at("rigid.prd_m"), Column("PRD, rigid [in]")]
+    prd_m: Annotated[
+        tuple[Number, ...],
+        at("row.prd_m"),
+        Column("PRD of blocks, from the upslope end [in]", value=_listed),
+    ]
     residual_m: Annotated[tuple[Number, ...], at("row.residual_m")]
-    stretch_m: Annotated[Number, at("row.stretch_m")]
-    link_force_n: Number
-    error_m: Annotated[Number, at("row.error_m")]
-    n_stops: Annotated[int, at("row.n_stops")]
+    stretch_m: Annotated[Number, at("row.stretch_m"), Column("Largest link elongation [in]")]
+    link_force_n: Annotated[Number, Column("Largest link force [lb]")]
+    error_m: Annotated[Number, at("row.error_m"), Column("Error bound [in]")]
+    n_stops: Annotated[int, at("row.n_stops"), Column("Stops")]
 
 
 def ratio_up(value: float) -> str:
@@ -53,10 +63,15 @@ def ratio_up(value: float) -> str:
     return number(math.ceil(value * 1e3 - 1e-6) / 1e3 if math.isfinite(value) else value, 3)
 
 
+_RIGID = f"={{factor}}*IF({TAKES_LARGEST},{{rigid_largest_m}},{{rigid_mean_m}})"
+_ROW = f"={{factor}}*IF({TAKES_LARGEST},{{row_largest_m}},{{row_mean_m}})"
+_DESIGN = "=MAX(MAX(1,{ratio})*{computed_m},{floor_m})"
+
+
 class LinkedResult(Entity):
     """An array as a row of linked blocks, beside its design as one rigid block."""
 
-    array: Annotated[str, at("design.id"), words("Array", 0.9)]
+    array: Annotated[str, at("design.id"), words("Array", 0.9), Column()]
     mus: Annotated[tuple[float, ...], at("row.mus")]
     stiffness_n_per_m: Annotated[
         float,
@@ -66,24 +81,32 @@ class LinkedResult(Entity):
     damping_ratio: Annotated[
         float, at("links.damping_ratio"), plain("Damping", 3, unit="of critical", share=1.2)
     ]
-    rigid_one_axis_m: Annotated[Number, at("rigid.value_m"), length("Rigid, one axis")]
-    linked_one_axis_m: Annotated[Number, at("linked.value_m"), length("Row, one axis")]
-    ratio: Annotated[Number, Shown(head="Ratio r", text=ratio_up, share=0.9)]
-    design_m: Annotated[Number, at("design.design_m")]
-    estimated_m: Annotated[Number, length("Design, with links")]
+    rigid_one_axis_m: Annotated[
+        Number, at("rigid.value_m"), length("Rigid, one axis"), Column("Rigid [in]", 3, _RIGID)
+    ]
+    linked_one_axis_m: Annotated[
+        Number, at("linked.value_m"), length("Row, one axis"), Column("Row [in]", 3, _ROW)
+    ]
+    ratio: Annotated[
+        Number,
+        Shown(head="Ratio r", text=ratio_up, share=0.9),
+        Column("Ratio", 3, "={linked_one_axis_m}/{rigid_one_axis_m}"),
+    ]
+    design_m: Annotated[
+        Number, at("design.design_m"), Column("Design used [in]", 3, "={design.design_m}")
+    ]
+    estimated_m: Annotated[
+        Number, length("Design, with links"), Column("Design with links [in]", 3, _DESIGN)
+    ]
     link_force_n: Annotated[Number, Shown(head="Link force", quantity=Quantity.WEIGHT, share=0.9)]
     rigid_is_enough: Annotated[bool, at("is_rigid_enough")]
     runs: tuple[LinkedRunResult, ...]
-    permitted_m: Annotated[Number, at("design.permitted_m"), length("Design, used")] = Field(
-        default=math.nan, exclude=True
+    permitted_m: Annotated[Number, at("design.permitted_m"), length("Design, used")] = printed(
+        math.nan
     )
-    rigid_prd_m: Annotated[Number, length("PRD, rigid", 0.8)] = Field(
-        default=math.nan, exclude=True
-    )
-    prd_m: Annotated[Number, at("farthest.prd_m"), length("PRD, row", 0.8)] = Field(
-        default=math.nan, exclude=True
-    )
-    block: Annotated[Number, plain("Block", 0, share=0.8)] = Field(default=math.nan, exclude=True)
+    rigid_prd_m: Annotated[Number, length("PRD, rigid", 0.8)] = printed(math.nan)
+    prd_m: Annotated[Number, at("farthest.prd_m"), length("PRD, row", 0.8)] = printed(math.nan)
+    block: Annotated[Number, plain("Block", 0, share=0.8)] = printed(math.nan)
 
     @unwritten(text("Blocks", share=0.9))
     def n_blocks(self) -> int:

@@ -6,8 +6,9 @@ Computes nothing: see `report.motions`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, ClassVar
 
+from report.entities.cells import Column
 from report.entities.shown import Entity, at
 from report.motions.history import PreparedMotion
 from report.sheet.schema import RecordedAt
@@ -18,15 +19,17 @@ from solver.records.measures import Measures
 class RecordResult(Entity):
     """A record as it was read."""
 
-    motion: Annotated[str, at("motion_id")]
-    component: str
-    name: str
-    format: str
+    across: ClassVar[str] = "motion component name format npts dt_s peak_g"
+
+    motion: Annotated[str, at("motion_id"), Column("Motion")]
+    component: Annotated[str, Column("Component")]
+    name: Annotated[str, Column("Record")]
+    format: Annotated[str, Column("Format")]
     notes: tuple[str, ...]
-    sha256: str
-    npts: int
-    dt_s: float
-    peak_g: float
+    sha256: Annotated[str, Column("SHA-256")]
+    npts: Annotated[int, Column("Samples")]
+    dt_s: Annotated[float, Column("Time step [s]")]
+    peak_g: Annotated[float, Column("Peak [g]")]
 
 
 class RoofResult(Entity):
@@ -44,11 +47,11 @@ class RoofResult(Entity):
 class MotionResult(Entity):
     """A motion as it was run."""
 
-    id: str
-    recorded_at: RecordedAt
-    processing: Annotated[str, at("done")]
-    scaling: str
-    scale: float
+    id: Annotated[str, Column("Motion")]
+    recorded_at: Annotated[RecordedAt, Column("Recorded at")]
+    processing: Annotated[str, at("done"), Column("Processing")]
+    scaling: Annotated[str, Column("Scaling")]
+    scale: Annotated[float, Column("Factor")]
     dt_s: float
     npts: int
     components: Annotated[Mapping[str, Measures], at("measures")]

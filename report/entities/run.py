@@ -5,52 +5,76 @@ Computes nothing: see `report.assessment.runs`. Read `RunResult`.
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import Annotated
 
 from report.assessment.runs import MotionRun, OrientedRun
+from report.entities.cells import Column
 from report.entities.shown import Entity, Number, at
 from report.sheet.schema import Direction
 from solver.model import Status
+from solver.sliding.least_model import Model
+
+
+def _polarity_words(polarity: int) -> str:
+    return "as recorded" if polarity > 0 else "reversed"
+
+
+def _model_words(rung: int) -> str:
+    return f"{rung}, {Model(rung).title}"
 
 
 class PeakResult(Entity):
     """The largest displacements of an array in all runs of a motion, by direction."""
 
-    motion: str
-    down_m: Number
-    up_m: Number
-    across_m: Number
-    any_m: Number
+    motion: Annotated[str, Column("Motion")]
+    down_m: Annotated[Number, Column("Downslope [in]", 2, "=MAX({runs.down_m})")]
+    up_m: Annotated[Number, Column("Upslope [in]", 2, "=MAX({runs.up_m})")]
+    across_m: Annotated[Number, Column("Cross-slope [in]", 2, "=MAX({runs.across_m})")]
+    any_m: Annotated[Number, Column("Any direction [in]", 2, "=MAX({runs.prd_m})")]
 
 
-class RunResult(Entity):
+class OrientedResult(Entity):
+    """A motion with one component along the slope, in one polarity."""
+
+    motion: Annotated[str, Column("Motion")]
+    along: Annotated[str, at("orientation.component"), Column("Component along slope")]
+    polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=_polarity_words)]
+
+
+class RunResult(OrientedResult):
     """An array under a motion with one component along the slope, in one polarity."""
 
-    motion: str
-    along: Annotated[str, at("orientation.component")]
-    polarity: Annotated[int, at("orientation.polarity")]
-    scale: float
+    scale: Annotated[float, Column("Scale")]
     dt_s: float
-    status: Annotated[Status, at("result.status")]
-    prd_m: Annotated[Number, at("result.prd_m")]
-    residual_m: Annotated[Number, at("result.residual_m")]
-    down_m: Annotated[Number, at("result.down_m")]
-    up_m: Annotated[Number, at("result.up_m")]
-    across_m: Annotated[Number, at("result.across_m")]
-    residual_across_m: Annotated[Number, at("result.residual_across_m")]
-    t_prd_s: Annotated[Number, at("result.t_prd_s")]
-    n_stops: Annotated[int, at("result.n_stops")]
-    n_min_g: Annotated[Number, at("result.n_min_g")]
+    status: Annotated[Status, at("result.status"), Column("Outcome", value=attrgetter("sentence"))]
+    prd_m: Annotated[Number, at("result.prd_m"), Column("PRD [in]"), Column("PRD [mm]")]
+    residual_m: Annotated[
+        Number, at("result.residual_m"), Column("Residual [in]"), Column("Residual [mm]")
+    ]
+    down_m: Annotated[Number, at("result.down_m"), Column("Downslope [in]")]
+    up_m: Annotated[Number, at("result.up_m"), Column("Upslope [in]")]
+    across_m: Annotated[Number, at("result.across_m"), Column("Cross-slope [in]")]
+    residual_across_m: Annotated[
+        Number, at("result.residual_across_m"), Column("Residual cross-slope [in]")
+    ]
+    t_prd_s: Annotated[Number, at("result.t_prd_s"), Column("Time of PRD [s]")]
+    n_stops: Annotated[int, at("result.n_stops"), Column("Stops")]
+    n_min_g: Annotated[Number, at("result.n_min_g"), Column("Minimum N/(m g)")]
     t_uplift_s: Annotated[Number, at("result.t_uplift_s")]
     end_speed_mps: Annotated[Number, at("result.end_speed_mps")]
-    peak_speed_mps: Annotated[Number, at("result.peak_speed_mps")]
-    error_m: Annotated[Number, at("result.error_m")]
-    rung: Annotated[int, at("solution.model")]
+    peak_speed_mps: Annotated[
+        Number, at("result.peak_speed_mps"), Column("Largest velocity [in/s]")
+    ]
+    error_m: Annotated[Number, at("result.error_m"), Column("Error bound [in]")]
+    rung: Annotated[int, at("solution.model"), Column("Model", value=_model_words)]
     model: Annotated[str, at("solution.model.title")]
-    reason: Annotated[str, at("solution.reason")]
-    next_rung: Annotated[int, at("solution.next_model")]
-    next_effect_m: Annotated[Number, at("solution.next_effect_m")]
-    friction_demand: Annotated[Number, at("solution.friction_demand")]
+    reason: Annotated[str, at("solution.reason"), Column("Reason")]
+    next_rung: Annotated[int, at("solution.next_model"), Column("Next model", value=_model_words)]
+    next_effect_m: Annotated[
+        Number, at("solution.next_effect_m"), Column("Effect of next model [in]")
+    ]
+    friction_demand: Annotated[Number, at("solution.friction_demand"), Column("Friction demand")]
 
 
 def peak_result(motion: MotionRun) -> PeakResult:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self, TypeVar
 
 from pydantic import (
     AliasPath,
@@ -24,8 +24,11 @@ from pydantic import (
 )
 from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
+from report.entities.cells import Column
 from report.entities.columns import TableColumn, UnitFormat
 from report.words.units import Quantity, Show, measured, number
+
+_Mark = TypeVar("_Mark")
 
 Number = Annotated[
     float,
@@ -110,6 +113,11 @@ def at(path: str) -> Any:
     return Field(validation_alias=AliasPath(*path.split(".")))
 
 
+def printed(default: Any) -> Any:
+    """Return a field that is shown, and not written to results.json."""
+    return Field(default=default, exclude=True)
+
+
 def unwritten(shown: Shown) -> Callable[[Callable[[Any], Any]], Any]:
     """Make a method a property that is shown, and not written to results.json."""
 
@@ -137,6 +145,8 @@ class Entity(BaseModel):
 
     first: ClassVar[tuple[str, ...]] = ()
     """Fields that are written first: those of a base class would be."""
+    across: ClassVar[str] = ""
+    """Fields in the order of their columns on a sheet of results.xlsx; others follow."""
 
     marks: SkipJsonSchema[Mapping[str, str]] = Field(default={}, exclude=True)
     rounds: SkipJsonSchema[Mapping[str, Show]] = Field(default={}, exclude=True)
@@ -204,7 +214,26 @@ class _Beside:
 @cache
 def shown_by(model: type[Entity], name: str) -> Shown:
     """Return how a field of a model is shown."""
-    if name in model.model_fields:
-        return next(item for item in model.model_fields[name].metadata if isinstance(item, Shown))
-    shown: Shown = getattr(model, name).fget.shown
+    fields = dict(marks_of(model, Shown))
+    shown: Shown = fields[name] if name in fields else getattr(model, name).fget.shown
     return shown
+
+
+@cache
+def marks_of(model: type[Entity], kind: type[_Mark]) -> tuple[tuple[str, _Mark], ...]:
+    """Return the fields of a model with what they say of one kind: `Shown`, `Column`, `Told`."""
+    names = dict.fromkeys((*model.across.split(), *model.model_fields))
+    return tuple(
+        (name, item)
+        for name in names
+        for item in model.model_fields[name].metadata
+        if isinstance(item, kind)
+    )
+
+
+@cache
+def columns_of(model: type[Entity]) -> tuple[tuple[str, str, Column], ...]:
+    """Return the columns of a model on a sheet of results.xlsx: field, heading and the rest."""
+    heads = {name: shown.head for name, shown in marks_of(model, Shown)}
+    columns = marks_of(model, Column)
+    return tuple((name, item.heading(heads.get(name, "")), item) for name, item in columns)

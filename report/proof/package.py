@@ -12,51 +12,21 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Annotated, Any, TypeVar
+from typing import Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
+from pydantic import ValidationError
 from pypdf import PdfReader
 
 from report.motions.files import MAX_BYTES as MAX_RECORD
 from report.proof.numbers import parsed
-from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION
+from report.provenance.files import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
 from report.sheet.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
 from solver.meant import meant
 from solver.model import InputError
 
 _T = TypeVar("_T")
-_Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 _END = re.compile(rb"startxref\s+\d+\s+%%EOF[\r\n]*")
 _LONGEST_NAME = 255
-
-
-class _Part(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="ignore", strict=True)
-
-
-class Listed(_Part):
-    """A file of the manifest: where it belongs, and its name as an attachment."""
-
-    path: str
-    name: str
-    sha256: _Sha256
-    kind: str
-
-
-class Manifest(_Part):
-    """What a package was computed from, and by which software."""
-
-    schema_version: int
-    roofslip_version: str
-    hash: str
-    has_records: bool
-    files: tuple[Listed, ...]
-    environment: dict[str, str]
-    sbom_sha256: _Sha256
-
-    def of_kind(self, kind: str) -> tuple[Listed, ...]:
-        """Return the files of a kind: workbook, record, former or results."""
-        return tuple(file for file in self.files if file.kind == kind)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

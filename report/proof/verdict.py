@@ -6,18 +6,17 @@ names, all of it is compared; other versions explain other drawings and nothing 
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 from report.proof.numbers import listed, number_differences, parsed
-from report.proof.package import Manifest, ReadPackage, guarded, mismatched, reader
+from report.proof.package import ReadPackage, guarded, mismatched, reader
 from report.proof.shape import parts
 from report.proof.sheets import Restated, changes
 from report.proof.signatures import Signature
 from report.proof.updates import Appended
-from report.provenance.files import MANIFEST, RESULTS, SourceFile
+from report.provenance.files import MANIFEST, RESULTS, Manifest, SourceFile
 from report.provenance.software import NEVER_DRAWS, ROOT, distributions
 
 SAME_VERSION, OTHER_VERSION = 1e-12, 1e-9
@@ -66,7 +65,6 @@ class Written:
         self.parts = parts(self.pdf)
         files = {file.name: file.content for file in self.pdf.attachment_list}
         self.manifest = Manifest.model_validate_json(files[MANIFEST])
-        self.listing = parsed(files[MANIFEST], MANIFEST)
         self.results = parsed(files[RESULTS], RESULTS)
 
 
@@ -166,12 +164,12 @@ def _listing(
 ) -> Iterator[str]:
     """Yield where the manifest is not what the versions that it names write from this input."""
     theirs, held = package.manifest, package.files.get(RESULTS, b"")
-    own = SourceFile(path=RESULTS, name=RESULTS, content=held, kind="results").entry
-    here = ours.listing
-    expected = here | {
+    own = SourceFile(path=RESULTS, name=RESULTS, content=held, kind="results").listed
+    files = (own if file.kind == own.kind else file for file in ours.manifest.files)
+    expected = ours.manifest.model_dump() | {
         "roofslip_version": theirs.environment.get(ROOT),
         "hash": short,
-        "files": [file | own if file["name"] == RESULTS else file for file in here["files"]],
+        "files": [file.model_dump() for file in files],
         "environment": theirs.environment,
     }
     if others:
@@ -189,8 +187,3 @@ def _results(package: ReadPackage, ours: Written, tolerance: float) -> list[str]
     expected = ours.results | {"roofslip_version": package.manifest.roofslip_version}
     found = number_differences(package.results, expected, tolerance)
     return [f"{RESULTS}: {text}" for text in found]
-
-
-def as_json(proof: Proof) -> str:
-    """Return the outcome as JSON."""
-    return json.dumps(asdict(proof), ensure_ascii=False)

@@ -12,7 +12,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, StringConstraints
 
 from report.motions.components import RecordFile
 from report.motions.files import BAR, find_file
@@ -38,6 +40,39 @@ _XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 _JSON = "application/json"
 
 
+_Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="ignore", strict=True)
+
+
+class Listed(_Part):
+    """A file of the manifest: where it belongs, its name as an attachment, its size and hash."""
+
+    path: str
+    name: str
+    bytes: int = 0
+    sha256: _Sha256
+    kind: str
+
+
+class Manifest(_Part):
+    """What a package was computed from, and by which software."""
+
+    schema_version: int
+    roofslip_version: str
+    hash: str
+    has_records: bool
+    files: tuple[Listed, ...]
+    environment: dict[str, str]
+    sbom_sha256: _Sha256
+
+    def of_kind(self, kind: str) -> tuple[Listed, ...]:
+        """Return the files of a kind: workbook, record, former or results."""
+        return tuple(file for file in self.files if file.kind == kind)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceFile:
     """A file that was read: where it belongs, its name as an attachment, and what it holds."""
@@ -48,14 +83,15 @@ class SourceFile:
     kind: str
 
     @property
-    def entry(self) -> dict[str, Any]:
+    def listed(self) -> Listed:
         """Its line in the manifest."""
-        return {
-            "path": self.path,
-            "name": self.name,
-            "bytes": len(self.content),
-            "sha256": hashlib.sha256(self.content).hexdigest(),
-        }
+        return Listed(
+            path=self.path,
+            name=self.name,
+            bytes=len(self.content),
+            sha256=hashlib.sha256(self.content).hexdigest(),
+            kind=self.kind,
+        )
 
 
 def fingerprint(sheet: Sheet, shaking: Shaking, program: str = "") -> str:
@@ -153,15 +189,15 @@ def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tupl
 
 def manifest(found: Sequence[SourceFile], short: str, *, has_records: bool) -> bytes:
     """Return what the package is computed from, and by which software, as JSON."""
-    document = {
-        "schema_version": SCHEMA_VERSION,
-        "roofslip_version": version("roofslip"),
-        "hash": short,
-        "has_records": has_records,
-        "files": [source.entry | {"kind": source.kind} for source in found],
-        "environment": environment(),
-        "sbom_sha256": sbom_sha256(),
-    }
+    document = Manifest(
+        schema_version=SCHEMA_VERSION,
+        roofslip_version=version("roofslip"),
+        hash=short,
+        has_records=has_records,
+        files=tuple(source.listed for source in found),
+        environment=dict(environment()),
+        sbom_sha256=sbom_sha256(),
+    ).model_dump(mode="json")
     return json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
 
 

@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, TypeVar
 
 from report.assessment.changes import Change, ChangeKind, Changes
 from report.assessment.project import Assessment
+from report.assessment.verdict import Verdict
 from report.entities.array import ArrayResult
-from report.entities.clearance import ClearanceResult
+from report.entities.cells import Told
 from report.entities.columns import UnitFormat
 from report.entities.results import Compared, compared
+from report.entities.shown import Entity, marks_of
 from report.sheet.fields import Entry, Frozen, Place, SheetSection, YesNo, entries
 from report.sheet.schema import SECTIONS
 
@@ -23,38 +25,39 @@ ALIKE = 1e-6
 """Relative difference up to which two results count as the same: rounding on another machine."""
 
 NOT_THERE = "—"
+_NO_TABLE: tuple[str, ...] = ()
+"""Key of what a section holds that is no table."""
+
+_Row = TypeVar("_Row", bound=Entity)
+_Pair = tuple[Entity | None, Entity | None]
+"""A row before and now; None where it is new, or gone."""
 
 
 def changes(former: Compared, assessment: Assessment) -> Changes:
     """Return what changed from a former revision to this assessment."""
     now = compared(assessment)
-    before = {array.id: array for array in former.arrays}
-    values = frozenset(_changed_values(before, now.arrays))
-    gaps, new_gaps = (_keyed(one.clearances, _gap_key) for one in (former, now))
     us_first = assessment.project.project.units_first.is_us
+    arrays, gone = _pairs(former.arrays, now.arrays, lambda row: (row.id,))
+    gaps, _ = _pairs(former.clearances, now.clearances, _gap_key)
+    items = [
+        *_one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set),
+        *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
+        *_inputs(former, assessment, us_first),
+        *_records(former, now),
+        *_requirements(former, now),
+        *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
+        *_results((*arrays, *gaps, *gone), UnitFormat(us_first=us_first)),
+    ]
     return Changes(
         revision=former.input.project.revision,
         date=former.input.project.date.isoformat(),
-        items=(
-            *_one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set),
-            *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
-            *_inputs(former, assessment, us_first),
-            *_records(former, now),
-            *_designs(before, now.arrays, us_first),
-            *_gaps(gaps, new_gaps, us_first),
-            *_requirements(former, now),
-            *_verdicts(former, now),
-        ),
+        items=tuple(sorted(items, key=lambda item: list(ChangeKind).index(item.kind))),
         arrays=frozenset(
-            item.id
-            for item in now.arrays
-            if any(name == item.id for name, _ in values) or before[item.id].verdict != item.verdict
+            row.id for old, row in arrays if any(_differing(old, row)) or any(_numbers(old, row))
         ),
-        values=values,
+        values=frozenset((row.id, name) for old, row in arrays for name in _numbers(old, row)),
         clearances=frozenset(
-            number
-            for number, (key, gap) in enumerate(new_gaps.items(), start=1)
-            if key not in gaps or _gap_changed(gaps[key], gap)
+            number for number, (old, gap) in enumerate(gaps, start=1) if any(_differing(old, gap))
         ),
     )
 
@@ -81,28 +84,34 @@ def _gap_key(row: Any) -> tuple[str, ...]:
 
 def _inputs(former: Compared, assessment: Assessment, us_first: bool) -> Iterator[Change]:
     for section in SECTIONS:
-        olds, news = (getattr(data, section.key) for data in (former.input, assessment.project))
-        if not section.is_table:
-            yield from _fields(section, 0, "", olds, news, assessment, us_first)
-            continue
-        old_rows, new_rows = (_keyed(rows, _row_key) for rows in (olds, news))
-        for index, (key, row) in enumerate(new_rows.items()):
-            name = _name(section, key)
-            if key in old_rows:
-                yield from _fields(section, index, name, old_rows[key], row, assessment, us_first)
+        data = (getattr(one, section.key) for one in (former.input, assessment.project))
+        if section.is_table:
+            olds, news = (_keyed(rows, _row_key) for rows in data)
+        else:
+            olds, news = ({_NO_TABLE: row} for row in data)
+        for index, (key, row) in enumerate(news.items()):
+            cells = _cells(section, index, assessment)
+            if key in olds:
+                yield from _fields(_name(section, key), olds[key], row, cells, us_first)
             else:
-                yield Change(
-                    kind=ChangeKind.INPUT,
-                    title=name,
-                    before=NOT_THERE,
-                    now="added",
-                    cell=_first_cell(section, index, assessment),
-                )
-        for key in old_rows:
-            if key not in new_rows:
-                yield Change(
-                    kind=ChangeKind.INPUT, title=_name(section, key), before="given", now="removed"
-                )
+                first = next(filter(None, cells.values()), "")
+                yield _input(_name(section, key), NOT_THERE, "added", first)
+        for key in olds:
+            if key not in news:
+                yield _input(_name(section, key), "given", "removed", "")
+
+
+def _input(title: str, before: str, now: str, cell: str) -> Change:
+    return Change(kind=ChangeKind.INPUT, title=title, before=before, now=now, cell=cell)
+
+
+def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping[Entry, str]:
+    """Return the cell of each field of a row; empty for one that is not on the sheet."""
+    addresses = assessment.sheet.addresses
+    return {
+        entry: addresses.get(Place(section.key, index, entry.name), "")
+        for entry in entries(section.model)
+    }
 
 
 def _row_key(row: Any) -> tuple[str, ...]:
@@ -116,37 +125,23 @@ def _row_key(row: Any) -> tuple[str, ...]:
 
 
 def _name(section: SheetSection, key: tuple[str, ...]) -> str:
+    """Return what a row of a table is called; nothing for a section that is none."""
+    if not key:
+        return ""
     *parts, count = (part for part in key if part)
     number = f"row {count}" if not parts or count != "1" else ""
     return f"{section.title}, {' '.join([*parts, number]).rstrip()}"
 
 
-def _first_cell(section: SheetSection, index: int, assessment: Assessment) -> str:
-    addresses = assessment.sheet.addresses
-    places = (Place(section.key, index, entry.name) for entry in entries(section.model))
-    return next((addresses[place] for place in places if place in addresses), "")
-
-
 def _fields(
-    section: SheetSection,
-    index: int,
-    name: str,
-    old: Frozen,
-    new: Frozen,
-    assessment: Assessment,
-    us_first: bool,
+    name: str, old: Frozen, new: Frozen, cells: Mapping[Entry, str], us_first: bool
 ) -> Iterator[Change]:
-    for entry in entries(section.model):
+    for entry, cell in cells.items():
         before, now = getattr(old, entry.name), getattr(new, entry.name)
         if not _same(before, now):
-            label = entry.cell.label
-            yield Change(
-                kind=ChangeKind.INPUT,
-                title=f"{name}: {label}" if name else label,
-                before=_shown(entry, before, us_first),
-                now=_shown(entry, now, us_first),
-                cell=assessment.sheet.addresses.get(Place(section.key, index, entry.name), ""),
-            )
+            title = f"{name}: {entry.cell.label}" if name else entry.cell.label
+            shown = [_shown(entry, value, us_first) for value in (before, now)]
+            yield _input(title, shown[0], shown[1], cell)
 
 
 def _same(before: object, now: object) -> bool:
@@ -179,74 +174,15 @@ def _records(former: Compared, now: Compared) -> Iterator[Change]:
         yield from _one(ChangeKind.RECORD, " ".join(key), *shown)
 
 
-_RESULTS = (
-    "mean_prd_m", "largest_prd_m", "computed_m", "prescriptive_m", "floor_m", "design_m",
-)  # fmt: skip
-
-
-def _changed_values(
-    before: Mapping[str, ArrayResult], arrays: Sequence[ArrayResult]
-) -> Iterator[tuple[str, str]]:
-    """Yield each array with the key, or the motion, whose number changed."""
-    for item in arrays:
-        old = before.get(item.id)
-        for key in _RESULTS:
-            if old is None or not _alike(getattr(old, key), getattr(item, key)):
-                yield item.id, key
-        peaks = {row.motion: row.any_m for row in old.peaks} if old else {}
-        for row in item.peaks:
-            if row.motion not in peaks or not _alike(peaks[row.motion], row.any_m):
-                yield item.id, row.motion
-
-
-def _alike(before: float, now: float) -> bool:
-    """Whether two results are the same; NaN is no value."""
-    if math.isnan(before) or math.isnan(now):
-        return math.isnan(before) and math.isnan(now)
-    return math.isclose(before, now, rel_tol=ALIKE)
-
-
-def _lengths(before: float, now: float, us_first: bool) -> tuple[str, str]:
-    """Return two lengths, with more digits where print alike."""
-    fmt = UnitFormat(us_first=us_first)
-    shown = fmt.both(before), fmt.both(now)
-    return (f"{before:.7g} m", f"{now:.7g} m") if shown[0] == shown[1] else shown
-
-
-def _designs(
-    before: Mapping[str, ArrayResult], arrays: Sequence[ArrayResult], us_first: bool
-) -> Iterator[Change]:
-    for item in arrays:
-        old = before[item.id].design_m if item.id in before else math.nan
-        if item.id in before and _alike(old, item.design_m):
-            continue
-        shown = _lengths(old, item.design_m, us_first)
-        yield Change(
-            kind=ChangeKind.DESIGN,
-            title=f"Array {item.id}",
-            before=shown[0] if item.id in before else NOT_THERE,
-            now=shown[1],
-        )
-
-
-def _gap_changed(before: ClearanceResult, now: ClearanceResult) -> bool:
-    return before.verdict != now.verdict or not (
-        _alike(before.required_m, now.required_m) and _alike(before.provided_m, now.provided_m)
+def _pairs(
+    olds: Sequence[_Row], news: Sequence[_Row], key: Callable[[_Row], tuple[str, ...]]
+) -> tuple[Sequence[tuple[_Row | None, _Row]], Sequence[tuple[_Row, None]]]:
+    """Return the rows of now, each with that before, and those that are gone."""
+    before, now = _keyed(olds, key), _keyed(news, key)
+    return (
+        [(before.get(name), row) for name, row in now.items()],
+        [(row, None) for name, row in before.items() if name not in now],
     )
-
-
-def _gaps(
-    before: Mapping[tuple[str, ...], ClearanceResult],
-    now: Mapping[tuple[str, ...], ClearanceResult],
-    us_first: bool,
-) -> Iterator[Change]:
-    """Yield the required separations that changed; what is provided is an input."""
-    for key, new in now.items():
-        array, other, direction, _ = key
-        if key in before and not _alike(before[key].required_m, new.required_m):
-            toward = "" if direction == "any" else f", {direction}"
-            shown = _lengths(before[key].required_m, new.required_m, us_first)
-            yield from _one(ChangeKind.CLEARANCE, f"{array} to {other}{toward}, required", *shown)
 
 
 def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
@@ -265,16 +201,52 @@ def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
         yield from _one(ChangeKind.REQUIREMENT, title, *shown)
 
 
-def _verdicts(former: Compared, now: Compared) -> Iterator[Change]:
-    yield from _one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict)
-    before = {item.id: item.verdict.word for item in former.arrays}
-    after = {item.id: item.verdict.word for item in now.arrays}
-    for name, verdict in after.items():
-        old = before.get(name, NOT_THERE)
-        yield from _one(ChangeKind.VERDICT, f"Array {name}", old, verdict)
-    gaps, new_gaps = (_keyed(one.clearances, _gap_key) for one in (former, now))
-    for key, gap in new_gaps.items():
-        old = gaps[key].verdict if key in gaps else NOT_THERE
-        yield from _one(ChangeKind.VERDICT, f"Clearance {key[0]} to {key[1]}", old, gap.verdict)
-    for name in (name for name in before if name not in after):
-        yield from _one(ChangeKind.VERDICT, f"Array {name}", before[name], NOT_THERE)
+def _differing(old: Entity | None, row: Entity | None) -> Iterator[tuple[str, Told]]:
+    """Yield the fields of a row, or of one that is new or gone, that changed."""
+    either = row or old
+    for name, told in marks_of(type(either), Told) if either else ():
+        if not (old and row and _alike(getattr(old, name), getattr(row, name))):
+            yield name, told
+
+
+def _alike(before: Any, now: Any) -> bool:
+    """Whether two results are the same; NaN is no value."""
+    if not isinstance(now, float):
+        return bool(before == now)
+    if math.isnan(before) or math.isnan(now):
+        return math.isnan(before) and math.isnan(now)
+    return math.isclose(before, now, rel_tol=ALIKE)
+
+
+def _numbers(old: ArrayResult | None, row: ArrayResult) -> Iterator[str]:
+    """Yield the key, or the motion, of each number of an array that changed."""
+    for name, _ in _differing(old, row):
+        if isinstance(getattr(row, name), float):
+            yield name
+    peaks = {peak.motion: peak.any_m for peak in old.peaks} if old else {}
+    for peak in row.peaks:
+        if peak.motion not in peaks or not _alike(peaks[peak.motion], peak.any_m):
+            yield peak.motion
+
+
+def _results(pairs: Iterable[_Pair], fmt: UnitFormat) -> Iterator[Change]:
+    """Yield the changes that are listed of rows."""
+    for old, row in pairs:
+        for name, told in _differing(old, row):
+            if told.kind and (old or told.of_new) and (row or told.of_gone):
+                title = told.title.format(row=row or old)
+                yield from _one(told.kind, title, *_texts(old, row, name, fmt))
+
+
+def _texts(old: Entity | None, row: Entity | None, name: str, fmt: UnitFormat) -> Sequence[str]:
+    """Return a field before and now; numbers have more digits where they would print alike."""
+    texts = [_text(one, name, fmt) if one else NOT_THERE for one in (old, row)]
+    if texts[0] != texts[1]:
+        return texts
+    unit = name.rpartition("_")[2]
+    return [f"{getattr(one, name):.7g} {unit}" for one in (old, row)]
+
+
+def _text(row: Entity, name: str, fmt: UnitFormat) -> str:
+    value = getattr(row, name)
+    return value.word if isinstance(value, Verdict) else row.both(name, fmt)

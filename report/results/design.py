@@ -1,39 +1,72 @@
 """The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
 
-Live formulas, each written with the value from `report.assessment.project`. Read
-`report.results.xlsx`.
+Live formulas, each written with the value from `report.assessment.project`. Read `DesignRow`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-
-from xlsxwriter.worksheet import Worksheet
+from collections.abc import Mapping, Sequence
+from typing import Annotated, ClassVar
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict, worst
+from report.entities.array import ArrayResult, array_result
+from report.entities.cells import Column
+from report.entities.shown import Number
 from report.results.directions import PeakRanges
 from report.results.inputs import InputCells
-from report.results.sheets import Pages, typed, write_headings
+from report.results.sheets import TOP, Cells, Pages, SheetRow, write_live
 from report.sheet.schema import Direction
-from report.words.units import NEWTONS_PER_POUND
 from solver.model import INCH_M
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
-_HEADINGS = (
-    "Array", "S_DS [g]", "Factor [in]", "I_e in displacement", "Minimum [in]",
-    "Prescriptive [in]", "Number of motions", "Mean PRD [in]", "Largest PRD [in]",
-    "Analysis factor", "Computed [in]", "Floor / prescriptive", "Floor [in]", "Design [in]",
-    "Design [mm]", "Design / prescriptive", "Design by Roofslip [in]", "Difference [in]", "Verdict",
-    "Statistic", "Other requirements", "Electrical slack [in]", "Weight [lb]",
-    "Interconnection required [lb]", "Interconnection provided [lb]",
-)  # fmt: skip
-
 _LIVE_ROWS = ("electrical_slack", "interconnection")
 """Ids of the requirements that follow here by formula."""
+
+_MEAN, _LARGEST, _PLAIN, _FEW = (
+    f'"{basis.value}"'
+    for basis in (Basis.MEAN_FACTORED, Basis.LARGEST_FACTORED, Basis.MEAN, Basis.TOO_FEW)
+)
+_HAS_MEAN = "{n_motions}>={inputs[mean_motions]}"
+_OR_LARGEST = f"IF({{n_motions}}>={{inputs[largest_motions]}},{_LARGEST},{_FEW})"
+_OR_PLAIN = f"IF({{n_motions}}>={{inputs[plain_mean_motions]}},{_PLAIN},{_FEW})"
+_STATISTIC = (
+    f'=IF({{inputs[statistic]}}="rule set",IF({_HAS_MEAN},{_MEAN},{_OR_LARGEST}),'
+    f"IF({{inputs[statistic]}}={_MEAN},IF({_HAS_MEAN},{_MEAN},{_FEW}),"
+    f"IF({{inputs[statistic]}}={_LARGEST},{_OR_LARGEST},{_OR_PLAIN})))"
+)
+_FACTOR = f"=IF({{statistic}}={_PLAIN},1,{{inputs[factor]}})"
+_FLOOR_SHARE = '=IF({inputs[peer_reviewed]}="Yes",0,{inputs[floor]})'
+_RATIO = '=IF(ISTEXT({design_m}),"none",{design_m}/{prescriptive_m})'
+_DIFFERENCE = '=IF(ISTEXT({design_m}),"none",{design_m}-{by_roofslip_m})'
+
+
+class DesignRow(SheetRow, ArrayResult):
+    """The design displacement and the verdict of an array."""
+
+    sheet: ClassVar[str] = "Design"
+    across: ClassVar[str] = (
+        "id s_ds_g factor_m importance minimum_m prescriptive_m n_motions mean_prd_m largest_prd_m"
+        " analysis_factor computed_m floor_share floor_m design_m over_prescriptive by_roofslip_m"
+        " difference verdict statistic others slack_m weight_n interconnection_n given_n"
+    )
+
+    s_ds_g: Annotated[float, Column("S_DS [g]", 4, "={inputs[s_ds_g]}")]
+    factor_m: Annotated[float, Column("Factor [in]", 1, is_input=True)]
+    importance: Annotated[float, Column("I_e in displacement", 2, "={inputs[i_e]}")]
+    minimum_m: Annotated[float, Column("Minimum [in]", 1, is_input=True)]
+    n_motions: Annotated[int, Column("Number of motions", 0, "=COUNT({peaks})")]
+    analysis_factor: Annotated[float, Column("Analysis factor", 2, _FACTOR)]
+    floor_share: Annotated[float, Column("Floor / prescriptive", 2, _FLOOR_SHARE)]
+    over_prescriptive: Annotated[Number, Column("Design / prescriptive", 3, _RATIO)]
+    by_roofslip_m: Annotated[Number, Column("Design by Roofslip [in]", 2)]
+    difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
+    statistic: Annotated[Basis, Column("Statistic", formula=_STATISTIC)]
+    others: Annotated[Verdict, Column("Other requirements")]
+    slack_m: Annotated[float | None, Column("Electrical slack [in]", 1, is_input=True)]
 
 
 def write_design(
@@ -51,41 +84,59 @@ def write_design(
         For each array, the cells that hold OK, NG or none: its clearances and its row of linked
         blocks.
     """
-    sheet = pages.sheet(
-        "Design",
+    rows = []
+    for item in assessment.arrays:
+        refs = {"inputs": inputs, "peaks": peaks[item.id, Direction.ANY]}
+        rows.append(_row(assessment, item, refs, results[item.id]))
+    sheet = write_live(
+        pages,
+        DesignRow,
+        rows,
         "Design displacement",
         f"{assessment.rules.name}. From the sheets Peaks, any direction, and Inputs. Other "
         "requirements, those that need other runs or the plan, are those of the report."
         + (f" {MEANING}." if assessment.is_overridden else ""),
     )
-    write_headings(pages, sheet, 3, _HEADINGS)
-    for row, item in enumerate(assessment.arrays, start=4):
-        _write_row(pages, sheet, row, assessment, item, peaks[item.id, Direction.ANY], inputs)
-        _write_requirements(pages, sheet, row, assessment, item, inputs)
-        verdict = assessment.array_verdict(item).word
-        formula = _verdict(row + 1, results[item.id])
-        sheet.write_formula(row, 18, formula, pages.plain, verdict)
-    _write_verdict(pages, sheet, assessment)
+    sheet.write_string("A3", "Verdict", pages.head)
+    sheet.write_string("C3", "Other", pages.head)
+    sheet.write_string("D3", _beside_arrays(assessment).word)
+    cells = (Cells(DesignRow, TOP + at, is_here=True) for at in range(len(rows)))
+    formula = _worst_of(["D3", *(row.verdict for row in cells)])
+    sheet.write_formula("B3", formula, pages.head, assessment.verdict.value)
 
 
-def _write_verdict(pages: Pages, sheet: Worksheet, assessment: Assessment) -> None:
-    """Write the verdict on the project from those on its arrays."""
+def _beside_arrays(assessment: Assessment) -> Verdict:
+    """Return the verdict on what belongs to no array."""
     ids = {item.id for item in assessment.arrays}
-    others = worst(
+    return worst(
         [
             *(Verdict.OK if check.ok else Verdict.NG for check in assessment.building_checks),
             *(row.verdict for row in assessment.rows if row.subject not in ids),
         ]
     )
-    sheet.write_string(2, 0, "Verdict", pages.head)
-    sheet.write_string(2, 2, "Other", pages.head)
-    sheet.write_string(2, 3, others.word, pages.plain)
-    last = 4 + len(assessment.arrays)
-    cells = ["D3", *(f"S{row}" for row in range(5, last + 1))]
-    formula = f"=IF(OR({_any(cells, Verdict.NG)}),{_quoted(Verdict.NG)},"
-    formula += f'IF(OR({_any(cells, Verdict.CONDITIONS)}),"{Verdict.CONDITIONS}",'
-    sheet.write_formula(
-        2, 1, f"{formula}{_quoted(Verdict.OK)}))", pages.head, assessment.verdict.value
+
+
+def _worst_of(cells: Sequence[str]) -> str:
+    """Return the formula of the verdict on the project, from cells with those on its parts."""
+    return (
+        f"=IF(OR({_any(cells, Verdict.NG)}),{_quoted(Verdict.NG)},"
+        f'IF(OR({_any(cells, Verdict.CONDITIONS)}),"{Verdict.CONDITIONS}",{_quoted(Verdict.OK)}))'
+    )
+
+
+def _verdict(results: Sequence[str]) -> str:
+    """Return the formula of the verdict on an array."""
+    failed = [
+        "ISTEXT({design_m})",
+        "AND(ISNUMBER({slack_m}),{slack_m}<{design_m})",
+        "AND(ISNUMBER({given_n}),{given_n}<{interconnection_n})",
+        _any(["{others}", *results], Verdict.NG),
+        *([_any(results, Verdict.NONE)] if results else []),
+    ]
+    open_ = ["ISTEXT({slack_m})", "ISTEXT({given_n})", _any(["{others}"], Verdict.CONDITIONS)]
+    return (
+        f"=IF(OR({','.join(failed)}),{_quoted(Verdict.NG)},"
+        f"IF(OR({','.join(open_)}),{_quoted(Verdict.CONDITIONS)},{_quoted(Verdict.OK)}))"
     )
 
 
@@ -97,169 +148,53 @@ def _quoted(verdict: Verdict) -> str:
     return f'"{verdict.word}"'
 
 
-def _verdict(r: int, results: Sequence[str]) -> str:
-    """Return the formula of the verdict on an array."""
-    short = [f"AND(ISNUMBER(V{r}),V{r}<N{r})", f"AND(ISNUMBER(Y{r}),Y{r}<X{r})"]
-    failed = [f"ISTEXT(N{r})", *short, _any([f"U{r}", *results], Verdict.NG)]
-    failed += [_any(results, Verdict.NONE)] if results else []
-    open_ = [f"ISTEXT(V{r})", f"ISTEXT(Y{r})", _any([f"U{r}"], Verdict.CONDITIONS)]
-    return (
-        f"=IF(OR({','.join(failed)}),{_quoted(Verdict.NG)},"
-        f"IF(OR({','.join(open_)}),{_quoted(Verdict.CONDITIONS)},{_quoted(Verdict.OK)}))"
-    )
-
-
-def _write_row(
-    pages: Pages,
-    sheet: Worksheet,
-    row: int,
+def _row(
     assessment: Assessment,
     item: ArrayAssessment,
-    peaks: str,
-    inputs: InputCells,
-) -> None:
-    rules, r = assessment.rules, row + 1
-    prescriptive = item.prescriptive
-    flat = prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
-    sheet.write_string(row, 0, item.id)
+    refs: Mapping[str, object],
+    results: Sequence[str],
+) -> DesignRow:
+    rules, data, prescriptive = assessment.rules, assessment.project, item.prescriptive
     # The constant value for SDC A, B and C replaces the formula.
-    factor_in = 0.0 if flat else rules["prescriptive_factor_in"]
-    sheet.write_number(row, 2, typed(factor_in), pages.typed[1])
+    is_flat = prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
+    is_mean = item.analysis.basis is Basis.MEAN
+    others = (row for row in assessment.rows_of(item.id) if row.id not in _LIVE_ROWS)
+    formulas = {"verdict": _verdict(results)}
     if rules.importance_in_separation:
-        sheet.write_number(row, 3, 1.0, pages.numbers[2])
-    sheet.write_number(row, 4, typed(prescriptive.minimum_m / INCH_M), pages.typed[1])
-    marks = _marks(item)
-    for column, formula, value, decimals in _formulas(assessment, item, peaks, inputs, r):
-        shown = pages.marked(pages.numbers[decimals], marks.get(column, ""))
-        sheet.write_formula(row, column, formula, shown, value)
-    sheet.write_formula(row, 19, _statistic(r, inputs), pages.plain, item.analysis.basis.value)
-    if math.isnan(item.design_m):
-        sheet.write_formula(row, 13, _design(item, r), pages.plain, "none")
-        for column in (14, 15, 16):
-            sheet.write_string(row, column, "none")
-    else:
-        shown = pages.marked(pages.numbers[2], item.design_mark)
-        sheet.write_number(row, 16, item.design_m / INCH_M, shown)
+        formulas["importance"] = ""
     if math.isnan(item.analysis.mean_m):
-        for column in (7, 8):
-            sheet.write_string(row, column, "none")
-
-
-def _marks(item: ArrayAssessment) -> Mapping[int, str]:
-    """Return the marks of the numbers that an override or a departure changes, by column."""
-    return {
-        5: item.mark(lambda array: array.prescriptive.value_m),
-        10: item.mark(lambda array: array.analysis.value_m),
-        12: item.mark(lambda array: array.floor_m),
-        **dict.fromkeys((13, 14, 15), item.design_mark),
-    }
-
-
-def _formulas(
-    assessment: Assessment, item: ArrayAssessment, peaks: str, inputs: InputCells, r: int
-) -> Iterator[tuple[int, str, float | str, int]]:
-    """Yield column, formula, value and decimals."""
-    site, analysis, inch = assessment.project.site, item.analysis, INCH_M
-    rules, reviewed = assessment.rules, inputs["peer_reviewed"]
-    yield 1, f"={inputs['s_ds_g']}", site.s_ds, 4
-    if not rules.importance_in_separation:
-        yield 3, f"={inputs['i_e']}", site.i_e, 2
-    prescriptive = item.prescriptive.value_m
-    yield 5, f"=MAX(C{r}*D{r}*MAX(B{r}-0.4,0)^2,E{r})", prescriptive / inch, 1
-    yield 6, f"=COUNT({peaks})", analysis.n_motions, 0
-    yield 9, f'=IF(T{r}="{Basis.MEAN.value}",1,{inputs["factor"]})', _factor(assessment, item), 2
-    share = 0.0 if assessment.project.options.peer_reviewed else rules["analysis_floor"]
-    yield 11, f'=IF({reviewed}="Yes",0,{inputs["floor"]})', share, 2
-    yield 12, f"=L{r}*F{r}", item.floor_m / inch, 2
-    if not math.isnan(analysis.mean_m):
-        yield 7, f"=AVERAGE({peaks})", analysis.mean_m / inch, 2
-        yield 8, f"=MAX({peaks})", analysis.largest_m / inch, 2
-    value = "none" if math.isnan(analysis.value_m) else analysis.value_m / inch
-    yield 10, _computed(item, r), value, 2
-    if not math.isnan(item.design_m):
-        yield 13, _design(item, r), item.design_m / inch, 2
-        yield 14, f'=IF(ISTEXT(N{r}),"none",N{r}*25.4)', item.design_m * 1e3, 1
-        yield 15, f'=IF(ISTEXT(N{r}),"none",N{r}/F{r})', item.ratio, 3
-        yield 17, f'=IF(ISTEXT(N{r}),"none",N{r}-Q{r})', 0.0, 4
-
-
-def _factor(assessment: Assessment, item: ArrayAssessment) -> float:
-    """Return the analysis factor, that of the rule set also where there are too few motions."""
-    return 1.0 if item.analysis.basis is Basis.MEAN else assessment.rules["analysis_factor"]
-
-
-def _statistic(r: int, inputs: InputCells) -> str:
-    """Return the formula of the statistic of the peaks."""
-    asked, count = inputs["statistic"], f"G{r}"
-    mean, largest, plain = (
-        b.value for b in (Basis.MEAN_FACTORED, Basis.LARGEST_FACTORED, Basis.MEAN)
+        formulas |= dict.fromkeys(("computed_m", "design_m"), '="none"')
+    elif item.route is Route.PRESCRIPTIVE:
+        formulas["design_m"] = "=MAX({prescriptive_m},{largest_prd_m})"
+    design = ("design_m", "over_prescriptive", "by_roofslip_m")
+    return DesignRow.beside(
+        array_result(assessment, item),
+        refs=refs,
+        formulas=formulas,
+        blanks={"difference"} if math.isnan(item.design_m) else (),
+        marks={
+            "prescriptive_m": item.mark(lambda array: array.prescriptive.value_m),
+            "computed_m": item.mark(lambda array: array.analysis.value_m),
+            "floor_m": item.mark(lambda array: array.floor_m),
+            "interconnection_n": item.mark(lambda array: array.interconnection_n),
+            **dict.fromkeys(design, item.design_mark),
+        },
+        s_ds_g=data.site.s_ds,
+        factor_m=0.0 if is_flat else rules["prescriptive_factor_in"] * INCH_M,
+        importance=1.0 if rules.importance_in_separation else data.site.i_e,
+        minimum_m=prescriptive.minimum_m,
+        n_motions=item.analysis.n_motions,
+        # That of the rule set also where there are too few motions.
+        analysis_factor=1.0 if is_mean else rules["analysis_factor"],
+        floor_share=0.0 if data.options.peer_reviewed else rules["analysis_floor"],
+        over_prescriptive=item.ratio,
+        by_roofslip_m=item.design_m,
+        statistic=item.analysis.basis,
+        others=worst(
+            [
+                Verdict.OK if assessment.is_sound(item) else Verdict.NG,
+                *(row.verdict for row in others),
+            ]
+        ),
+        slack_m=item.array.slack_m,
     )
-    few = Basis.TOO_FEW.value
-    by_rule = f'IF({count}>={inputs["mean_motions"]},"{mean}",{_enough(r, largest, inputs)})'
-    asked_for = (
-        f'IF({asked}="{mean}",IF({count}>={inputs["mean_motions"]},"{mean}","{few}"),'
-        f'IF({asked}="{largest}",{_enough(r, largest, inputs)},'
-        f'IF({count}>={inputs["plain_mean_motions"]},"{plain}","{few}")))'
-    )
-    return f'=IF({asked}="rule set",{by_rule},{asked_for})'
-
-
-def _enough(r: int, largest: str, inputs: InputCells) -> str:
-    few = Basis.TOO_FEW.value
-    return f'IF(G{r}>={inputs["largest_motions"]},"{largest}","{few}")'
-
-
-def _computed(item: ArrayAssessment, r: int) -> str:
-    if math.isnan(item.analysis.mean_m):
-        return '="none"'
-    largest, few = Basis.LARGEST_FACTORED.value, Basis.TOO_FEW.value
-    return f'=IF(T{r}="{few}","none",J{r}*IF(T{r}="{largest}",I{r},H{r}))'
-
-
-def _design(item: ArrayAssessment, r: int) -> str:
-    if math.isnan(item.analysis.mean_m):
-        return '="none"'
-    if item.route is Route.PRESCRIPTIVE:
-        return f"=MAX(F{r},I{r})"
-    return f'=IF(ISTEXT(K{r}),"none",MAX(K{r},M{r}))'
-
-
-def _write_requirements(
-    pages: Pages,
-    sheet: Worksheet,
-    row: int,
-    assessment: Assessment,
-    item: ArrayAssessment,
-    inputs: InputCells,
-) -> None:
-    """Write slack and interconnection strength with their requirements, and all other rows."""
-    r, pound = row + 1, NEWTONS_PER_POUND
-    others = worst(
-        [
-            Verdict.OK if assessment.is_sound(item) else Verdict.NG,
-            *(x.verdict for x in assessment.rows_of(item.id) if x.id not in _LIVE_ROWS),
-        ]
-    )
-    sheet.write_string(row, 20, others.word)
-    _write_given(pages, sheet, row, 21, item.array.slack_m, INCH_M, 1)
-    _write_given(pages, sheet, row, 22, item.array.weight_n, pound, 0)
-    strength = f"MAX({inputs['interconnection_sds']}*B{r},{inputs['interconnection_min']})"
-    required = item.interconnection_n / pound
-    shown = pages.marked(pages.numbers[0], item.mark(lambda array: array.interconnection_n))
-    sheet.write_formula(row, 23, f"={strength}*W{r}/2", shown, required)
-    _write_given(pages, sheet, row, 24, item.array.interconnection_n, pound, 0)
-
-
-def _write_given(
-    pages: Pages,
-    sheet: Worksheet,
-    row: int,
-    column: int,
-    value_si: float | None,
-    unit: float,
-    decimals: int,
-) -> None:
-    if value_si is None:
-        sheet.write_string(row, column, "not given", pages.typed_text)
-    else:
-        sheet.write_number(row, column, typed(value_si / unit), pages.typed[decimals])

@@ -5,19 +5,30 @@ Read `report.results.xlsx`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
 
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
-from report.results.sheets import Pages, typed, write_headings
+from report.results.sheets import TOP, Pages, typed, write_headings
 from report.sheet.fields import YesNo
-from report.sheet.schema import Statistic
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
 
 InputCells = Mapping[str, str]
 """Cell of each input, by its key."""
 
-_FIRST_ROW = 4
+
+@dataclass(frozen=True, slots=True)
+class _Input:
+    """A number with its digits, or one of several words; `provision` is its key in the rule set."""
+
+    key: str
+    label: str
+    value: float | StrEnum
+    use: str
+    decimals: int = 3
+    provision: str = ""
 
 
 def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
@@ -28,100 +39,59 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
         "Change a yellow cell here, or on the sheets Design and Clearances: the verdicts follow. "
         "Route, limits, motions and runs are those of the report.",
     )
-    write_headings(pages, sheet, 3, ("Input", "Value", "Use"))
-    sheet.set_column(0, 0, 34)
-    sheet.set_column(1, 1, 16)
-    sheet.set_column(2, 2, 70)
+    write_headings(pages, sheet, TOP - 2, ("Input", "Value", "Use"))
+    for column, width in enumerate((34, 16, 70)):
+        sheet.set_column(column, column, width)
     changed = {row.provision for row in assessment.project.overrides}
     cells = {}
-    for row, (key, label, value, use) in enumerate(_inputs(assessment), start=_FIRST_ROW):
-        sheet.write_string(row, 0, label)
-        if isinstance(value, str):
-            sheet.write_string(row, 1, value, pages.typed_text)
+    for row, item in enumerate(_inputs(assessment), start=TOP):
+        cell = f"B{row}"
+        sheet.write_string(f"A{row}", item.label)
+        sheet.write_string(f"C{row}", item.use)
+        if isinstance(item.value, StrEnum):
+            sheet.write_string(cell, item.value, pages.typed_text)
+            choices = [choice.value for choice in type(item.value)]
+            sheet.data_validation(cell, {"validate": "list", "source": choices})
         else:
-            mark = OVERRIDDEN if _PROVISIONS.get(key) in changed else ""
-            shown = pages.marked(pages.typed[_decimals(key)], mark)
-            sheet.write_number(row, 1, typed(value), shown)
-        sheet.write_string(row, 2, use)
-        cells[key] = f"Inputs!$B${row + 1}"
-        if key in _CHOICES:
-            sheet.data_validation(
-                row, 1, row, 1, {"validate": "list", "source": list(_CHOICES[key])}
-            )
+            mark = OVERRIDDEN if item.provision in changed else ""
+            shown = pages.number(item.decimals, mark, is_input=True)
+            sheet.write_number(cell, typed(item.value), shown)
+        cells[item.key] = f"Inputs!$B${row}"
     return cells
 
 
-_PROVISIONS: Mapping[str, str] = {
-    "factor": "analysis_factor",
-    "floor": "analysis_floor",
-    "mean_motions": "analysis_mean_motions",
-    "largest_motions": "analysis_min_motions",
-    "interconnection_sds": "interconnection_sds",
-    "interconnection_min": "interconnection_min",
-}
-"""The provision of each input that is one."""
-
-_CHOICES: Mapping[str, tuple[str, ...]] = {
-    "statistic": tuple(Statistic),
-    "peer_reviewed": tuple(YesNo),
-}
-
-
-def _decimals(key: str) -> int:
-    if key.endswith("motions"):
-        return 0
-    return 4 if key == "s_ds_g" else 3
-
-
-def _inputs(assessment: Assessment) -> tuple[tuple[str, str, float | str, str], ...]:
+def _inputs(assessment: Assessment) -> Iterator[_Input]:
     site, options, rules = assessment.project.site, assessment.project.options, assessment.rules
+
+    def provision(key: str, label: str, use: str, of: str, decimals: int = 3) -> _Input:
+        return _Input(key, label, rules[of], use, decimals, of)
+
+    strength = "Strength required between the parts of an array"
     in_separation = rules.importance_in_separation
+    of_i_e = "Separations to edges" if in_separation else "Prescriptive displacement"
     reviewed = YesNo.YES if options.peer_reviewed else YesNo.NO
-    return (
-        ("s_ds_g", "S_DS [g]", site.s_ds, "Prescriptive displacement, interconnection strength"),
-        (
-            "i_e",
-            "Importance factor I_e",
-            site.i_e,
-            "Separations to edges" if in_separation else "Prescriptive displacement",
-        ),
-        (
-            "statistic",
-            "Design value statistic",
-            options.statistic.value,
-            "Rule set: 1.1 x mean or 1.1 x largest, by the number of motions",
-        ),
-        ("peer_reviewed", "Peer review", reviewed.value, "Yes removes the floor"),
-        ("factor", "Analysis factor", rules["analysis_factor"], "On the mean or the largest peak"),
-        ("floor", "Floor / prescriptive", rules["analysis_floor"], "Without peer review"),
-        (
-            "mean_motions",
-            "Motions for a mean",
-            rules["analysis_mean_motions"],
-            "Minimum number of motions for 1.1 x mean",
-        ),
-        (
-            "largest_motions",
-            "Motions for the largest",
-            rules["analysis_min_motions"],
-            "Minimum number of motions for 1.1 x largest",
-        ),
-        (
-            "plain_mean_motions",
-            "Motions for a mean without factor",
-            float(MEAN_WITHOUT_FACTOR_MOTIONS),
-            "Minimum number of motions for the mean",
-        ),
-        (
-            "interconnection_sds",
-            "Interconnection / (S_DS W1)",
-            rules["interconnection_sds"],
-            "Strength required between the parts of an array",
-        ),
-        (
-            "interconnection_min",
-            "Interconnection / W1, minimum",
-            rules["interconnection_min"],
-            "Strength required between the parts of an array",
-        ),
+    asked = options.statistic
+    use = "Prescriptive displacement, interconnection strength"
+    yield _Input("s_ds_g", "S_DS [g]", site.s_ds, use, decimals=4)
+    yield _Input("i_e", "Importance factor I_e", site.i_e, of_i_e)
+    use = "Rule set: 1.1 x mean or 1.1 x largest, by the number of motions"
+    yield _Input("statistic", "Design value statistic", asked, use)
+    yield _Input("peer_reviewed", "Peer review", reviewed, "Yes removes the floor")
+    use = "On the mean or the largest peak"
+    yield provision("factor", "Analysis factor", use, "analysis_factor")
+    yield provision("floor", "Floor / prescriptive", "Without peer review", "analysis_floor")
+    use = "Minimum number of motions for 1.1 x mean"
+    yield provision("mean_motions", "Motions for a mean", use, "analysis_mean_motions", 0)
+    use = "Minimum number of motions for 1.1 x largest"
+    yield provision("largest_motions", "Motions for the largest", use, "analysis_min_motions", 0)
+    yield _Input(
+        "plain_mean_motions",
+        "Motions for a mean without factor",
+        float(MEAN_WITHOUT_FACTOR_MOTIONS),
+        "Minimum number of motions for the mean",
+        decimals=0,
     )
+    key = "interconnection_sds"
+    yield provision(key, "Interconnection / (S_DS W1)", strength, key)
+    key = "interconnection_min"
+    yield provision(key, "Interconnection / W1, minimum", strength, key)

@@ -19,6 +19,7 @@ from report.words.letters import UNPRINTABLE
 from solver.meant import meant
 from solver.model import InputError
 
+GIVE = "give the results.json of a former revision"
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
 
 MOST_BYTES, MOST_ROWS = 25_000_000, 100_000
@@ -36,19 +37,14 @@ def read_former(path: Path) -> Compared:
     try:
         # A device is refused here, before it is opened: it may have no end.
         if path.exists() and not path.is_file():
-            raise InputError(
-                f"{path}: cannot be read (no file); give the results.json of a former revision"
-            )
+            raise InputError(f"{path}: cannot be read (no file); {GIVE}")
         with path.open("rb") as file:
             content = file.read(MOST_BYTES + 1)
     except OSError as error:
-        wanted = meant(path) or "give the results.json of a former revision"
-        raise InputError(f"{path}: cannot be read ({error.strerror}); {wanted}") from error
+        reason = f"cannot be read ({error.strerror}); {meant(path) or GIVE}"
+        raise InputError(f"{path}: {reason}") from error
     if len(content) > MOST_BYTES:
-        raise InputError(
-            f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; give the results.json of a former"
-            " revision"
-        )
+        raise InputError(f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; {GIVE}")
     return former_from(content, path)
 
 
@@ -62,8 +58,7 @@ def former_from(content: bytes, path: Path) -> Compared:
     # Before they are parsed: millions of empty rows take gigabytes. An object is a row, or in one.
     if (count := content.count(b"{")) > 2 * MOST_ROWS:
         raise InputError(
-            f"{path}: has {count:,} objects; at most {MOST_ROWS:,} rows are compared; give the"
-            " results.json of a former revision"
+            f"{path}: has {count:,} objects; at most {MOST_ROWS:,} rows are compared; {GIVE}"
         )
     try:
         document = from_json(content, allow_inf_nan=False)
@@ -82,12 +77,10 @@ def former_from(content: bytes, path: Path) -> Compared:
         former = Compared.model_validate_json(content, strict=True)
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
-    if (count := _rows(former.model_dump())) > MOST_ROWS:
-        raise InputError(
-            f"{path}: has {count:,} rows; at most {MOST_ROWS:,} are compared; give the results.json"
-            " of a former revision"
-        )
-    for text in _texts(former.model_dump(mode="json")):
+    data = former.model_dump(mode="json")
+    if (count := _rows(data)) > MOST_ROWS:
+        raise InputError(f"{path}: has {count:,} rows; at most {MOST_ROWS:,} are compared; {GIVE}")
+    for text in _texts(data):
         if letter := UNPRINTABLE.search(text):
             raise InputError(
                 f"{path}: '{cut(text)}' has the character U+{ord(letter[0]):04X}, which cannot be"
@@ -105,7 +98,7 @@ def _rows(value: Any) -> int:
     """Return how many rows the tables of a document have."""
     if isinstance(value, dict):
         return sum(map(_rows, value.values()))
-    if isinstance(value, list | tuple):
+    if isinstance(value, list):
         return len(value) + sum(map(_rows, value))
     return 0
 

@@ -17,6 +17,11 @@ def counted(count: int, noun: str) -> str:
     return f"{spelled(count)} {noun}" if count == 1 else f"{spelled(count)} {noun}s"
 
 
+def numbered(count: int, noun: str) -> str:
+    """Return the same in digits, such as `1 problem` or `3 problems`."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
 def capitalized(text: str) -> str:
     """Return a text with its first letter in upper case, the rest as it is."""
     return text[:1].upper() + text[1:]

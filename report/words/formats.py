@@ -1,4 +1,4 @@
-"""Errors, shares and times of a verification for print; names for files.
+"""Errors, shares and times of a verification for print; names for files; data for JSON.
 
 An em dash is NaN. Owns no sentence.
 """
@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
+from typing import Any
 
 from report.words.letters import power_of_ten
 from report.words.units import number
@@ -77,3 +79,14 @@ def shortened(text: str, most: int) -> str:
     """Return a text truncated to a length, for places of fixed size."""
     text = " ".join(text.split())
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"
+
+
+def finite(value: Any) -> Any:
+    """Return data for JSON: null for every NaN or infinity, which it does not have."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(item) for item in value]
+    return value

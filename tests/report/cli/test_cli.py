@@ -38,7 +38,7 @@ def test_help_names_the_commands_and_imports_nothing_heavy():
 
 
 def test_what_only_the_second_process_needs_is_not_loaded_with_the_tasks_for_it():
-    _, loaded = loaded_by("import report.drawing.dxf, report.package.html, report.results.tables")
+    _, loaded = loaded_by("import report.drawing.dxf, report.package.html, report.results.xlsx")
     assert not loaded & {"ezdxf", "matplotlib", "pandas", "ziamath"}
 
 

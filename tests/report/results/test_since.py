@@ -281,3 +281,15 @@ def test_a_verdict_that_is_lost_with_the_route_is_named():
         (ChangeKind.VERDICT, "Clearance A1 to RTU-1"): ("OK", "none"),
     }
     assert found.clearances == {1}
+
+
+def test_an_array_that_is_new_and_has_no_value_has_none():
+    now = stand_in.assess_input(stand_in.steep(), scenes.motions(2))
+    document = json.loads(results_json(now, support(now)))
+    first = document["arrays"].pop(0)["id"]
+    found = changes(former(document), now)
+    shown = {(item.kind, item.title): (item.before, item.now) for item in found.items}
+    assert shown == {
+        (ChangeKind.DESIGN, f"Array {first}"): ("—", "none"),
+        (ChangeKind.VERDICT, f"Array {first}"): ("—", "NG"),
+    }

@@ -5,14 +5,20 @@ import itertools
 import math
 import re
 from dataclasses import replace
+from typing import Annotated
 
 import openpyxl
 import pytest
+from xlsxwriter.workbook import Workbook
 
 import scenes
 import stand_in
 from cells import address, cell
 from report.assessment.spectra import spectra
+from report.entities.cells import Column
+from report.results.directions import PeakRow
+from report.results.runs import RunRow
+from report.results.sheets import Cells, Pages, write_live
 from report.results.xlsx import results_xlsx
 from report.sheet.schema import Direction
 from sheets import formula_cells
@@ -351,3 +357,33 @@ def test_the_workbook_has_no_verdict_where_no_route_is_permitted():
     assert third["Result"] == "OK"
     assert [row["Verdict"] for row in rows_of(values["Design"], 4)] == ["NG", "NG"]
     assert rows_of(values["Links"], 4)[0]["Result"] == "NG"
+
+
+class WiderRow(PeakRow):
+    """A row of peaks with two more fields."""
+
+    twice_m: Annotated[float, Column("Twice [in]", 1, "=2*{any_m}")]
+    note: Annotated[str, Column("Note")]
+
+
+def test_a_column_is_one_field_with_its_heading_unit_digits_and_formula():
+    peaks = {f"{way}_m": 0.254 for way in Direction}
+    row = WiderRow(
+        array="A1",
+        motion="M1",
+        twice_m=0.508,
+        note="=1",
+        refs={"runs": Cells(RunRow, 2, 5)},
+        **peaks,
+    )
+    content = io.BytesIO()
+    with Workbook(content, {"strings_to_formulas": False}) as workbook:
+        workbook.add_worksheet("Peaks")
+        write_live(Pages(workbook), WiderRow, [row], "Peaks", "")
+    formulas, values = opened(content.getvalue())
+    head = next(line for line in values["Peaks"].iter_rows(values_only=True) if "Motion" in line)
+    assert head[-3:] == ("Any direction [in]", "Twice [in]", "Note")
+    twice, name = (cell(formulas, f"Peaks/1/{heading}") for heading in ("Twice", "Note"))
+    assert twice.value == f"=2*{of(formulas, 'Peaks/1/Any direction')}"
+    assert (twice.number_format, name.value, name.data_type) == ("0.0", "=1", "s")
+    assert cell(values, "Peaks/1/Twice").value == pytest.approx(20.0)
