@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
+from report.assessment.verdict import Verdict
 from report.words.counts import lowered
 from solver.model import Status
 
@@ -34,7 +34,7 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     """Return what gives an array its verdict, in a few words each; nothing for OK."""
     verdict = assessment.array_verdict(item)
     rows = [row for row in assessment.rows_of(item.id) if row.verdict is verdict]
-    of_rows = [_of_row(row) for row in rows if not row.is_satisfied]
+    of_rows = [row.cause or lowered(row.title) for row in rows if not row.is_satisfied]
     if verdict is not Verdict.NG:
         return of_rows
     statuses = {run.result.status for motion in item.motions for run in motion.runs}
@@ -49,11 +49,6 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
         *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
         *of_rows,
     ]
-
-
-def _of_row(row: Requirement) -> str:
-    is_missing = row.id == "neighbors" and row.found.startswith(NOT_GIVEN)
-    return f"{lowered(row.title)}{f' {NOT_GIVEN}' if is_missing else ''}"
 
 
 def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:

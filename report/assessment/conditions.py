@@ -18,6 +18,7 @@ from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from report.motions.history import PreparedMotion
 from report.sheet.fields import Place
 from report.sheet.schema import Array, ProjectInput
+from report.words.counts import lowered
 from report.words.units import Quantity, compared, number, pair, rounding
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence, Limit
@@ -136,7 +137,8 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
     return tuple(
         Requirement(
             id="neighbors",
-            title=f"Clearance {neighbor.array} to {neighbor.other}",
+            title=title,
+            cause=f"{lowered(title)} {NOT_GIVEN}" if neighbor.is_missing else "",
             subject=neighbor.array,
             found=found,
             limit=limit,
@@ -146,6 +148,7 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
             remedy=f"{text}.",
         )
         for neighbor in nearby
+        for title in (f"Clearance {neighbor.array} to {neighbor.other}",)
         for found, limit in (_found_and_required(neighbor, us_first),)
         for text in neighbor.shortcomings(us_first)
     )

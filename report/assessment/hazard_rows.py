@@ -100,23 +100,22 @@ def _site_class(site: Site) -> Iterator[Requirement]:
 
 def _site_specific(site: Site) -> Iterator[Requirement]:
     """Yield where a site-specific hazard analysis is required, or may be."""
-    reason = site_specific_reason(
+    reason, missing = site_specific_reason(
         site.edition, site_class=site.assumed_class, s_s_g=site.s_s_g, s_1_g=site.s_1_g
     )
     if not reason:
         return
-    is_open = reason.endswith(NOT_GIVEN)
     yield _row(
         id="site_specific_hazard",
         title=f"Hazard analysis for {reason}",
         found=site.hazard.value,
         limit="site-specific analysis or exception"
-        + (", if the missing value requires it" if is_open else ""),
+        + (", if the missing value requires it" if missing else ""),
         basis=site.edition.clause("site_specific"),
         is_satisfied=site.hazard is not HazardBasis.MAPPED,
         remedy="Give the mapped value that is missing, obtain a site-specific hazard analysis, or "
         "state the exception that applies."
-        if is_open
+        if missing
         else "S_DS and S_D1 are mapped values: obtain a site-specific hazard analysis, or state "
         "the exception that applies.",
         place=Place("site", 0, "hazard"),

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -188,9 +188,14 @@ class Assessment:
         return [gap for gap in self.clearances if gap.involves(array_id)]
 
     @property
+    def troubled_runs(self) -> Mapping[Status, str]:
+        """Runs whose displacement is missing or not final, in words, by their status."""
+        return run_warnings(self.arrays, self.project.project.units_first.is_us)
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """Runs whose displacement is missing or not final, in words."""
-        return run_warnings(self.arrays, self.project.project.units_first.is_us)
+        return tuple(self.troubled_runs.values())
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
@@ -20,7 +20,7 @@ class _Troubled:
     run: OrientedRun
 
 
-def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> tuple[str, ...]:
+def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> Mapping[Status, str]:
     """Return the runs without a final displacement, a sentence for each status that occurs."""
     troubled = [
         _Troubled(array=array.id, motion=motion.motion.id, run=run)
@@ -28,12 +28,12 @@ def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> tuple[str
         for motion in array.motions
         for run in motion.runs
     ]
-    return tuple(
-        f"{_place(same)}: {_outcome(status, same, us_first)}."
+    return {
+        status: f"{_place(same)}: {_outcome(status, same, us_first)}."
         for status in Status
         if status is not Status.OK
         and (same := [one for one in troubled if one.run.result.status is status])
-    )
+    }
 
 
 def _place(runs: Sequence[_Troubled]) -> str:

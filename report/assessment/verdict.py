@@ -73,6 +73,8 @@ class Requirement(BaseModel):
         What the engineer must do where it is not satisfied, as a sentence.
     verdict : Verdict
         Of this requirement alone.
+    cause : str
+        What the verdict of the subject calls it; empty for its title.
     place : Place
         The cell to look at.
     """
@@ -89,6 +91,7 @@ class Requirement(BaseModel):
     subject: str = ""
     remedy: str = ""
     verdict: Verdict = Field(default_factory=_verdict)
+    cause: SkipJsonSchema[str] = Field(default="", exclude=True)
     place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)
 
 

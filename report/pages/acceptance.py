@@ -11,6 +11,7 @@ from functools import partial
 
 from report.assessment.spectra import LEAST_MEAN, Spectra
 from report.document.tables import Column, Table, listed, stamp
+from report.entities.marks import dagger
 from report.entities.shown import plain, text, words
 from report.pages.parts import PackageData
 from report.sheet.schema import MotionInput
@@ -37,7 +38,8 @@ def acceptance_table(package: PackageData) -> Table:
 
 
 def _limit(row: Limit) -> str:
-    return f"{row.sign} {number(row.limit, _PLACES[row.measure])} {row.measure.unit}".rstrip()
+    shown = f"{row.sign} {number(row.limit, _PLACES[row.measure])} {row.measure.unit}".rstrip()
+    return shown + dagger(row.provision)
 
 
 def _found(row: Limit) -> str:

@@ -109,9 +109,8 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
 def attention(assessment: Assessment) -> Iterator[Concern]:
     """Yield what is not satisfied, each with array, value, limit, and what would do."""
     us_first = assessment.project.project.units_first.is_us
-    for text in assessment.warnings:
-        wanted = next(do for status, do in _WHAT_WOULD_DO.items() if status.sentence in text)
-        yield Concern("NG", f"{lowered(text.rstrip('.'))}; {wanted}")
+    for status, text in assessment.troubled_runs.items():
+        yield Concern("NG", f"{lowered(text.rstrip('.'))}; {_WHAT_WOULD_DO[status]}")
     yield from _models(assessment)
     for check in (check for check in assessment.building_checks if not check.ok):
         yield Concern("NG", f"building, {limit_words(check, us_first)}")

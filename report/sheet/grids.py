@@ -122,7 +122,7 @@ def _write_block_row(
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class GridColumn:
     """A column of a table to write: a field, or an answer."""
 
     name: str
@@ -139,21 +139,21 @@ class Column:
         return self.answer is not None and self.answer.is_helper
 
 
-def columns_of(section: SheetSection, units: UnitsFirst) -> list[Column]:
+def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
     """Return the columns of a table: what is always needed, the answers, what is rarely needed."""
     fields = [
-        Column(entry.name, heading_of(entry, units), _width(entry), entry=entry)
+        GridColumn(entry.name, heading_of(entry, units), _width(entry), entry=entry)
         for entry in entries(section.model)
     ]
     answers = [
-        Column(answer.name, answer.heading, answer.width, answer=answer)
+        GridColumn(answer.name, answer.heading, answer.width, answer=answer)
         for answer in table_answers(section.key, is_us=units is UnitsFirst.US)
     ]
-    status = Column(STATUS, STATUS_HEADING, STATUS_WIDTH)
+    status = GridColumn(STATUS, STATUS_HEADING, STATUS_WIDTH)
     return [status, *sorted((*fields, *answers), key=_rank)]
 
 
-def _rank(column: Column) -> int:
+def _rank(column: GridColumn) -> int:
     return 2 * column.is_folded + (column.answer is not None)
 
 
@@ -209,7 +209,7 @@ def _in_words(entry: Entry, value: object) -> object:
     return provision_name(str(value)) if entry.name == "provision" else value
 
 
-def _fold(sheet: Worksheet, columns: Sequence[Column], rows: Sequence[Frozen]) -> None:
+def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
     """Group the columns that are rarely needed; closed unless one of them has a value."""
     folded = [(count, c) for count, c in enumerate(columns, start=1) if c.is_folded]
     used = any(
@@ -232,7 +232,9 @@ def _unless_default(value: object, entry: Entry) -> object:
     return None if not entry.is_required and value == entry.default else value
 
 
-def _write_hints(sheet: Worksheet, top: int, columns: Sequence[Column], units: UnitsFirst) -> None:
+def _write_hints(
+    sheet: Worksheet, top: int, columns: Sequence[GridColumn], units: UnitsFirst
+) -> None:
     for offset, name in enumerate(HINT_ROWS):
         style.put(sheet, top + offset, 1, name, color=style.GRAY, size=9)
     for number, column in enumerate(columns[1:], start=2):
@@ -255,14 +257,14 @@ def _write_hints(sheet: Worksheet, top: int, columns: Sequence[Column], units: U
         sheet.row_dimensions[row].height = 5 + 12.5 * lines
 
 
-def _hints(column: Column, units: UnitsFirst) -> tuple[str, str, str]:
+def _hints(column: GridColumn, units: UnitsFirst) -> tuple[str, str, str]:
     if column.entry is None:
         return "computed", column.answer.note if column.answer else "", ""
     unit = unit_of(column.entry, units)
     return column.entry.need, _allowed(column.entry, unit), _example(column.entry, unit)
 
 
-def _write_heading(sheet: Worksheet, row: int, number: int, column: Column) -> None:
+def _write_heading(sheet: Worksheet, row: int, number: int, column: GridColumn) -> None:
     is_input = column.entry is not None
     color = style.WHITE if is_input else style.INK
     cell = style.put(sheet, row, number, column.heading, bold=True, color=color)

@@ -20,7 +20,7 @@ from report.sheet.counts import START, write_counts
 from report.sheet.fields import Finding, Place, SheetSection
 from report.sheet.findings import unanswered
 from report.sheet.formula_text import canonical, moved
-from report.sheet.grids import Column, columns_of, table_formulas
+from report.sheet.grids import GridColumn, columns_of, table_formulas
 from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.locate_tables import TableArea, table_area
 from report.sheet.lookups import write_lookups
@@ -198,7 +198,7 @@ def _place(
     )
 
 
-def _heading(section: SheetSection, column: Column, area: TableArea) -> CellPosition | None:
+def _heading(section: SheetSection, column: GridColumn, area: TableArea) -> CellPosition | None:
     labels = labels_of(section, column.entry) if column.entry else {label_key(column.heading)}
     return next((area.headings[label] for label in labels if label in area.headings), None)
 

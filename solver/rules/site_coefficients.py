@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, Edition
@@ -100,25 +100,27 @@ LEAST_S_1_OF_D_G = 0.2
 
 def site_specific_reason(
     edition: Edition, *, site_class: str, s_s_g: float | None, s_1_g: float | None
-) -> str:
-    """Return why a site needs a site-specific hazard analysis, or may; empty if it does not.
+) -> tuple[str, Sequence[str]]:
+    """Return why a site needs a site-specific hazard analysis; empty if it does not.
+
+    With the mapped values that are not given, where these decide whether it does.
 
     ASCE 7-16 11.4.8: site class F; E where the tables have no coefficient; D with S_1 >= 0.2 g. It
     may where the mapped value that tells is not given. The multi-period values of ASCE 7-22 leave
     site class F.
     """
     if site_class == "F":
-        return "site class F"
+        return "site class F", ()
     if not edition.has_site_coefficients:
-        return ""
+        return "", ()
     name = "site class D by default" if site_class == BY_DEFAULT else f"site class {site_class}"
     missing = []
     for symbol, table, mapped_g in (("S_S", F_A, s_s_g), ("S_1", F_V, s_1_g)):
         if mapped_g is None:
             missing += [symbol] if _needs_analysis(table, site_class, math.inf) else []
         elif _needs_analysis(table, site_class, mapped_g):
-            return f"{name} with {symbol} = {mapped_g:g} g"
-    return f"{name}, {' and '.join(missing)} not given" if missing else ""
+            return f"{name} with {symbol} = {mapped_g:g} g", ()
+    return f"{name}, {' and '.join(missing)} not given" if missing else "", missing
 
 
 def _needs_analysis(table: CoefficientTable, site_class: str, mapped_g: float) -> bool:

@@ -170,7 +170,8 @@ def test_a_run_without_a_final_displacement_withholds_that_of_its_array(done, st
     assert math.isnan(item.design_m)
     assert done.is_sound(done.arrays[0])
     assert not done.is_sound(item)
-    (line,) = run_warnings([item], us_first=True)
+    ((found, line),) = run_warnings([item], us_first=True).items()
+    assert found is status
     assert line.startswith(f"Array A1, motion M1, record +: {status.sentence}")
 
 

@@ -71,7 +71,7 @@ def test_a_part_of_a_record_has_no_longer_its_envelope(tmp_path, changes, hold_s
 def test_a_miss_never_rounds_onto_its_limit(value, shown, word):
     row = Limit(title="Ratio", found=value, limit=0.9, is_at_least=True, worst="M1 x")
     made = limits(Acceptance(rows=(row,), motions=())).row("Ratio")
-    assert [*made.values()][1:] == [shown, "≥ 0.90", "M1 x", word]
+    assert [*made.values()][1:] == [shown, "≥ 0.90†", "M1 x", word]
 
 
 def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
