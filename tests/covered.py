@@ -84,9 +84,13 @@ def measure(which: str, folder: Path) -> dict[Path, Lines]:
 
 
 def _is_whole(path: Path) -> bool:
-    """Whether a process lived to write what it counted."""
+    """Whether a process lived to write what it counted: one that is killed writes a part."""
     with closing(sqlite3.connect(path)) as data:
-        return bool(data.execute("SELECT name FROM sqlite_master WHERE name = 'file'").fetchall())
+        try:
+            named = data.execute("SELECT name FROM sqlite_master WHERE name = 'file'").fetchall()
+            return bool(named) and data.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+        except sqlite3.DatabaseError:
+            return False
 
 
 def _run(settings: Path, words: list[str], variables: dict[str, str]) -> None:

@@ -1,7 +1,8 @@
-"""How many files a change takes: three changes made on a scratch copy, tried, and counted.
+"""How many files a change takes: five changes made on a scratch copy, tried, and counted.
 
-Claim: a rule set is one file of code, a record format and a page of the package are two. Each is
-made as a developer would make it, then used; the files that differ from the checkout are counted.
+Claim: a rule set, a column of the results and a requirement are one file of code each, a record
+format and a page of the package are two. Each is made as a developer would make it, then used; the
+files that differ from the checkout are counted.
 """
 
 from __future__ import annotations
@@ -83,10 +84,51 @@ def page(top: Path) -> None:
     registry = top / "report" / "pages" / "registry.py"
     replaced(
         registry,
-        '    Page(\n        id="provisions",',
-        '    Page(id="wind", title="Wind", fill=lambda *_: {}),\n'
-        '    Page(\n        id="provisions",',
+        '    Page("provisions",',
+        '    Page("wind", "Wind", lambda *_: {}),\n    Page("provisions",',
     )
+
+
+FIELD = """    motions_run: Annotated[
+        int, at("analysis.n_motions"), words("Motions"), Column("Motions run"), Told()
+    ]
+"""
+
+
+def column(top: Path) -> None:
+    """Add a column to the results of arrays."""
+    path = top / "report" / "entities" / "array.py"
+    before = "    tipping: TippingResult\n    uplift: UpliftResult\n"
+    replaced(path, before, FIELD + before)
+
+
+ROW = """def _storm(data: ProjectInput) -> Requirement:
+    return Requirement(
+        id="storm",
+        title="Wind on the arrays",
+        found=NOT_GIVEN,
+        limit="checked by others",
+        basis="practice",
+        is_satisfied=False,
+        consequence=Consequence.CONDITION,
+        remedy="Have it checked.",
+        place=Place("options", 0, "peer_reviewer"),
+    )
+
+
+"""
+
+
+def requirement(top: Path) -> None:
+    """Add a requirement on the project."""
+    path = top / "report" / "assessment" / "conditions.py"
+    replaced(
+        path,
+        "        *_peer_review(data),\n",
+        "        *_peer_review(data),\n        _storm(data),\n",
+    )
+    before = "def _peer_review("
+    replaced(path, before, ROW + before)
 
 
 # What a change is, how it is made, and Python that fails where it does not work.
@@ -116,6 +158,40 @@ CHANGES = (
         "assessment = report.assess_project('projects/example')\n"
         "html = pages(assessment, support(assessment))\n"
         "assert 'Wind on 3 arrays is not checked, see part 3.' in html",
+    ),
+    (
+        "column",
+        column,
+        "import json\n"
+        "from io import BytesIO\n"
+        "import report\n"
+        "from openpyxl import load_workbook\n"
+        "from report.assessment.evidence import support\n"
+        "from report.entities.results import schema\n"
+        "from report.results.json import results_json\n"
+        "from report.results.xlsx import results_xlsx\n"
+        "assessment = report.assess_project('projects/example')\n"
+        "evidence = support(assessment)\n"
+        "assert json.loads(results_json(assessment, evidence))['arrays'][0]['motions_run'] == 7\n"
+        "assert 'motions_run' in schema()['$defs']['ArrayResult']['properties']\n"
+        "sheet = load_workbook(BytesIO(results_xlsx(assessment, evidence.spectra)))['Design']\n"
+        "assert any('Motions run' in row for row in sheet.iter_rows(values_only=True))",
+    ),
+    (
+        "requirement",
+        requirement,
+        "import json\n"
+        "import report\n"
+        "from report.assessment.evidence import support\n"
+        "from report.package.html import pages\n"
+        "from report.pages.summary import attention\n"
+        "from report.results.json import results_json\n"
+        "assessment = report.assess_project('projects/example')\n"
+        "evidence = support(assessment)\n"
+        "rows = json.loads(results_json(assessment, evidence))['requirements']\n"
+        "assert 'storm' in {row['id'] for row in rows}\n"
+        "assert pages(assessment, evidence).count('Wind on the arrays') >= 2\n"
+        "assert any('wind on the arrays' in line.text for line in attention(assessment))",
     ),
 )
 

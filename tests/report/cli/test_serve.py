@@ -97,7 +97,7 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
         assert page.url == match[1]
         assert b"<title>" in page.read()
         state = json.load(browser.open(f"{match[1]}api/state", timeout=WAIT_S))
-        assert state["answer"]["verdict"] == "OK with conditions"
+        assert state["answer"]["verdict"]["text"] == "OK with conditions"
         assert "server" not in {name.lower() for name in page.headers}
         assert len(list(tmp_path.glob("roofslip-serve-*"))) == 1
         assert_connections_are_limited(match[1])
