@@ -14,7 +14,7 @@ import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -176,15 +176,7 @@ def package(source: Path, make: Callable[[Path], BatchOutcome] | None = None) ->
             problems=error.parts if isinstance(error, InputError) else (),
             internal="" if is_input else traceback.format_exc(),
         )
-    return BatchOutcome(
-        source=source,
-        verdict=done.verdict,
-        ratios=done.ratios,
-        package=done.package,
-        problems=done.problems,
-        internal=done.internal,
-        seconds=time.monotonic() - started,
-    )
+    return replace(done, source=source, seconds=time.monotonic() - started)
 
 
 def _package(source: Path) -> BatchOutcome:
