@@ -132,7 +132,7 @@ def low_velocity(
 
     Parameters
     ----------
-    begun : Begun
+    begun : PendingRuns
         Their runs.
     """
     changed = {

@@ -296,7 +296,7 @@ def _assess(
 
     Parameters
     ----------
-    slow : Begun, optional
+    slow : PendingRuns, optional
         Runs of the arrays of `with_low_velocity`; given with `reduced_friction`.
     reduced_friction : callable, optional
         Assesses the same with less friction. With it, one rigid block is compared with a row of

@@ -17,7 +17,6 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import THREADS, Assessment
 from report.assessment.trials import (
     HUNDREDTH,
-    Runs,
     Trials,
     above,
     below,
@@ -27,6 +26,7 @@ from report.assessment.trials import (
     is_final,
     search,
     single_array_check,
+    trials_of,
 )
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Clearance
@@ -98,8 +98,7 @@ def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
 
 
 def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
-    runs: Runs = {}
-    trials = {array.id: Trials(given, array, pool, runs) for array in given.arrays}
+    trials = trials_of(given, pool)
     for number, gap in enumerate(given.clearances, start=1):
         if gap.verdict is not Verdict.NG:
             continue

@@ -77,7 +77,7 @@ class MotionRun:
 
     Attributes
     ----------
-    governing : OrientationRun
+    governing : OrientedRun
         The run with the largest PRD, or one without a displacement.
     """
 

@@ -25,8 +25,6 @@ from solver.rivals.methods import METHODS, Method
 from solver.rules.limit import Limit
 from solver.sliding.checked import slide
 
-"""Fraction by which the friction coefficient is decreased and increased."""
-
 MOST_STEPS = 64
 """Maximum steps per sampling interval; finer settings are in the verification manual only."""
 

@@ -1,13 +1,13 @@
 """One array rerun with other friction or with weaker motions, through the checks of a project.
 
 Runs nothing by itself: `report.assessment.remedies` and `report.assessment.uncertainty` search with
-it. Read `Trials`, then `reach`.
+it. Read `Trials`, then `search`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
@@ -64,7 +64,7 @@ def search(
 
     Parameters
     ----------
-    holds : callable
+    satisfies : callable
         Whether a value satisfies; called once for each value tried.
     """
     if not satisfies(start):
@@ -98,8 +98,7 @@ class Trials:
         self._pool = pool
         self._runs = runs
         self._was_permitted = _is_permitted(array)
-        self._governing: dict[tuple[int, int], ArrayAssessment] = {}
-        self._all: dict[tuple[int, int], ArrayAssessment] = {}
+        self._done: dict[tuple[str, int, int], ArrayAssessment] = {}
 
     def satisfies(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
         """Whether all runs have final values and satisfy a clearance, if any.
@@ -126,54 +125,55 @@ class Trials:
 
     def governing(self, mu: int, s_ds: int) -> ArrayAssessment:
         """Return the array with the governing orientation of each motion only."""
-        if (mu, s_ds) not in self._governing:
-            changed = self._changed(mu)
-            first = partial(_first_run, changed, self._share(s_ds))
-            runs = self._shared(("governing", mu, s_ds), first, self.array.motions)
-            self._governing[mu, s_ds] = self._assessed(changed, s_ds, runs)
-        return self._governing[mu, s_ds]
+        given = self.array.array
+        array = with_mu(given, mu / 100) if mu else given
+        share = s_ds / 100 / self.given.project.site.s_ds if s_ds else 1.0
+        first = partial(_first_run, array, share)
+        return self._assessed(("governing", mu, s_ds), array, first, self.array.motions)
 
     def complete(self, mu: int, s_ds: int) -> ArrayAssessment:
         """Return the array with all runs."""
-        if (mu, s_ds) not in self._all:
-            first = self.governing(mu, s_ds)
-            others = partial(_other_runs, first.array)
-            runs = self._shared(("all", mu, s_ds), others, self.array.motions, first.motions)
-            self._all[mu, s_ds] = self._assessed(first.array, s_ds, runs)
-        return self._all[mu, s_ds]
+        first = self.governing(mu, s_ds)
+        others = partial(_other_runs, first.array)
+        which = ("all", mu, s_ds)
+        return self._assessed(which, first.array, others, self.array.motions, first.motions)
 
-    def _shared(
-        self, which: Hashable, run: Callable[..., MotionRun], *of: Sequence[MotionRun]
-    ) -> tuple[MotionRun, ...]:
-        """Return runs of all motions, which an array with the same runs as given may have had."""
-        key = which, scene_key(self.array.array)
-        if key not in self._runs:
-            self._runs[key] = tuple(self._pool.map(run, *of))
-        return self._runs[key]
+    def _assessed(
+        self,
+        which: tuple[str, int, int],
+        array: Array,
+        run: Callable[..., MotionRun],
+        *of: Sequence[MotionRun],
+    ) -> ArrayAssessment:
+        """Return an array with runs of all motions, which one with the same as given may have."""
+        *_, s_ds = which
+        if which not in self._done:
+            key = which, scene_key(self.array.array)
+            if key not in self._runs:
+                self._runs[key] = tuple(self._pool.map(run, *of))
+            self._done[which] = assess_array(
+                self._data(s_ds),
+                self.given.rules,
+                array,
+                self._runs[key],
+                self._runs[key],
+                motions_qualify=self.given.acceptance.qualifies,
+            )
+        return self._done[which]
 
     def _passes(self, trial: ArrayAssessment, row: Clearance | None, s_ds: int) -> bool:
         if not is_final(trial) or (self._was_permitted and not _is_permitted(trial)):
             return False
         return row is None or single_array_check(self.given, self._data(s_ds), trial, row).ok
 
-    def _changed(self, mu: int) -> Array:
-        return with_mu(self.array.array, mu / 100) if mu else self.array.array
-
-    def _share(self, s_ds: int) -> float:
-        return s_ds / 100 / self.given.project.site.s_ds if s_ds else 1.0
-
     def _data(self, s_ds: int) -> ProjectInput:
         return with_s_ds(self.given.project, s_ds / 100) if s_ds else self.given.project
 
-    def _assessed(self, array: Array, s_ds: int, runs: tuple[MotionRun, ...]) -> ArrayAssessment:
-        return assess_array(
-            self._data(s_ds),
-            self.given.rules,
-            array,
-            runs,
-            runs,
-            motions_qualify=self.given.acceptance.qualifies,
-        )
+
+def trials_of(given: Assessment, pool: Executor) -> Mapping[str, Trials]:
+    """Return the trials of each array by its id."""
+    runs: Runs = {}
+    return {array.id: Trials(given, array, pool, runs) for array in given.arrays}
 
 
 def _first_run(array: Array, share: float, run: MotionRun) -> MotionRun:

@@ -1,7 +1,7 @@
 """How sure the design values are: friction, slope, and directions of shaking that are not run.
 
 Runs the solver and collects numbers; `report.pages.uncertainty` prints them and
-`report.figures.uncertainty` plots them. Read `certainty`.
+`report.figures.uncertainty` plots them. Read `uncertainty`.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, nan_is_worst, run_motion, run_oriented
 from report.assessment.trials import (
-    Runs,
     Trials,
     below,
     involved,
     is_final,
     search,
     single_array_check,
+    trials_of,
     with_mu,
 )
 from report.memoized import memoized
@@ -128,7 +128,7 @@ class Uncertainty:
     ----------
     motion : MotionRun
         The governing motion of the governing array, as run for the package.
-    turned : tuple of Turned
+    turned : tuple of RotatedRun
         Empty for a motion with one horizontal component.
     reversed_m : float
         Largest PRD with the vertical component reversed, over the orientations of the package [m];
@@ -235,8 +235,7 @@ def _is_like(one: Array, other: Array) -> bool:
 
 
 def _margins(given: Assessment, pool: Executor) -> Iterator[Margin]:
-    runs: Runs = {}
-    trials = {array.id: Trials(given, array, pool, runs) for array in given.arrays}
+    trials = trials_of(given, pool)
     for number, gap in enumerate(given.clearances, start=1):
         for array in involved(given, gap.clearance):
             yield _margin(trials[array.id], number, gap)

@@ -176,7 +176,7 @@ def package(source: Path, make: Callable[[Path], BatchOutcome] | None = None) ->
             problems=error.parts if isinstance(error, InputError) else (),
             internal="" if is_input else traceback.format_exc(),
         )
-    return replace(done, seconds=time.monotonic() - started)
+    return replace(done, source=source, seconds=time.monotonic() - started)
 
 
 def _package(source: Path) -> BatchOutcome:

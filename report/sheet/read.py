@@ -25,7 +25,7 @@ from report.sheet.cells import (
 )
 from report.sheet.checks import faults
 from report.sheet.duplicate_sheets import copies
-from report.sheet.fields import Entry, Finding, Place, SheetSection, entries
+from report.sheet.fields import Draft, Entry, Finding, Place, SheetSection, entries
 from report.sheet.locate import (
     added_later,
     find_cell,
@@ -128,11 +128,7 @@ class Sheet:
             With every problem, each as `Sheet!Cell: what was found; what to give`.
         """
         self.refuse(())
-        return ProjectInput(**{section.key: self._made(section) for section in SECTIONS})
-
-    def _made(self, section: SheetSection) -> Any:
-        rows = tuple(section.model(**row) for row in self.draft[section.key])
-        return rows if section.is_table else rows[0]
+        return ProjectInput(**models(self.draft, SECTIONS))
 
     def refuse(self, faults: Iterable[Finding]) -> None:
         """Raise the problems of the workbook together with further faults, if there are any.
@@ -142,9 +138,8 @@ class Sheet:
         InputError
             In the order of the template.
         """
-        problems = [*self.problems, *_located(faults, self.addresses, self.unfound)]
-        if problems:
-            raise InputError(ordered(problems, SECTIONS))
+        located = _located(faults, self.addresses, self.unfound)
+        refuse([*self.problems, *located], SECTIONS)
 
 
 def read(path: Path) -> Sheet:
@@ -188,6 +183,12 @@ def gather(book: OpenBook, sections: Sequence[SheetSection]) -> Gathered:
     return gathered
 
 
+def models(draft: Draft, sections: Sequence[SheetSection]) -> Mapping[str, Any]:
+    """Return the validated rows of each table, and the only row of each block, by section."""
+    rows = {each.key: tuple(each.model(**row) for row in draft[each.key]) for each in sections}
+    return {each.key: rows[each.key] if each.is_table else rows[each.key][0] for each in sections}
+
+
 def _where(place: Place, addresses: Mapping[Place, str]) -> str:
     """Return the address of a place; that of its table or sheet if it has no cell."""
     whole = addresses.get(Place(place.section), place.section)
@@ -205,10 +206,8 @@ def _located(
             yield place, fault.problem(_where(place, addresses))
 
 
-def ordered(
-    problems: Sequence[tuple[Place, Problem]], sections: Sequence[SheetSection]
-) -> list[Problem]:
-    """Return the problems in the order of the template."""
+def refuse(problems: Sequence[tuple[Place, Problem]], sections: Sequence[SheetSection]) -> None:
+    """Raise problems in the order of the template, each once, if there are any."""
     order = {section.key: i for i, section in enumerate(sections)}
     fields = {
         (section.key, entry.name): i
@@ -220,7 +219,8 @@ def ordered(
         place = problem[0]
         return order[place.section], place.row, fields.get((place.section, place.field), -1)
 
-    return list(dict.fromkeys(problem for _, problem in sorted(problems, key=rank)))
+    if problems:
+        raise InputError(list(dict.fromkeys(each for _, each in sorted(problems, key=rank))))
 
 
 @dataclass(slots=True)

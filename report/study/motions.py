@@ -72,7 +72,7 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
             case wrong:
                 faults += wrong if sheet.input.motions else _of_folder(wrong)
     sheet.refuse(faults)
-    sheet.refuse(list(_unlike(sheet.input, read)))
+    sheet.refuse(_unlike(sheet.input, read))
     buildings = sheet.input.buildings
     by_building = tuple(
         tuple(_motion(sheet, row, components, building) for row, components in read)

@@ -144,7 +144,7 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
         blocks += parts
         start += sum(map(len, parts))
     campaign = Campaign(motions=motions.motions, cases=joined(blocks))
-    sheet.refuse(list(_too_many(campaign)))
+    sheet.refuse(_too_many(campaign))
     hidden = (one for file in motions.files for one in file.unseen)
     return StudyPlan(
         input=given,

@@ -5,7 +5,7 @@ Runs nothing and reads no records (`motions` does). Read `read_study`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +17,7 @@ from report.sheet.archive import OpenBook, open_book
 from report.sheet.calculated import not_calculated
 from report.sheet.fields import Draft, Finding, Place
 from report.sheet.locate import is_absent
-from report.sheet.read import Gathered, gather, ordered
+from report.sheet.read import Gathered, gather, models, refuse
 from report.sheet.schema import RecordedAt
 from report.sheet.unseen import Unseen, unseen, warnings
 from report.study.schema import (
@@ -100,7 +100,6 @@ class StudySheet:
     Attributes
     ----------
     book : OpenBook
-    input : StudyInput
     gathered : Gathered
         For the addresses of the cells.
     unseen : tuple of Unseen
@@ -108,9 +107,13 @@ class StudySheet:
     """
 
     book: OpenBook
-    input: StudyInput
     gathered: Gathered
     unseen: tuple[Unseen, ...]
+
+    @cached_property
+    def input(self) -> StudyInput:
+        """The input, validated."""
+        return StudyInput(**models(self.gathered.draft, SECTIONS))
 
     def warnings(self, others: Iterable[Unseen] = ()) -> Iterator[tuple[str, str]]:
         """Yield cell and text of each warning, with those on what else is kept from sight."""
@@ -121,9 +124,10 @@ class StudySheet:
         for finding in found:
             yield finding.cell or self.gathered.where(finding.place), finding.text
 
-    def refuse(self, faults: Sequence[Finding]) -> None:
-        """Raise faults with their cells, if there are any."""
-        _refuse(self.gathered, faults)
+    def refuse(self, faults: Iterable[Finding]) -> None:
+        """Raise the problems of single cells together with faults, if there are any."""
+        located = [(one.place, one.problem(self.gathered.where(one.place))) for one in faults]
+        refuse([*self.gathered.problems, *located], SECTIONS)
 
 
 def read_study(path: Path) -> StudySheet:
@@ -141,24 +145,9 @@ def read_study(path: Path) -> StudySheet:
             "roofslip new DIR --study"
         )
     gathered = gather(book, SECTIONS)
-    _refuse(gathered, list(_faults(gathered.draft)))
-    rows: dict[str, Any] = {
-        section.key: tuple(section.model(**row) for row in gathered.draft[section.key])
-        for section in SECTIONS
-    }
-    return StudySheet(
-        book=book,
-        input=StudyInput(**{**rows, "study": rows["study"][0]}),
-        gathered=gathered,
-        unseen=unseen(book, gathered.used),
-    )
-
-
-def _refuse(gathered: Gathered, faults: Sequence[Finding]) -> None:
-    problems = list(gathered.problems)
-    problems += [(one.place, one.problem(gathered.where(one.place))) for one in faults]
-    if problems:
-        raise InputError(ordered(problems, SECTIONS))
+    sheet = StudySheet(book=book, gathered=gathered, unseen=unseen(book, gathered.used))
+    sheet.refuse(_faults(gathered.draft))
+    return sheet
 
 
 def _faults(draft: Draft) -> Iterator[Finding]:

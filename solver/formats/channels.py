@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.formats.motionfile import MotionFile, distinct
-from solver.formats.source import Source
+from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
 from solver.records.record import UNITS, Record, read_only, shown
 
@@ -55,6 +55,22 @@ class Channel:
     dt_s: float
     a_mps2: Floats
     notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part:
+    """Lines of one channel with its heading, from index `first` to before `stop`."""
+
+    first: int
+    stop: int
+
+
+def parts_of(source: Source, heading: re.Pattern[str]) -> list[Part]:
+    """Parts of a file, each of which begins with the first line of a heading."""
+    starts = [index for index, line in enumerate(source.lines) if heading.match(line)]
+    check_number(source, len(starts))
+    stops = [*starts[1:], len(source.lines)]
+    return [Part(first=first, stop=stop) for first, stop in zip(starts, stops, strict=True)]
 
 
 def motion_file(
@@ -128,16 +144,22 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
     return () if abs(reached - stated) <= _PEAK_WITHIN * stated else (words,)
 
 
-def check_length(
-    source: Source, index: int, stated_s: float, reached_s: float, dt_s: float
-) -> None:
+def check_length(source: Source, stated: Stated, reached_s: float, dt_s: float) -> None:
     """Raise if a record is not as long as a heading states; NaN or 0 if it states no length."""
-    if stated_s > 0.0 and abs(reached_s - stated_s) > (
-        _LENGTH_STEPS * dt_s + _LENGTH_WITHIN * stated_s
-    ):
+    within_s = _LENGTH_STEPS * dt_s + _LENGTH_WITHIN * stated.value
+    if stated.value > 0.0 and abs(reached_s - stated.value) > within_s:
         raise InputError(
-            f"{source.at(index)}: the heading states {stated_s:g} s, the record lasts"
+            f"{source.at(stated.index)}: the heading states {stated.value:g} s, the record lasts"
             f" {reached_s:g} s; give dt with more digits, or a file whose headings agree"
+        )
+
+
+def check_steps(source: Source, stated: Stated, exact: Stated) -> None:
+    """Raise if the step in the text of a heading and the one in its numbers do not agree."""
+    if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
+        raise InputError(
+            f"{source.at(stated.index)}: found a step of {stated.value:g} s and one of"
+            f" {exact.value:g} s in line {exact.index + 1}; give a file whose headings agree"
         )
 
 

@@ -15,7 +15,7 @@ import math
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from solver.formats.channels import (
     Channel,
@@ -68,6 +68,8 @@ _UNITS = {2: "g", 4: "cm/s2", 7: "in/s2", 10: "gal", 11: "mg"}
 
 # Positions of the real numbers, from 1.
 _RECORD_STEP_S, _SERIES_STEP_MS, _SERIES_LENGTH_S, _PEAK = 34, 62, 63, 64
+
+_UNKNOWN = Stated(value=math.nan, rounding=0.0, index=0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,11 +157,10 @@ def _channel(source: Source, part: _Part) -> Channel:
     stop, notes = _stop(source, part)
     block = Block(first=part.at + 1, stop=stop, count=int(line[1]), promised=part.at)
     values = fixed_values(source, block, layout) * scale
-    _check_length(source, part, len(values) * dt_s, dt_s)
-    if length := _real(reals, _SERIES_LENGTH_S):
-        check_length(source, length.index, length.value, len(values) * dt_s, dt_s)
-    if peak := _real(reals, _PEAK):
-        notes = (*notes, *peak_notes(source, peak.index, peak.value * scale, values))
+    _check_about(source, part, len(values) * dt_s, dt_s)
+    check_length(source, _real(reals, _SERIES_LENGTH_S), len(values) * dt_s, dt_s)
+    peak = _real(reals, _PEAK)
+    notes = (*notes, *peak_notes(source, peak.index, peak.value * scale, values))
     heading = source.lines[part.first : part.at]
     return Channel(
         name=next((text for text in heading if _NAME.match(text)), ""),
@@ -211,24 +212,23 @@ def _reals(source: Source, part: _Part) -> list[Stated]:
     )
 
 
-def _real(reals: Sequence[Stated], place: int) -> Stated | None:
-    """Real number at a position, counted from 1; None if unknown, which is coded as about -999."""
-    number = reals[place - 1] if place <= len(reals) else None
-    return number if number and number.value > -990.0 else None
+def _real(reals: Sequence[Stated], place: int) -> Stated:
+    """Real number at a position, counted from 1; NaN if unknown, which is coded as about -999."""
+    number = reals[place - 1] if place <= len(reals) else _UNKNOWN
+    return number if number.value > -990.0 else _UNKNOWN
 
 
 def _step(part: _Part, reals: Sequence[Stated]) -> Stated:
     """Step of the series, or else that of the original record."""
     for place, seconds in ((_SERIES_STEP_MS, 0.001), (_RECORD_STEP_S, 1.0)):
         number = _real(reals, place)
-        if number and number.value > 0.0:
+        if number.value > 0.0:
             value, rounding = number.value * seconds, number.rounding * seconds
             return Stated(value=float(f"{value:.12g}"), rounding=rounding, index=number.index)
-    at = reals[0].index if reals else part.first
-    return Stated(value=math.nan, rounding=0.0, index=at)
+    return replace(_UNKNOWN, index=reals[0].index if reals else part.first)
 
 
-def _check_length(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
+def _check_about(source: Source, part: _Part, length_s: float, dt_s: float) -> None:
     """Compare count times step with the length in whole seconds stated in the data line."""
     stated = printed(part.line[3], part.at).value
     if abs(length_s - stated) > 1.0 + dt_s + 0.01 * stated:

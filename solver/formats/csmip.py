@@ -15,15 +15,16 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from solver.formats.channels import (
     Channel,
+    Part,
     check_length,
-    check_number,
     check_only_blank,
+    check_steps,
     motion_file,
     offset_notes,
+    parts_of,
     peak_notes,
     recorder_notes,
 )
@@ -73,14 +74,6 @@ _PEAK_1 = re.compile(r"\bMAX\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGN
 _PEAK_2 = re.compile(r"PEAK ACCELERATION\s*=\s*([-+\d.]+)\s*([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Part:
-    """Lines of one channel, from index `first` to before `stop`."""
-
-    first: int
-    stop: int
-
-
 def recognizes(lines: Sequence[str]) -> bool:
     """Whether the first line is that of a volume of CSMIP."""
     first = lines[0] if lines else ""
@@ -92,24 +85,17 @@ def read(source: Source) -> MotionFile:
     if _VOLUME_3.match(source.line(0)):
         raise InputError(f"{source.at(0)}: found spectra; give a file of volume 1 or 2")
     if _VOLUME_2.match(source.line(0)):
-        parts = _parts(source, _VOLUME_2)
+        parts = parts_of(source, _VOLUME_2)
         channels = each(lambda p: _volume_2(source, p), parts)
         return motion_file(source, "CSMIP V2", channels, recorder_notes(source, len(parts)))
-    parts = _parts(source, _VOLUME_1)
+    parts = parts_of(source, _VOLUME_1)
     text = " ".join(source.lines[:_TEXT_1]).upper()
     form = "RENADIC V1" if "RENADIC" in text else "CSMIP V1"
     channels = each(lambda p: _volume_1(source, p), parts)
     return motion_file(source, form, channels, recorder_notes(source, len(parts)))
 
 
-def _parts(source: Source, heading: re.Pattern[str]) -> list[_Part]:
-    starts = [i for i, line in enumerate(source.lines) if heading.match(line)]
-    check_number(source, len(starts))
-    stops = [*starts[1:], len(source.lines)]
-    return [_Part(first=a, stop=b) for a, b in zip(starts, stops, strict=True)]
-
-
-def _volume_1(source: Source, part: _Part) -> Channel:
+def _volume_1(source: Source, part: Part) -> Channel:
     even = _search(source, part, _EVEN_1)
     dt_s, values, notes = _even_values(source, part, *even) if even else _pair_values(source, part)
     at, peak_mps2 = _peak(source, part, _PEAK_1)
@@ -121,7 +107,7 @@ def _volume_1(source: Source, part: _Part) -> Channel:
     )
 
 
-def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str, ...]]:
+def _pair_values(source: Source, part: Part) -> tuple[float, Floats, tuple[str, ...]]:
     """Pairs of time and acceleration, ten numbers per line."""
     points = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
@@ -140,12 +126,12 @@ def _pair_values(source: Source, part: _Part) -> tuple[float, Floats, tuple[str,
     per_line = _PAIRS.per_line // 2
     even = sampled(source, pairs[:, 0], pairs[:, 1:].T, lambda i: first + i // per_line)
     length = _reals_1(source, part)[_LENGTH_1 - 1]
-    check_length(source, length.index, length.value, float(pairs[-1, 0]), even.dt_s)
+    check_length(source, length, float(pairs[-1, 0]), even.dt_s)
     return even.dt_s, even.columns[0] * scale, (*even.notes, *ended)
 
 
 def _even_values(
-    source: Source, part: _Part, at: int, match: re.Match[str]
+    source: Source, part: Part, at: int, match: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
     """Evenly spaced values after a line with their count, rate, unit and format."""
     _check_heading(source, part, at, _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1))
@@ -162,11 +148,11 @@ def _even_values(
     block = Block(first=at + 1, stop=stop, count=count, promised=at)
     values = fixed_values(source, block, layout) * scale
     length = _reals_1(source, part)[_LENGTH_1 - 1]
-    check_length(source, length.index, length.value, len(values) * dt_s, dt_s)
+    check_length(source, length, len(values) * dt_s, dt_s)
     return dt_s, values, ended
 
 
-def _volume_2(source: Source, part: _Part) -> Channel:
+def _volume_2(source: Source, part: Part) -> Channel:
     place = _search(source, part, _EVEN_2)
     if not place:
         raise InputError(
@@ -175,7 +161,7 @@ def _volume_2(source: Source, part: _Part) -> Channel:
         )
     at, line = place
     _check_heading(source, part, at, _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2))
-    dt_s = source.step(_step_2(source, part, at, printed(line[2], at)))
+    dt_s = source.step(_step_2(source, part, printed(line[2], at)))
     scale = source.scale(line[3], at)
     others = (i for i in range(at + 1, part.stop) if _ANY_2.match(source.lines[i]))
     stop, ended = _stop(source, at + 1, part.stop)
@@ -185,7 +171,7 @@ def _volume_2(source: Source, part: _Part) -> Channel:
         raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
     values = fixed_values(source, block, layout) * scale
     length = _reals_2(source, part)[_LENGTH_2 - 1]
-    check_length(source, length.index, length.value, len(values) * dt_s, dt_s)
+    check_length(source, length, len(values) * dt_s, dt_s)
     peak_at, peak_mps2 = _peak(source, part, _PEAK_2)
     return Channel(
         name=_name(source, part, _TEXT_2),
@@ -195,7 +181,7 @@ def _volume_2(source: Source, part: _Part) -> Channel:
     )
 
 
-def _step_2(source: Source, part: _Part, at: int, stated: Stated) -> Stated:
+def _step_2(source: Source, part: Part, stated: Stated) -> Stated:
     """Step of the real heading, which has more digits than the line above the values."""
     exact = _reals_2(source, part)[_STEP_2 - 1]
     if math.isnan(exact.value):
@@ -205,15 +191,11 @@ def _step_2(source: Source, part: _Part, at: int, stated: Stated) -> Stated:
         )
     if not exact.value > 0.0:
         return stated
-    if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
-        raise InputError(
-            f"{source.at(at)}: found a step of {stated.value:g} s and one of {exact.value:g} s in"
-            f" line {exact.index + 1}; give a file whose headings agree"
-        )
+    check_steps(source, stated, exact)
     return exact
 
 
-def _check_heading(source: Source, part: _Part, at: int, due: int) -> None:
+def _check_heading(source: Source, part: Part, at: int, due: int) -> None:
     """Raise if the heading above the line of values has more or fewer lines than the format."""
     found = at - part.first
     if found != due:
@@ -223,16 +205,16 @@ def _check_heading(source: Source, part: _Part, at: int, due: int) -> None:
         )
 
 
-def _reals_1(source: Source, part: _Part) -> list[Stated]:
+def _reals_1(source: Source, part: Part) -> list[Stated]:
     return header_values(source, part.first + _TEXT_1 + _WHOLE, _REALS_1, _REAL)
 
 
-def _reals_2(source: Source, part: _Part) -> list[Stated]:
+def _reals_2(source: Source, part: Part) -> list[Stated]:
     return header_values(source, part.first + _TEXT_2 + _WHOLE, _REALS_2, _REAL)
 
 
 def _search(
-    source: Source, part: _Part, pattern: re.Pattern[str]
+    source: Source, part: Part, pattern: re.Pattern[str]
 ) -> tuple[int, re.Match[str]] | None:
     """First line of a channel's heading that contains the pattern."""
     for index in _heading(part):
@@ -241,7 +223,7 @@ def _search(
     return None
 
 
-def _heading(part: _Part) -> Iterator[int]:
+def _heading(part: Part) -> Iterator[int]:
     lines = _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2) + 1
     return iter(range(part.first, min(part.first + lines, part.stop)))
 
@@ -255,7 +237,7 @@ def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
     return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)
 
 
-def _peak(source: Source, part: _Part, pattern: re.Pattern[str]) -> tuple[int, float]:
+def _peak(source: Source, part: Part, pattern: re.Pattern[str]) -> tuple[int, float]:
     place = _search(source, part, pattern)
     if not place:
         return part.first, 0.0
@@ -263,6 +245,6 @@ def _peak(source: Source, part: _Part, pattern: re.Pattern[str]) -> tuple[int, f
     return index, printed(match[1], index).value * unit_size(match[2])
 
 
-def _name(source: Source, part: _Part, lines: int) -> str:
+def _name(source: Source, part: Part, lines: int) -> str:
     heading = source.lines[part.first : min(part.first + lines, part.stop)]
     return next((line for line in heading if line.strip().upper().startswith("CHAN")), "")

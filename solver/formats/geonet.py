@@ -14,15 +14,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from solver.formats.channels import (
     Channel,
+    Part,
     check_length,
-    check_number,
     check_only_blank,
+    check_steps,
     motion_file,
     offset_notes,
+    parts_of,
     peak_notes,
 )
 from solver.formats.motionfile import MotionFile
@@ -51,14 +52,6 @@ _STEP, _PEAK_1, _PEAK_2 = 26, 31, 36
 _LENGTH_LINE, _UNIT_LINE, _COMPONENT_LINE, _PEAK_LINE = 10, 11, 13, 14
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Part:
-    """Lines of one component, from index `first` to before `stop`."""
-
-    first: int
-    stop: int
-
-
 def recognizes(lines: Sequence[str]) -> bool:
     """Whether the first two lines are those of a GNS accelerogram."""
     if len(lines) < 2 or not _FIRST.match(lines[0]):
@@ -68,14 +61,11 @@ def recognizes(lines: Sequence[str]) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all components of a file."""
-    starts = [i for i, line in enumerate(source.lines) if _FIRST.match(line)]
-    check_number(source, len(starts))
-    stops = [*starts[1:], len(source.lines)]
-    parts = [_Part(first=a, stop=b) for a, b in zip(starts, stops, strict=True)]
-    if len(starts) != _COMPONENTS:
+    parts = parts_of(source, _FIRST)
+    if len(parts) != _COMPONENTS:
         raise InputError(
-            f"{source.at(starts[-1])}: found the heading of component {len(starts)}, the last one,"
-            f" where the format has {_COMPONENTS} components; give the whole file"
+            f"{source.at(parts[-1].first)}: found the heading of component {len(parts)}, the last"
+            f" one, where the format has {_COMPONENTS} components; give the whole file"
         )
     form = "GeoNet V1A" if _is_uncorrected(source) else "GeoNet V2A"
     return motion_file(source, form, each(lambda part: _component(source, part), parts))
@@ -85,7 +75,7 @@ def _is_uncorrected(source: Source) -> bool:
     return source.line(0).strip().upper().startswith("UN")
 
 
-def _component(source: Source, part: _Part) -> Channel:
+def _component(source: Source, part: Part) -> Channel:
     whole = header_values(source, part.first + _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, part.first + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
     count = whole[_ACCELERATIONS - 1]
@@ -112,7 +102,7 @@ def _component(source: Source, part: _Part) -> Channel:
     )
 
 
-def _block(part: _Part, whole: Sequence[Stated]) -> Block:
+def _block(part: Part, whole: Sequence[Stated]) -> Block:
     """Lines of the accelerations: up to the velocities, if there are any."""
     first, count = part.first + _HEADING, whole[_ACCELERATIONS - 1]
     end = first + _WHOLE.lines(int(count.value))
@@ -121,7 +111,7 @@ def _block(part: _Part, whole: Sequence[Stated]) -> Block:
     return Block(first=first, stop=stop, count=int(count.value), promised=count.index)
 
 
-def _step(source: Source, part: _Part, exact: Stated) -> Stated:
+def _step(source: Source, part: Part, exact: Stated) -> Stated:
     """Step in the real numbers of the heading, compared with the one in the text."""
     at = part.first + _UNIT_LINE - 1
     line = source.line(at)
@@ -131,22 +121,18 @@ def _step(source: Source, part: _Part, exact: Stated) -> Stated:
     stated = printed(match[1], at)
     if not exact.value > 0.0:
         return stated
-    if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
-        raise InputError(
-            f"{source.at(at)}: found a step of {stated.value:g} s and one of {exact.value:g} s in"
-            f" line {exact.index + 1}; give a file whose headings agree"
-        )
+    check_steps(source, stated, exact)
     return exact if exact.rounding <= stated.rounding else stated
 
 
-def _check_length(source: Source, part: _Part, reached_s: float, dt_s: float) -> None:
+def _check_length(source: Source, part: Part, reached_s: float, dt_s: float) -> None:
     """Compare count times step with the duration in the text."""
     at = part.first + _LENGTH_LINE - 1
     if match := _LENGTH.search(source.line(at)):
-        check_length(source, at, printed(match[1], at).value, reached_s, dt_s)
+        check_length(source, printed(match[1], at), reached_s, dt_s)
 
 
-def _scale(source: Source, part: _Part) -> float:
+def _scale(source: Source, part: Part) -> float:
     """Value [m/s2] of one unit: from `Raw readings in units of 1.00 mm/s/s`, or of the peak."""
     at = part.first + _UNIT_LINE - 1
     if unit := _UNIT.search(source.line(at)):
@@ -163,7 +149,7 @@ def _scale(source: Source, part: _Part) -> float:
     return source.scale(unit[1], at)
 
 
-def _rest(source: Source, part: _Part, whole: Sequence[Stated]) -> tuple[str, ...]:
+def _rest(source: Source, part: Part, whole: Sequence[Stated]) -> tuple[str, ...]:
     """Note that a file is truncated after its accelerations."""
     counts = [whole[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
     counts = [count for count in counts if 0.0 < count < 1e8]

@@ -19,7 +19,7 @@ from solver.model import Floats, InputError
 from solver.records.record import BEYOND, is_finite_number, raise_any, shown
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
-_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
+DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _FORMAT = re.compile(r"\s*(\d{1,2})\s*(?:[A-Z]{1,2})\s*(\d{1,2})(\D|$)", re.ASCII | re.IGNORECASE)
 
 _NUMBERS = re.compile(r"[\s+\-.*eEdD]*\d[\s\d+\-.*eEdD]*", re.ASCII)
@@ -201,7 +201,7 @@ def field_problem(field: str) -> str:
         return ""
     if field and not field.strip("*"):
         return f"found {shown(field)}, a number too large for its columns; give a wider file"
-    point = " with a decimal point" if _DECIMAL_COMMA.match(field) else ""
+    point = " with a decimal point" if DECIMAL_COMMA.match(field) else ""
     return f"found {shown(field)}; give a number{point}"
 
 

@@ -21,14 +21,13 @@ from solver.formats import headings
 from solver.formats.channels import Channel, motion_file
 from solver.formats.headings import Heading, Kind
 from solver.formats.motionfile import MotionFile
-from solver.formats.numbers import COMPARED, field_problem, is_cut_short, printed
+from solver.formats.numbers import COMPARED, DECIMAL_COMMA, field_problem, is_cut_short, printed
 from solver.formats.source import Source, Stated
 from solver.formats.times import Sampled, is_even, sampled
 from solver.model import Floats, InputError
 from solver.records.record import BEYOND, HOLD, raise_any, shown
 from solver.records.units import unit_size
 
-_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
@@ -369,7 +368,7 @@ def _row_problems(fields: Sequence[str], width: int) -> list[str]:
 def _check_decimal_comma(source: Source, table: _Table, times: Floats) -> None:
     """Raise for rows such as `0,12` and `0,13`: one column with decimal commas, not two."""
     rows = list(itertools.islice(_rows(source.lines, table.start), _MAX_REMARKS))
-    if is_even(times) or not all(_DECIMAL_COMMA.fullmatch(content) for _, content in rows):
+    if is_even(times) or not all(DECIMAL_COMMA.fullmatch(content) for _, content in rows):
         return
     index, content = rows[0]
     raise InputError(f"{source.at(index)}: found {content!r}; give a number with a decimal point")
