@@ -44,35 +44,19 @@ RIGID = building_of_modes([0.1], [0.05], [0.0])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FloorRecords:
-    """Motions of one building in one direction, over the same time, the roof's in the last column.
-
-    Attributes
-    ----------
-    title, description : str
-    is_recorded : bool
-        In an earthquake; otherwise computed.
-    dt_s : float
-    ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
-    floors : tuple of str
-        Their ordinal numbers.
-    heights : tuple of float
-        Relative to the height of the building.
-    code_period_s : float
-        Approximate period from type and height [s]; NaN for none.
-    search_s : pair of float
-        Search range of the first period [s].
-    """
+    """Motions of one building in one direction, over the same time; the last column is the roof."""
 
     title: str
     description: str
-    is_recorded: bool
+    is_recorded: bool  # in an earthquake; otherwise computed
     dt_s: float
+    # shape (n,) and (n, m)
     ground_mps2: Floats
     floors_mps2: Floats
-    floors: tuple[str, ...]
-    heights: tuple[float, ...]
-    code_period_s: float
-    search_s: tuple[float, float]
+    floors: tuple[str, ...]  # their ordinal numbers
+    heights: tuple[float, ...]  # relative to the height of the building
+    code_period_s: float  # approximate period from type and height [s]; NaN for none
+    search_s: tuple[float, float]  # search range of the first period [s]
 
 
 def recorded_buildings(folder: Path) -> tuple[FloorRecords, ...]:

@@ -39,26 +39,15 @@ def _static(test: TableTest) -> bool:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Feature:
-    """What the program does, and what shows that it does it right.
-
-    Attributes
-    ----------
-    name : str
-    checks : tuple of str
-        Ids of checks that verify it; empty if no check of the manual does.
-    extra : tuple of str
-        Ids of checks that count where they can run: they need SciPy.
-    validated_by : callable
-        Which tests of a shake table would validate it.
-    only : str
-        What the checks do not cover, or what covers it instead.
-    """
+    """What the program does, and what shows that it does it right."""
 
     name: str
+    # ids of checks that verify it; empty if no check of the manual does
     checks: tuple[str, ...] = ()
-    extra: tuple[str, ...] = ()
+    extra: tuple[str, ...] = ()  # ids of checks that count where they can run: they need SciPy
+    # which tests of a shake table would validate it
     validated_by: Callable[[TableTest], bool] = _no_test
-    only: str = ""
+    only: str = ""  # what the checks do not cover, or what covers it instead
 
 
 def _ids(letters: str, last: int, first: int = 1) -> tuple[str, ...]:
@@ -142,29 +131,15 @@ FEATURES = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureStatus:
-    """What the checks and the tests of one verification show of a feature.
-
-    Attributes
-    ----------
-    feature : Feature
-    ids : tuple of str
-        Checks that ran, by id.
-    n_checks, n_passed : int
-    missing : tuple of str
-        Ids of checks that verify it and did not run.
-    n_tests : int
-        Measured tests of a shake table that belong to it.
-    is_validated : bool
-        Whether those tests satisfy the acceptance.
-    """
+    """What the checks and the tests of one verification show of a feature."""
 
     feature: Feature
-    ids: tuple[str, ...]
+    ids: tuple[str, ...]  # checks that ran, by id
     n_checks: int
     n_passed: int
-    missing: tuple[str, ...]
-    n_tests: int
-    is_validated: bool
+    missing: tuple[str, ...]  # ids of checks that verify it and did not run
+    n_tests: int  # measured tests of a shake table that belong to it
+    is_validated: bool  # whether those tests satisfy the acceptance
 
     @property
     def is_verified(self) -> bool:

@@ -44,19 +44,12 @@ _Named = tuple[str, Case, Scene]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Peer:
-    """Another program.
-
-    Attributes
-    ----------
-    name, module, note : str
-    prd_m : callable
-        PRD [m] of a scene; NaN if it does not converge.
-    """
+    """Another program."""
 
     name: str
     module: str
     note: str
-    prd_m: Callable[[Scene], float]
+    prd_m: Callable[[Scene], float]  # PRD [m] of a scene; NaN if it does not converge
 
 
 def peer_points(

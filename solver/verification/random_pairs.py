@@ -33,21 +33,12 @@ Law = Callable[[float], Friction]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairComparison:
-    """Comparison of the two runs of a pair.
+    """Comparison of the two runs of a pair."""
 
-    Attributes
-    ----------
-    prd_m : float
-        PRD of the first run [m].
-    off_m : float
-        Largest difference in position between the two [m].
-    bound_m : float
-        Allowed difference: the sum of both bounds plus the effect of rounding error in the second
-        scene's input [m]; inf where friction falls with velocity.
-    """
-
-    prd_m: float
-    off_m: float
+    prd_m: float  # PRD of the first run [m]
+    off_m: float  # largest difference in position between the two [m]
+    # allowed difference: the sum of both bounds plus the effect of rounding error in the second
+    # scene's input [m]; inf where friction falls with velocity
     bound_m: float
 
     @property
@@ -58,24 +49,13 @@ class PairComparison:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pair:
-    """Two scenes with equal results.
-
-    Attributes
-    ----------
-    first, second : Scene
-    tolerances : tuple of float
-        Of both runs.
-    rounding_m : float
-        Effect of rounding error in the second scene's input [m] (`rounding`).
-    compare : callable
-        Returns the differences in position, which should be zero.
-    """
+    """Two scenes with equal results."""
 
     first: Scene
     second: Scene
-    tolerances: tuple[float, float]
-    rounding_m: float
-    compare: Compare
+    tolerances: tuple[float, float]  # of both runs
+    rounding_m: float  # effect of rounding error in the second scene's input [m] (`rounding`)
+    compare: Compare  # returns the differences in position, which should be zero
 
     def run(self) -> PairComparison:
         """Run both.

@@ -22,48 +22,12 @@ from solver.verification import (
     stability,
     workprecision,
 )
-from solver.verification.building import FloorRecords, recorded_buildings
-from solver.verification.evidence import (
-    CheckRow,
-    Conditioning,
-    Convergence,
-    DesignCurves,
-    LinkComparison,
-    PeerPoint,
-    RoofComparison,
-    RoofPrediction,
-    StabilityMap,
-    Verification,
-    WorkPoint,
-)
-from solver.verification.model_evidence import ModelEvidence
+from solver.verification.building import FloorRecords
+from solver.verification.evidence import CheckRow, Verification
 from solver.verification.scenes import own_records
-from solver.verification.shake_table import SHIPPED, ShakeTable, compare
-from solver.verification.table_tests import TableTest, table_tests
-from solver.verification.triples import Triple, own_triples, recorded_triples
-
-__all__ = [
-    "CheckRow",
-    "Conditioning",
-    "Convergence",
-    "DesignCurves",
-    "FloorRecords",
-    "LinkComparison",
-    "ModelEvidence",
-    "PeerPoint",
-    "RoofComparison",
-    "RoofPrediction",
-    "ShakeTable",
-    "StabilityMap",
-    "TableTest",
-    "Triple",
-    "Verification",
-    "WorkPoint",
-    "recorded_buildings",
-    "recorded_triples",
-    "table_tests",
-    "verify",
-]
+from solver.verification.shake_table import SHIPPED, compare
+from solver.verification.table_tests import TableTest
+from solver.verification.triples import Triple, own_triples
 
 
 def verify(

@@ -43,24 +43,15 @@ class Data(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableTest:
-    """One run of a shake table.
+    """One run of a shake table."""
 
-    Attributes
-    ----------
-    name, source : str
-        As in `NAME`.
-    data : Data
-    scene : Scene
-        Accelerations of the table, slope and friction.
-    prd_m, residual_m : float
-        Largest and final horizontal displacement relative to the table [m], both magnitudes; the
-        second is NaN if it is not given.
-    """
-
+    # as in `NAME`
     name: str
     source: str
     data: Data
-    scene: Scene
+    scene: Scene  # accelerations of the table, slope and friction
+    # largest and final horizontal displacement relative to the table [m], both magnitudes; the
+    # second is NaN if it is not given
     prd_m: float
     residual_m: float
 

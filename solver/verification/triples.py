@@ -22,21 +22,12 @@ _UP = ("up", "v", "ud", "vertical", "vert", "z")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Triple:
-    """Two horizontal components and the vertical one, over the same time.
-
-    Attributes
-    ----------
-    name : str
-    is_recorded : bool
-        In an earthquake; otherwise generated.
-    dt_s : float
-    x_mps2, y_mps2, z_mps2 : array, shape (n,)
-        Read-only [m/s2].
-    """
+    """Two horizontal components and the vertical one, over the same time."""
 
     name: str
-    is_recorded: bool
+    is_recorded: bool  # in an earthquake; otherwise generated
     dt_s: float
+    # shape (n,): read-only [m/s2]
     x_mps2: Floats
     y_mps2: Floats
     z_mps2: Floats
