@@ -60,12 +60,12 @@ def stability(maps: Sequence[StabilityMap], first: int = 1) -> str:
 
 
 def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
-    x, y = _edges(sweep.x, log=sweep.x_log), _edges(sweep.y, log=sweep.y_log)
+    x, y = _edges(sweep.x, log=sweep.x_log), _edges(sweep.y)
     bands = ListedColormap([band[2] for band in _BANDS])
     norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
-    shown = np.ma.masked_where(sweep.failed | np.isnan(sweep.error_percent), sweep.error_percent)
+    shown = np.ma.masked_where(sweep.failed, sweep.error_percent)
     axes.pcolormesh(x, y, shown, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
-    for row, column in np.argwhere(sweep.failed | np.isnan(sweep.error_percent)):
+    for row, column in np.argwhere(sweep.failed):
         axes.fill(
             [x[column], x[column + 1], x[column + 1], x[column]],
             [y[row], y[row], y[row + 1], y[row + 1]],
@@ -76,10 +76,11 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
         axes.plot(sweep.x, sweep.limit, **_LIMIT)
     if not math.isnan(sweep.x_mark):
         axes.axvline(sweep.x_mark, **_LIMIT)
-    for axis, log in ((axes.xaxis, sweep.x_log), (axes.yaxis, sweep.y_log)):
-        if log:
-            axis.axes.set_xscale("log") if axis is axes.xaxis else axis.axes.set_yscale("log")
-            decades(axis, maximum=7)
+    if sweep.x_log:
+        axes.set_xscale("log")
+        decades(axes.xaxis, maximum=7)
+    axes.set_yscale("log")
+    decades(axes.yaxis, maximum=7)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     axes.set_xlabel(sweep.x_label)
@@ -89,8 +90,6 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
 
 
 def _contours(axes: Axes, sweep: StabilityMap) -> None:
-    if min(sweep.error_percent.shape) < 2:
-        return
     levels = np.log10(np.maximum(sweep.error_percent, 1e-9))
     usable = levels[np.isfinite(levels)]
     for level, line, width in ((0.0, "-", 0.9), (1.0, (0, (4, 1.6)), 1.2)):
@@ -100,16 +99,11 @@ def _contours(axes: Axes, sweep: StabilityMap) -> None:
             )
 
 
-def _edges(centers: Floats, *, log: bool) -> Floats:
+def _edges(centers: Floats, *, log: bool = True) -> Floats:
     """Return the edges of cells around their centers."""
-    values = np.log(centers) if log else np.asarray(centers, dtype=float)
-    if values.size == 1:
-        edges = np.array([values[0] - 0.5, values[0] + 0.5])
-    else:
-        middle = (values[:-1] + values[1:]) / 2.0
-        edges = np.concatenate(
-            [[2.0 * values[0] - middle[0]], middle, [2.0 * values[-1] - middle[-1]]]
-        )
+    values = np.log(centers) if log else centers
+    middle = (values[:-1] + values[1:]) / 2.0
+    edges = np.concatenate([[2.0 * values[0] - middle[0]], middle, [2.0 * values[-1] - middle[-1]]])
     return np.asarray(np.exp(edges) if log else edges)
 
 

@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
 from report.figures.scales import decades
 from report.words.letters import lettered
-from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneWork
+from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneRun
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _DOT = "#9a9a9a"
@@ -78,7 +78,7 @@ _LOOKS = (
 )
 
 
-def work(points: Sequence[PlaneWork]) -> str:
+def work(points: Sequence[PlaneRun]) -> str:
     """Return a line for each method, from coarse to fine; failed runs are not drawn."""
     names = list(dict.fromkeys(point.method for point in points))
     with style():

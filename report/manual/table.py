@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import pandas as pd
 
 from solver.verification.evidence import CheckRow, Verification, WorkPoint
-from solver.verification.model_evidence import PlaneWork
+from solver.verification.model_evidence import PlaneRun
 
 _OF_CHECK = ("id", "section", "problem", "source", "quantity", "unit", "expected", "computed")
 _OF_RUN = {
@@ -55,7 +55,7 @@ def _run(point: WorkPoint) -> Mapping[str, object]:
     return {"kind": "run", "parameters": given, **found}
 
 
-def _run_in_two_axes(scene: str, point: PlaneWork) -> Mapping[str, object]:
+def _run_in_two_axes(scene: str, point: PlaneRun) -> Mapping[str, object]:
     return {
         "kind": "run in two axes",
         "method": point.method,

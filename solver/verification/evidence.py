@@ -5,8 +5,9 @@ Computes only values read from the curves. See `solver.verification.run` for wha
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -70,22 +71,23 @@ class WorkPoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StabilityMap:
-    """Error over two quantities, the largest of several scenes in each cell."""
+    """Error over two quantities, the largest of several scenes in each cell; y is logarithmic."""
 
     title: str
     note: str
     x_label: str
-    # shape (p,), (q,)
-    x: Floats
+    x: Floats  # shape (p,)
     y_label: str
-    y: Floats
+    y: Floats  # shape (q,)
     error_percent: Floats  # shape (q, p): of the PRD, see `percent_off`; NaN in a failed cell
-    # shape (q, p): a run of the cell diverged or stalled
-    failed: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
-    limit: Floats  # shape (p,) or (0,); y of the theoretical limit in each column; empty for none
-    x_mark: float  # x of a limit independent of y; NaN for none
-    x_log: bool
-    y_log: bool
+    limit: Floats = field(default_factory=lambda: np.empty(0))  # shape (p,) or (0,): y of a limit
+    x_mark: float = math.nan  # x of a limit independent of y; NaN for none
+    x_log: bool = True
+
+    @property
+    def failed(self) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+        """The cells in which a run diverged or stalled."""
+        return np.isnan(self.error_percent)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

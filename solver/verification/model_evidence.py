@@ -137,27 +137,17 @@ class BoundRatios:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlaneWork:
-    """One run of a method in two axes."""
+class PlaneRun:
+    """One run of a method in two axes; a failed run has no time and no errors, which are NaN."""
 
     method: str
     setting: str
-    seconds: float  # time per run [s]; NaN for a failed run
+    seconds: float  # time per run [s]
     steps: int  # steps; for SciPy, evaluations of the right-hand side
-    # error relative to the PRD: of the position, largest at samples, or of the PRD; NaN for a
-    # failed run
+    # error relative to the PRD: of the position, largest at samples, or of the PRD
     error_percent: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StopPoint:
-    """One run of a block that comes to rest under a constant transverse acceleration."""
-
-    method: str
-    setting: str
-    steps: int  # as in `PlaneWork`
-    error_m: float  # error in final position [m]; NaN for a failed run
-    end_speed_mps: float  # final velocity; the exact value is 0 [m/s]
+    end_error_m: float  # error in final position [m]
+    end_speed_mps: float  # final speed [m/s]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,7 +167,7 @@ class ModelEvidence:
     static: StaticEvidence
     bounds: tuple[BoundRatios, ...]
     work_scene: str
-    work: tuple[PlaneWork, ...]
-    stops: tuple[StopPoint, ...]
+    work: tuple[PlaneRun, ...]
+    stops: tuple[PlaneRun, ...]
     times_motion: str  # name, length and time step of the motion used for `times`
     times: tuple[ModelTime, ...]

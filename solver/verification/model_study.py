@@ -82,7 +82,7 @@ def model_evidence(triples: Sequence[Triple], *, quick: bool) -> ModelEvidence:
         bounds=bound_ratios(quick=quick),
         work_scene=scene,
         work=work,
-        stops=tuple(plane_work.stops()),
+        stops=plane_work.stops(),
         times_motion=f"{first.name}, {length:.0f} s in steps of {first.dt_s:g} s",
         times=times(first),
     )
