@@ -79,7 +79,7 @@ def _verification(
     buildings = recorded_buildings(records) if records else ()
     motions = recorded_triples(records) if records else ()
     verification = verify(
-        (), quick=quick, progress=progress, buildings=buildings, motions=motions, tests=tests
+        quick=quick, progress=progress, buildings=buildings, motions=motions, tests=tests
     )
     return verification, files(verification, dt.date.today(), progress)
 

@@ -6,7 +6,7 @@ Computes only values read from the curves. See `solver.verification.run` for wha
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -67,6 +67,15 @@ class WorkPoint:
     residual_error_m: float
     residual_error_percent: float
     status: Status
+
+
+def by_setting(points: Iterable[WorkPoint]) -> Mapping[str, list[list[WorkPoint]]]:
+    """Return the runs of each method, those of one setting together."""
+    groups: dict[str, dict[float, list[WorkPoint]]] = {}
+    for point in points:
+        setting = 0.0 if math.isnan(point.setting) else point.setting
+        groups.setdefault(point.method, {}).setdefault(setting, []).append(point)
+    return {method: list(of_method.values()) for method, of_method in groups.items()}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

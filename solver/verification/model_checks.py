@@ -18,11 +18,12 @@ from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification import plane_scipy
-from solver.verification.bound_study import bound_ratios
 from solver.verification.checks import check, slip_checks
 from solver.verification.evidence import CheckRow
+from solver.verification.random_pairs import bound_ratios
+from solver.verification.scenes import readonly
 from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
-from solver.verification.triples import Triple, readonly
+from solver.verification.triples import Triple
 
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""

@@ -18,7 +18,6 @@ from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, RowResult, slide_row
 from solver.verification import plane_work
-from solver.verification.bound_study import bound_ratios
 from solver.verification.model_evidence import (
     HELD,
     HELD_ONE,
@@ -37,6 +36,7 @@ from solver.verification.model_evidence import (
     ModelTime,
     StaticEvidence,
 )
+from solver.verification.random_pairs import bound_ratios
 from solver.verification.static_study import held, static_evidence
 from solver.verification.study import (
     MODEL_CASES,

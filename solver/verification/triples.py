@@ -14,7 +14,7 @@ from solver.formats import read_motion_file
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, InputError, Orientation, Scene
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
-from solver.verification.scenes import Case, own_suite
+from solver.verification.scenes import Case, own_suite, readonly, strongest
 
 _UP = ("up", "v", "ud", "vertical", "vert", "z")
 """Words in a channel's name that mark the vertical component."""
@@ -61,20 +61,10 @@ class Triple:
 
     def cut(self, samples: int) -> Triple:
         """Return the `samples` consecutive samples with the most horizontal energy."""
-        energy = np.convolve(self.x_mps2**2 + self.y_mps2**2, np.ones(samples), "valid")
-        first = int(energy.argmax())
-        x, y, z = (
-            readonly(a[first : first + samples]) for a in (self.x_mps2, self.y_mps2, self.z_mps2)
-        )
+        part = strongest(self.x_mps2**2 + self.y_mps2**2, samples)
+        x, y, z = (readonly(a[part]) for a in (self.x_mps2, self.y_mps2, self.z_mps2))
         name = f"{self.name}, strongest {(samples - 1) * self.dt_s:g} s"
         return replace(self, name=name, x_mps2=x, y_mps2=y, z_mps2=z)
-
-
-def readonly(values: Floats) -> Floats:
-    """Return a read-only copy: numba compiles a second version for writable arrays."""
-    copied = np.array(values, dtype=np.float64)
-    copied.setflags(write=False)
-    return copied
 
 
 def own_triples(quick: bool) -> tuple[Triple, ...]:

@@ -27,7 +27,8 @@ from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, SlideResult, Status, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model, one_axis, two_axes
-from solver.verification.triples import own_triples, readonly, recorded_triples
+from solver.verification.scenes import readonly
+from solver.verification.triples import own_triples, recorded_triples
 
 SCENES = 30 if SMOKE else 10_000
 KINDS, ACROSS = ("noise", "periodic", "recorded"), ("like it", "noise", "push")

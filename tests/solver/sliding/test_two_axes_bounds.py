@@ -19,7 +19,7 @@ from solver.sliding import checked, least_model, two_axes
 from solver.sliding.least_model import Model
 from solver.sliding.two_axes import follow
 from solver.verification.random_pairs import finer, pair, rounding
-from solver.verification.triples import readonly
+from solver.verification.scenes import readonly
 
 G = 9.80665
 SCENES = json.loads((DATA / "two_axes.json").read_text("utf-8"))

@@ -7,7 +7,8 @@ import pytest
 from solver.sliding import two_axes
 from solver.verification import model_checks
 from solver.verification.checks import SECTIONS
-from solver.verification.triples import own_triples, readonly
+from solver.verification.scenes import readonly
+from solver.verification.triples import own_triples
 
 
 @pytest.fixture(scope="module")

@@ -19,7 +19,8 @@ from solver.verification.model_evidence import (
     WORST,
     ModelChange,
 )
-from solver.verification.triples import own_triples, readonly
+from solver.verification.scenes import readonly
+from solver.verification.triples import own_triples
 
 
 @pytest.fixture(scope="module")
