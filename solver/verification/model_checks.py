@@ -14,6 +14,7 @@ import numpy as np
 
 from solver.forces import forces
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
+from solver.records.record import read_only
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
@@ -21,7 +22,6 @@ from solver.verification import plane_scipy
 from solver.verification.checks import check, slip_checks
 from solver.verification.evidence import CheckRow
 from solver.verification.random_pairs import bound_ratios
-from solver.verification.scenes import readonly
 from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
 from solver.verification.triples import Triple
 
@@ -97,7 +97,7 @@ def _in_proportion(triple: Triple) -> CheckRow:
 def _turned_by(scene: Scene, degrees: float) -> Scene:
     across = scene.ay_mps2 if scene.ay_mps2.size else np.zeros_like(scene.ax_mps2)
     x, y = _turn(np.array([scene.ax_mps2, across]), degrees)
-    return replace(scene, ax_mps2=readonly(x), ay_mps2=readonly(y))
+    return replace(scene, ax_mps2=read_only(x), ay_mps2=read_only(y))
 
 
 def _turn(pair: Floats, degrees: float) -> Floats:
@@ -241,7 +241,7 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
     peak = forces(full).friction_demand
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
     faint = faded(full, 1e-4)
-    level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
+    level = replace(faint, az_mps2=read_only(1e-5 * full.az_mps2))
     for what, scene, model in (
         ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Model.NO_SLIP),
         ("Second and vertical components negligible", level, Model.ONE_AXIS),

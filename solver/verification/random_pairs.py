@@ -17,10 +17,10 @@ import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, Status, coulomb
+from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.two_axes import TwoAxesOutcome, follow
 from solver.verification.model_evidence import BoundRatios
-from solver.verification.scenes import readonly
 from solver.verification.study import flat_scene
 
 EPS = 2.0**-52
@@ -206,9 +206,9 @@ def _scene(
     has_vertical = rng.random() < 0.6
     az = _wave(rng, n) * G * rng.choice((0.0, 0.05, 0.3, 0.6)) if has_vertical else NO_RECORD
     return Scene(
-        ax_mps2=readonly(ax),
-        ay_mps2=readonly(ay),
-        az_mps2=readonly(_held_down(rng, ax, az, slope, minimum_normal_g)),
+        ax_mps2=read_only(ax),
+        ay_mps2=read_only(ay),
+        az_mps2=read_only(_held_down(rng, ax, az, slope, minimum_normal_g)),
         dt_s=float(rng.choice(STEPS_S)),
         slope_rad=slope,
         friction=law(float(mu)),
@@ -246,7 +246,7 @@ def finer(scene: Scene, factor: int) -> Scene:
     coarse = np.arange(scene.ax_mps2.size)
     fine = np.arange((coarse.size - 1) * factor + 1) / factor
     ax, ay, az = (
-        readonly(np.interp(fine, coarse, a)) if a.size else a
+        read_only(np.interp(fine, coarse, a)) if a.size else a
         for a in (scene.ax_mps2, scene.ay_mps2, scene.az_mps2)
     )
     return replace(scene, ax_mps2=ax, ay_mps2=ay, az_mps2=az, dt_s=scene.dt_s / factor)
@@ -271,9 +271,9 @@ def _either(rng: Random, first: Scene) -> Pair:
 
 def _mirrored(rng: Random) -> Pair:
     first, tolerance = _scene(rng), float(rng.choice(TOLERANCES))
-    across, compare = replace(first, ay_mps2=readonly(-first.ay_mps2)), _mirrored_across
+    across, compare = replace(first, ay_mps2=read_only(-first.ay_mps2)), _mirrored_across
     if rng.random() < 0.5:
-        across = replace(first, ax_mps2=readonly(-first.ax_mps2), slope_rad=-first.slope_rad)
+        across = replace(first, ax_mps2=read_only(-first.ax_mps2), slope_rad=-first.slope_rad)
         compare = _mirrored_along
     return Pair(first=first, second=across, tolerances=(tolerance, tolerance), compare=compare)
 
@@ -292,7 +292,7 @@ def _rotated(rng: Random) -> Pair:
     return Pair(
         first=first,
         second=replace(
-            first, ax_mps2=readonly(cs * ax - sn * ay), ay_mps2=readonly(sn * ax + cs * ay)
+            first, ax_mps2=read_only(cs * ax - sn * ay), ay_mps2=read_only(sn * ax + cs * ay)
         ),
         tolerances=(tolerance, tolerance),
         # Two products and a sum per sample, and the same again for rotating the position.
@@ -361,7 +361,7 @@ def _of_kind(kind: str, count: int) -> BoundRatios:
 
 def warm_up() -> None:
     """Compile or load what pairs need: two axes with and without vertical, and both laws."""
-    push = readonly(np.array([0.0, 5.0, -5.0, 0.0]))
+    push = read_only(np.array([0.0, 5.0, -5.0, 0.0]))
     scene = flat_scene(push, push, 0.01, coulomb(0.2))
     law = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=1.0, mu_static=0.2)
     for friction in (scene.friction, law):

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
-from solver.records.record import Record
+from solver.records.record import Record, read_only
 from solver.synthesis import SuiteMotion, Target, make_suite
 
 SEED = 2003
@@ -70,7 +70,7 @@ def near_fault_pulse() -> Record:
     dt = 0.01
     t = np.arange(801) * dt - 4.0
     a = np.exp(-((t / 1.2) ** 2)) * np.sin(math.pi * t) * STANDARD_GRAVITY_MPS2
-    return Record(name="near-fault-pulse", dt_s=dt, a_mps2=readonly(a))
+    return Record(name="near-fault-pulse", dt_s=dt, a_mps2=read_only(a))
 
 
 def scale_to(record: Record, ppa_g: float) -> float:
@@ -81,7 +81,7 @@ def scale_to(record: Record, ppa_g: float) -> float:
 def shortened(record: Record, duration_s: float) -> Record:
     """Return the part of the record of that length with the most energy."""
     count = round(duration_s / record.dt_s) + 1
-    a = readonly(record.a_mps2[strongest(record.a_mps2**2, count)])
+    a = read_only(record.a_mps2[strongest(record.a_mps2**2, count)])
     return Record(name=f"{record.name}, strongest {duration_s:g} s", dt_s=record.dt_s, a_mps2=a)
 
 
@@ -90,13 +90,6 @@ def strongest(energy: Floats, count: int) -> slice:
     sums = np.convolve(energy, np.ones(min(count, energy.size)), "valid")
     first = int(sums.argmax())
     return slice(first, first + count)
-
-
-def readonly(values: Floats) -> Floats:
-    """Return a read-only copy: numba compiles a second version for writable arrays."""
-    copied = np.array(values, dtype=np.float64)
-    copied.setflags(write=False)
-    return copied
 
 
 def is_runnable(method: str) -> bool:

@@ -24,10 +24,10 @@ from solver.model import (
     SlideResult,
     coulomb,
 )
-from solver.records.record import Record
+from solver.records.record import Record, read_only
 from solver.rivals.methods import NO_RECORD, AxisScene
 from solver.sliding import checked, one_axis, two_axes
-from solver.verification.scenes import Case, readonly, scale_to
+from solver.verification.scenes import Case, scale_to
 from solver.verification.triples import Triple
 
 T = TypeVar("T")
@@ -58,8 +58,8 @@ def scenes_of(triples: Iterable[Triple], cases: Sequence[Case]) -> list[Scene]:
 def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction) -> Scene:
     """Return a block on a flat roof under given horizontal accelerations of n samples each."""
     return Scene(
-        ax_mps2=readonly(ax_mps2),
-        ay_mps2=readonly(ay_mps2),
+        ax_mps2=read_only(ax_mps2),
+        ay_mps2=read_only(ay_mps2),
         az_mps2=NO_RECORD,
         dt_s=dt_s,
         slope_rad=0.0,
@@ -71,7 +71,7 @@ def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction
 
 def faded(scene: Scene, share: float) -> Scene:
     """Return the scene with its second component multiplied by `share`; 0 removes it."""
-    across = readonly(share * scene.ay_mps2) if share else NO_RECORD
+    across = read_only(share * scene.ay_mps2) if share else NO_RECORD
     return replace(scene, ay_mps2=across)
 
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from solver.formats import read_motion_file
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, InputError, Orientation, Scene
-from solver.records.record import Record
+from solver.records.record import Record, read_only
 from solver.rivals.methods import NO_RECORD
-from solver.verification.scenes import Case, own_suite, readonly, strongest
+from solver.verification.scenes import Case, own_suite, strongest
 
 _UP = ("up", "v", "ud", "vertical", "vert", "z")
 """Words in a channel's name that mark the vertical component."""
@@ -37,7 +37,7 @@ class Triple:
         x, y = (
             (self.y_mps2, self.x_mps2) if orientation.is_transverse else (self.x_mps2, self.y_mps2)
         )
-        return replace(self, x_mps2=readonly(orientation.polarity * x), y_mps2=y)
+        return replace(self, x_mps2=read_only(orientation.polarity * x), y_mps2=y)
 
     def scale_to(self, ppa_g: float) -> float:
         """Return the factor that scales the larger horizontal peak to `ppa_g` [g]."""
@@ -62,7 +62,7 @@ class Triple:
     def cut(self, samples: int) -> Triple:
         """Return the `samples` consecutive samples with the most horizontal energy."""
         part = strongest(self.x_mps2**2 + self.y_mps2**2, samples)
-        x, y, z = (readonly(a[part]) for a in (self.x_mps2, self.y_mps2, self.z_mps2))
+        x, y, z = (read_only(a[part]) for a in (self.x_mps2, self.y_mps2, self.z_mps2))
         name = f"{self.name}, strongest {(samples - 1) * self.dt_s:g} s"
         return replace(self, name=name, x_mps2=x, y_mps2=y, z_mps2=z)
 
