@@ -31,6 +31,7 @@ from solver.verification.model_evidence import (
     PlaneRun,
     StaticEvidence,
 )
+from solver.verification.model_study import RATE_S_PER_M, ROW_SHARES, SLOW_SHARE
 from solver.verification.static_study import (
     FALLING,
     JUMPING,
@@ -106,6 +107,9 @@ def models(verification: Verification) -> Section:
         template="manual/models.html",
         content={
             "LEAST_M": LEAST_M,
+            "SLOW_SHARE": SLOW_SHARE,
+            "RATE_S_PER_M": RATE_S_PER_M,
+            "ROW_SHARES": ROW_SHARES,
             "CHANGED": CHANGED,
             "FALLING": FALLING,
             "JUMPING": JUMPING,

@@ -58,10 +58,6 @@ class ModelStudy:
     slopes_deg: tuple[float, ...]
     mus: tuple[float, ...]
     ppas_g: tuple[float, ...]
-    # velocity-dependent friction: mu_slow, the coefficient of the other models, over mu_fast, and
-    # its rate. The same share is kinetic over static friction where they differ.
-    slow_share: float
-    rate_s_per_m: float
     # scenes times motions and headings, and the runs in which the normal force vanishes
     n_runs: int
     n_uplift: int
@@ -69,7 +65,6 @@ class ModelStudy:
     # `STIFF` and `SOFT`
     changes: tuple[ModelChange, ...]
     row_ppa_g: float  # PPA of the rows, which are run in the first heading only
-    row_shares: tuple[float, ...]  # friction of the blocks of a row over that of the scene
     largest_error: float  # largest error bound in two axes, relative to the PRD
 
     def named(self, name: str) -> ModelChange:

@@ -104,13 +104,10 @@ def study(triples: Sequence[Triple], *, quick: bool) -> ModelStudy:
         slopes_deg=tuple(slopes),
         mus=tuple(mus),
         ppas_g=tuple(ppas),
-        slow_share=SLOW_SHARE,
-        rate_s_per_m=RATE_S_PER_M,
         n_runs=len(scenes),
         n_uplift=len(scenes) - len(answered),
         changes=(*changes, *_rows(scenes_of(triples, grid(slopes, mus, [row_ppa_g])))),
         row_ppa_g=row_ppa_g,
-        row_shares=ROW_SHARES,
         largest_error=max(errors, default=math.nan),
     )
 

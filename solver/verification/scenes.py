@@ -6,7 +6,6 @@ Generates the project's records, identical on every machine; runs nothing. Read
 
 from __future__ import annotations
 
-import importlib.util
 import math
 from functools import lru_cache
 from typing import NamedTuple
@@ -16,6 +15,7 @@ import numpy as np
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.record import Record, read_only
 from solver.synthesis import SuiteMotion, Target, make_suite
+from solver.verification import plane_scipy
 
 SEED = 2003
 """Seed of the project's generated records."""
@@ -94,4 +94,4 @@ def strongest(energy: Floats, count: int) -> slice:
 
 def is_runnable(method: str) -> bool:
     """Whether the method's library is installed: SciPy for regularized friction."""
-    return method != "regularized" or importlib.util.find_spec("scipy") is not None
+    return method != "regularized" or plane_scipy.is_installed()
