@@ -68,18 +68,16 @@ def _verification(
 ) -> tuple[Verification, Mapping[str, bytes]]:
     """Return the verification, and every output as finished bytes by file name."""
     from report.manual.render import files
-    from solver.verification.run import (
-        recorded_buildings,
-        recorded_triples,
-        table_tests,
-        verify,
-    )
+    from solver.verification.building import recorded_buildings
+    from solver.verification.run import verify
+    from solver.verification.table_tests import table_tests
+    from solver.verification.triples import recorded_triples
 
     tests = table_tests(table) if table else ()
     buildings = recorded_buildings(records) if records else ()
     motions = recorded_triples(records) if records else ()
     verification = verify(
-        (), quick=quick, progress=progress, buildings=buildings, motions=motions, tests=tests
+        quick=quick, progress=progress, buildings=buildings, motions=motions, tests=tests
     )
     return verification, files(verification, dt.date.today(), progress)
 

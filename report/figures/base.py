@@ -97,6 +97,49 @@ def bare(axes: Axes) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
+def labeled(axes: Axes, x: str = "", y: str = "", title: str = "") -> None:
+    """Name a panel and its axes; the grid lies behind what is drawn."""
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    if title:
+        axes.set_title(title, loc="left", weight="semibold")
+    axes.grid(True)
+    axes.set_axisbelow(True)
+    bare(axes)
+
+
+def panels(
+    rows: int,
+    columns: int,
+    height: float,
+    *,
+    left: float,
+    right: float,
+    above: float,
+    below: float,
+    wspace: float = 0.0,
+    hspace: float = 0.0,
+    **shared: Any,
+) -> Any:
+    """Return a figure and its grid of panels.
+
+    Parameters
+    ----------
+    left, right : float
+        Sides of the grid, as shares of the width.
+    above, below : float
+        Margins [in].
+    wspace, hspace : float
+        Between the panels, in shares of a panel.
+    shared
+        Axes that panels share, as in `Figure.subplots`.
+    """
+    figure = Figure(figsize=(WIDTH_IN, height))
+    top, bottom = 1.0 - above / height, below / height
+    figure.subplots_adjust(left, bottom, right, top, wspace, hspace)
+    return figure, figure.subplots(rows, columns, squeeze=False, **shared)
+
+
 class Broken:
     """A line with gaps: one path instead of many."""
 

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, style, svg_text
-from report.figures.scales import plain
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, style, svg_text
+from report.figures.scales import ticks
 from report.words.units import G_MPS2
 from solver.verification.evidence import RoofComparison, RoofPrediction
+from solver.verification.scenes import strongest
 
 SHOWN_S = 16.0
 """Duration of the histories shown, around the strongest shaking [s]."""
@@ -60,19 +60,9 @@ def _spectra(axes: Axes, roof: RoofComparison) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(roof.periods_s[0], roof.periods_s[-1])
-    axes.xaxis.set_major_locator(FixedLocator(_PERIODS_S))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    low, high = axes.get_ylim()
-    axes.yaxis.set_major_locator(FixedLocator([t for t in _LEVELS_G if low <= t <= high]))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_minor_locator(NullLocator())
-    axes.set_xlabel("Period T [s]")
-    axes.set_ylabel("Pseudo-acceleration [g]")
-    axes.set_title("Response spectra, 5 % damping", loc="left", weight="semibold")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    ticks(axes.xaxis, _PERIODS_S)
+    ticks(axes.yaxis, _LEVELS_G)
+    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", "Response spectra, 5 % damping")
     axes.legend(loc="lower left", handlelength=3.2)
 
 
@@ -82,24 +72,15 @@ _LEVELS_G = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0
 def _histories(axes: Axes, roof: RoofComparison) -> None:
     first = roof.predictions[0]
     width = round(SHOWN_S / roof.dt_s)
-    energy = np.convolve(roof.roof_mps2**2, np.ones(min(width, roof.roof_mps2.size)), "valid")
-    start = int(energy.argmax())
-    part = slice(start, start + width)
+    part = strongest(roof.roof_mps2**2, width)
     t = np.arange(roof.roof_mps2.size)[part] * roof.dt_s
     every = max(1, round(0.02 / roof.dt_s))
-    axes.plot(t[::every], roof.roof_mps2[part][::every] / G_MPS2, color=INK, linewidth=1.1)
-    axes.plot(
-        t[::every],
-        first.a_mps2[part][::every] / G_MPS2,
-        color=ACCENT,
-        linewidth=1.1,
-        linestyle=_DASHES[0],
-    )
+    for a_mps2, color, line in (
+        (roof.roof_mps2, INK, "-"),
+        (first.a_mps2, ACCENT, _DASHES[0]),
+    ):
+        shown_g = a_mps2[part][::every] / G_MPS2
+        axes.plot(t[::every], shown_g, color=color, linewidth=1.1, linestyle=line)
     axes.set_xlim(t[0], t[-1])
-    axes.set_xlabel("Time [s]")
-    axes.set_ylabel("Acceleration [g]")
     title = f"Roof acceleration: recorded (solid) and {first.name} (dashed)"
-    axes.set_title(title, loc="left", weight="semibold")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    labeled(axes, "Time [s]", "Acceleration [g]", title)

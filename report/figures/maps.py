@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter
 
-from report.figures.base import ACCENT, INK, WIDTH_IN, bare, style, svg_text
-from report.figures.scales import decades, plain
+from report.figures.base import ACCENT, INK, labeled, panels, style, svg_text
+from report.figures.scales import decades, plain, ticks
 from report.words.letters import lettered
 from solver.model import Floats
 from solver.verification.evidence import Conditioning, StabilityMap
@@ -27,6 +26,7 @@ _BANDS = (
     (1.0, 10.0, "#a9bccf", "1 to 10 %"),
     (10.0, math.inf, "#5f7890", "more than 10 %"),
 )
+_CONTOURS: tuple[tuple[int, Any, float], ...] = ((1, "-", 0.9), (10, (0, (4, 1.6)), 1.2))
 _LIMIT: dict[str, Any] = {"color": INK, "linewidth": 1.6, "linestyle": (0, (5, 1.4, 1, 1.4))}
 _FAILED: dict[str, Any] = {
     "facecolor": "white",
@@ -40,17 +40,8 @@ def stability(maps: Sequence[StabilityMap], first: int = 1) -> str:
     """Return maps in two columns, numbered from `first`; failed cells are hatched."""
     rows = math.ceil(len(maps) / 2)
     with style():
-        height = 2.55 * rows + 0.6
-        figure = Figure(figsize=(WIDTH_IN, height))
-        figure.subplots_adjust(
-            left=0.09,
-            right=0.985,
-            top=1 - 0.42 / height,
-            bottom=0.95 / height,
-            wspace=0.28,
-            hspace=0.52,
-        )
-        grid = figure.subplots(rows, 2, squeeze=False)
+        margins = {"left": 0.09, "right": 0.985, "above": 0.42, "below": 0.95}
+        figure, grid = panels(rows, 2, 2.55 * rows + 0.6, **margins, wspace=0.28, hspace=0.52)
         for axes in grid.flat[len(maps) :]:
             axes.set_axis_off()
         for count, (axes, sweep) in enumerate(zip(grid.flat, maps, strict=False), start=first):
@@ -60,12 +51,12 @@ def stability(maps: Sequence[StabilityMap], first: int = 1) -> str:
 
 
 def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
-    x, y = _edges(sweep.x, log=sweep.x_log), _edges(sweep.y, log=sweep.y_log)
+    x, y = _edges(sweep.x, log=sweep.x_log), _edges(sweep.y)
     bands = ListedColormap([band[2] for band in _BANDS])
     norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
-    shown = np.ma.masked_where(sweep.failed | np.isnan(sweep.error_percent), sweep.error_percent)
+    shown = np.ma.masked_where(sweep.failed, sweep.error_percent)
     axes.pcolormesh(x, y, shown, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
-    for row, column in np.argwhere(sweep.failed | np.isnan(sweep.error_percent)):
+    for row, column in np.argwhere(sweep.failed):
         axes.fill(
             [x[column], x[column + 1], x[column + 1], x[column]],
             [y[row], y[row], y[row + 1], y[row + 1]],
@@ -76,10 +67,11 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
         axes.plot(sweep.x, sweep.limit, **_LIMIT)
     if not math.isnan(sweep.x_mark):
         axes.axvline(sweep.x_mark, **_LIMIT)
-    for axis, log in ((axes.xaxis, sweep.x_log), (axes.yaxis, sweep.y_log)):
-        if log:
-            axis.axes.set_xscale("log") if axis is axes.xaxis else axis.axes.set_yscale("log")
-            decades(axis, maximum=7)
+    if sweep.x_log:
+        axes.set_xscale("log")
+        decades(axes.xaxis, maximum=7)
+    axes.set_yscale("log")
+    decades(axes.yaxis, maximum=7)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     axes.set_xlabel(sweep.x_label)
@@ -89,27 +81,20 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
 
 
 def _contours(axes: Axes, sweep: StabilityMap) -> None:
-    if min(sweep.error_percent.shape) < 2:
-        return
     levels = np.log10(np.maximum(sweep.error_percent, 1e-9))
     usable = levels[np.isfinite(levels)]
-    for level, line, width in ((0.0, "-", 0.9), (1.0, (0, (4, 1.6)), 1.2)):
+    for percent, line, width in _CONTOURS:
+        level = math.log10(percent)
         if usable.size and usable.min() < level < usable.max():
-            axes.contour(
-                sweep.x, sweep.y, levels, [level], colors=INK, linewidths=width, linestyles=[line]
-            )
+            look: dict[str, Any] = {"linewidths": width, "linestyles": [line], "colors": INK}
+            axes.contour(sweep.x, sweep.y, levels, [level], **look)
 
 
-def _edges(centers: Floats, *, log: bool) -> Floats:
+def _edges(centers: Floats, *, log: bool = True) -> Floats:
     """Return the edges of cells around their centers."""
-    values = np.log(centers) if log else np.asarray(centers, dtype=float)
-    if values.size == 1:
-        edges = np.array([values[0] - 0.5, values[0] + 0.5])
-    else:
-        middle = (values[:-1] + values[1:]) / 2.0
-        edges = np.concatenate(
-            [[2.0 * values[0] - middle[0]], middle, [2.0 * values[-1] - middle[-1]]]
-        )
+    values = np.log(centers) if log else centers
+    middle = (values[:-1] + values[1:]) / 2.0
+    edges = np.concatenate([[2.0 * values[0] - middle[0]], middle, [2.0 * values[-1] - middle[-1]]])
     return np.asarray(np.exp(edges) if log else edges)
 
 
@@ -119,10 +104,10 @@ def _key(maps: Sequence[StabilityMap]) -> list[Any]:
         for _, _, color, text in _BANDS
     ]
     handles.append(Patch(**_FAILED, label="failed"))
-    handles.append(Line2D([], [], color=INK, linewidth=0.9, label="1 % contour"))
-    handles.append(
-        Line2D([], [], color=INK, linewidth=1.2, linestyle=(0, (4, 1.6)), label="10 % contour")
-    )
+    handles += [
+        Line2D([], [], color=INK, linewidth=width, linestyle=line, label=f"{percent} % contour")
+        for percent, line, width in _CONTOURS
+    ]
     if any(sweep.limit.size or not math.isnan(sweep.x_mark) for sweep in maps):
         handles.append(Line2D([], [], **_LIMIT, label="theoretical limit"))
     return handles
@@ -131,22 +116,17 @@ def _key(maps: Sequence[StabilityMap]) -> list[Any]:
 def conditioning(cases: Sequence[Conditioning]) -> str:
     """Return PRD over mu, and below it the change due to a small change of mu, a column each."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.6))
-        figure.subplots_adjust(
-            left=0.12, right=0.985, top=0.92, bottom=0.16, wspace=0.34, hspace=0.16
-        )
-        grid = figure.subplots(2, len(cases), sharex="col", squeeze=False)
+        margins = {"left": 0.12, "right": 0.985, "above": 0.208, "below": 0.416}
+        between = {"wspace": 0.34, "hspace": 0.16}
+        figure, grid = panels(2, len(cases), 2.6, **margins, **between, sharex="col")
         for (above, below), case in zip(grid.T, cases, strict=True):
             above.plot(case.mu, 1e3 * case.prd_m, color=ACCENT, linewidth=1.4)
             below.plot(case.mu, np.maximum(case.change_percent, 1e-14), color=INK, linewidth=0.9)
             above.set_yscale("symlog", linthresh=1.0)
             _spread(below, case.change_percent)
-            _plain_symlog(above)
-            above.set_title(f"{case.title}", loc="left", weight="semibold")
-            below.set_xlabel("Friction coefficient μ")
-            for axes in (above, below):
-                axes.grid(True)
-                bare(axes)
+            ticks(above.yaxis, (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6))
+            labeled(above, title=case.title)
+            labeled(below, "Friction coefficient μ")
         grid[0, 0].set_ylabel("Exact PRD [mm]")
         grid[1, 0].set_ylabel("Change in PRD [%]")
         return svg_text(figure)
@@ -161,10 +141,3 @@ def _spread(axes: Axes, values: Floats) -> None:
     else:
         axes.set_ylim(0.0, None)
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
-
-
-def _plain_symlog(axes: Axes) -> None:
-    low, high = axes.get_ylim()
-    ticks = [t for t in (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6) if low <= t <= high]
-    axes.set_yticks(ticks, [f"{t:g}" for t in ticks])
-    axes.yaxis.set_minor_locator(NullLocator())

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, framed, style, svg_text
-from report.figures.scales import decades
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, framed, labeled, style, svg_text
+from report.figures.scales import decades, ticks
 from report.words.letters import lettered
-from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneWork
+from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneRun
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _DOT = "#9a9a9a"
@@ -34,10 +33,7 @@ def changes(studied: Sequence[ModelChange]) -> str:
         axes.set_ylim(len(studied) - 0.5, -0.5)
         axes.set_yticks(range(len(studied)), [change.name for change in studied])
         axes.tick_params(axis="y", length=0)
-        low, high = axes.get_xlim()
-        axes.xaxis.set_major_locator(FixedLocator([v for v in _RATIOS if low <= v <= high]))
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axes.xaxis.set_minor_locator(NullLocator())
+        ticks(axes.xaxis, _RATIOS)
         axes.set_xlabel("PRD of the fuller model / PRD of the simpler model")
         axes.grid(True, axis="x")
         axes.set_axisbelow(True)
@@ -57,68 +53,49 @@ def _row(axes: Any, row: int, change: ModelChange) -> None:
     axes.plot([change.median] * 2, [row - 0.36, row + 0.36], color=ACCENT, linewidth=2.0)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Look:
-    """Line style of a method."""
-
-    color: str
-    linestyle: Any
-    marker: str
-
-
-_LOOKS = (
-    _Look(color=ACCENT, linestyle="-", marker="o"),
-    _Look(color=INK, linestyle="-", marker="s"),
-    _Look(color=INK, linestyle=(0, (1, 1.2)), marker="s"),
-    _Look(color=GRAY, linestyle="-", marker="^"),
-    _Look(color=GRAY, linestyle=(0, (5, 1.5)), marker="^"),
-    _Look(color=GRAY, linestyle=(0, (6, 1.5, 1, 1.5)), marker="D"),
-    _Look(color=GRAY, linestyle=(0, (1, 1.2)), marker="v"),
-    _Look(color=GRAY, linestyle=(0, (3, 1, 1, 1, 1, 1)), marker="x"),
+_LOOKS: tuple[dict[str, Any], ...] = (
+    {"color": ACCENT, "linestyle": "-", "marker": "o"},
+    {"color": INK, "linestyle": "-", "marker": "s"},
+    {"color": INK, "linestyle": (0, (1, 1.2)), "marker": "s"},
+    {"color": GRAY, "linestyle": "-", "marker": "^"},
+    {"color": GRAY, "linestyle": (0, (5, 1.5)), "marker": "^"},
+    {"color": GRAY, "linestyle": (0, (6, 1.5, 1, 1.5)), "marker": "D"},
+    {"color": GRAY, "linestyle": (0, (1, 1.2)), "marker": "v"},
+    {"color": GRAY, "linestyle": (0, (3, 1, 1, 1, 1, 1)), "marker": "x"},
 )
 
+LEAST_PERCENT, LEAST_RATIO = 1e-12, 1e-6
+"""Smallest error and ratio drawn; smaller ones are drawn there."""
 
-def work(points: Sequence[PlaneWork]) -> str:
+
+def work(points: Sequence[PlaneRun]) -> str:
     """Return a line for each method, from coarse to fine; failed runs are not drawn."""
     names = list(dict.fromkeys(point.method for point in points))
     with style():
-        height = 2.4
-        figure = Figure(figsize=(WIDTH_IN, height))
+        figure = Figure(figsize=(WIDTH_IN, 2.4))
         axes = figure.add_axes((0.085, 0.17, 0.5, 0.79))
         for name, look in zip(names, _LOOKS, strict=False):
-            own = [
-                point for point in points if point.method == name and not math.isnan(point.seconds)
-            ]
+            own = [p for p in points if p.method == name and not math.isnan(p.seconds)]
             axes.plot(
                 [point.seconds for point in own],
                 [max(point.error_percent, LEAST_PERCENT) for point in own],
-                color=look.color,
-                linestyle=look.linestyle,
-                marker=look.marker,
+                **look,
                 markersize=3.6,
-                markerfacecolor="white" if look.color == GRAY else look.color,
+                markerfacecolor="white" if look["color"] == GRAY else look["color"],
                 linewidth=1.2,
                 label=lettered(name),
             )
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        decades(axes.xaxis)
-        decades(axes.yaxis, maximum=8)
-        axes.grid(True, color=PALE)
-        axes.set_axisbelow(True)
-        bare(axes)
-        axes.set_xlabel("Time per run [s]")
-        axes.set_ylabel("Error [% of the PRD]")
-        axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
+        _logarithmic(axes, "Time per run [s]", "Error [% of the PRD]", 9, 8)
         return svg_text(figure)
 
 
-LEAST_PERCENT = 1e-12
-"""Smallest error drawn; smaller ones are drawn there."""
-
-
-LEAST_RATIO = 1e-6
-"""Smallest ratio drawn; smaller ones are drawn there."""
+def _logarithmic(axes: Axes, x: str, y: str, across: int, up: int) -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    decades(axes.xaxis, across)
+    decades(axes.yaxis, up)
+    labeled(axes, x, y)
+    axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
 
 
 def bounds(groups: Sequence[BoundRatios]) -> str:
@@ -130,23 +107,9 @@ def bounds(groups: Sequence[BoundRatios]) -> str:
         axes.text(1.15, 0.9, "bound", color=INK)
         for group, look in zip(groups, _LOOKS, strict=False):
             above = 1.0 - np.arange(group.ratios.size) / max(group.ratios.size, 1)
-            axes.plot(
-                np.maximum(group.ratios, LEAST_RATIO),
-                above,
-                color=look.color,
-                linestyle=look.linestyle,
-                linewidth=1.2,
-                label=group.kind.replace("mu", "μ"),
-            )
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+            ratios, label = np.maximum(group.ratios, LEAST_RATIO), group.kind.replace("mu", "μ")
+            axes.plot(ratios, above, **look | {"marker": ""}, linewidth=1.2, label=label)
+        x = "Difference of the two runs of a pair / sum of their bounds"
+        _logarithmic(axes, x, "Share of pairs exceeding", 8, 9)
         axes.set_xlim(LEAST_RATIO, 10.0)
-        decades(axes.xaxis, maximum=8)
-        decades(axes.yaxis)
-        axes.grid(True, color=PALE)
-        axes.set_axisbelow(True)
-        bare(axes)
-        axes.set_xlabel("Difference of the two runs of a pair / sum of their bounds")
-        axes.set_ylabel("Share of pairs exceeding")
-        axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
         return svg_text(figure)

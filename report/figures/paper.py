@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, labeled, panels, style, svg_text
 from report.figures.history import envelope
-from report.figures.scales import decades
+from report.figures.scales import decades, ticks
 from solver.model import Floats
 from solver.verification.evidence import Convergence, DesignCurves, LinkComparison
 
@@ -38,11 +37,14 @@ def convergence(studies: Sequence[Convergence]) -> str:
             right.plot(study.substeps, 1e3 * study.longest_seconds, "o-", color=INK, markersize=4)
             right.set_yscale("log")
             decades(right.yaxis, maximum=7)
-            right.set_ylabel("Longest time per run [ms]")
+            for axes, y in (
+                (left, "Largest error in residual [%]"),
+                (right, "Longest time per run [ms]"),
+            ):
+                axes.set_xscale("log", base=2)
+                ticks(axes.xaxis, study.substeps)
+                labeled(axes, "Sub-steps P per sampling interval", y)
             left.set_title(study.record, loc="left", weight="semibold")
-            for axes in (left, right):
-                _powers_of_two(axes, study.substeps)
-                bare(axes)
         return svg_text(figure)
 
 
@@ -74,32 +76,12 @@ def _errors(axes: Axes, study: Convergence) -> None:
     low, high = axes.get_ylim()
     axes.set_ylim(low, 8.0 * high)  # room for the legend
     decades(axes.yaxis, maximum=7)
-    axes.set_ylabel("Largest error in residual [%]")
     axes.legend(loc="upper right", handlelength=2.8)
 
 
-def _powers_of_two(axes: Axes, substeps: Sequence[int]) -> None:
-    axes.set_xscale("log", base=2)
-    axes.xaxis.set_major_locator(FixedLocator(list(substeps)))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel("Sub-steps P per sampling interval")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-
-
-def _rows(count: int, row_in: float, below_in: float = 0.45) -> tuple[Figure, Any]:
-    height = row_in * count + 0.05
-    figure = Figure(figsize=(WIDTH_IN, height))
-    figure.subplots_adjust(
-        left=0.085,
-        right=0.985,
-        top=1 - 0.22 / height,
-        bottom=below_in / height,
-        wspace=0.24,
-        hspace=0.58,
-    )
-    return figure, figure.subplots(count, 2, squeeze=False)
+def _rows(count: int, row_in: float, below_in: float = 0.45) -> Any:
+    margins = {"left": 0.085, "right": 0.985, "above": 0.22, "below": below_in}
+    return panels(count, 2, row_in * count + 0.05, **margins, wspace=0.24, hspace=0.58)
 
 
 def links(comparisons: Sequence[LinkComparison]) -> str:
@@ -109,16 +91,6 @@ def links(comparisons: Sequence[LinkComparison]) -> str:
         for (left, right), comparison in zip(grid, comparisons, strict=True):
             _history(left, comparison)
             _over_mu(right, comparison)
-            left.set_title(
-                f"θ = {comparison.slope_deg:g}°: history at μ = {comparison.history_mu:g}",
-                loc="left",
-                weight="semibold",
-            )
-            right.set_title(f"θ = {comparison.slope_deg:g}°: all μ", loc="left", weight="semibold")
-            for axes in (left, right):
-                axes.grid(True)
-                axes.set_axisbelow(True)
-                bare(axes)
         return svg_text(figure)
 
 
@@ -129,47 +101,36 @@ def _history(axes: Axes, comparison: LinkComparison) -> None:
     ):
         t, u = envelope(comparison.history_t_s, 1e3 * u_m)
         axes.plot(t, u, linestyle=line, color=color, linewidth=width, label=label)
-    axes.set_xlabel("Time [s]")
-    axes.set_ylabel("Displacement u [mm]")
+    title = f"θ = {comparison.slope_deg:g}°: history at μ = {comparison.history_mu:g}"
+    labeled(axes, "Time [s]", "Displacement u [mm]", title)
     axes.legend(loc="best", handlelength=2.8)
 
 
 def _over_mu(axes: Axes, comparison: LinkComparison) -> None:
-    looks: tuple[tuple[Floats, dict[str, Any]], ...] = (
-        (
-            comparison.prd_exact_m,
-            {"marker": "o", "linestyle": "-", "color": INK, "label": "PRD, exact"},
-        ),
-        (
-            comparison.prd_link_m,
-            {"marker": "x", "linestyle": "", "color": ACCENT, "label": "PRD, link"},
-        ),
-        (
-            comparison.rrd_exact_m,
-            {
-                "marker": "s",
-                "linestyle": _DASHED,
-                "color": INK,
-                "markerfacecolor": "white",
-                "label": "RRD, exact",
-            },
-        ),
-        (
-            comparison.rrd_link_m,
-            {"marker": "+", "linestyle": "", "color": ACCENT, "label": "RRD, link"},
-        ),
+    looks: tuple[tuple[str, Floats, str, Any, str, str], ...] = (
+        ("PRD, exact", comparison.prd_exact_m, "o", "-", INK, INK),
+        ("PRD, link", comparison.prd_link_m, "x", "", ACCENT, ACCENT),
+        ("RRD, exact", comparison.rrd_exact_m, "s", _DASHED, INK, "white"),
+        ("RRD, link", comparison.rrd_link_m, "+", "", ACCENT, ACCENT),
     )
-    for values, look in looks:
-        size = 6 if look["marker"] in "x+" else 4
-        axes.plot(comparison.mus, 1e3 * values, linewidth=0.9, markersize=size, **look)
+    for label, values, marker, line, color, fill in looks:
+        axes.plot(
+            comparison.mus,
+            1e3 * values,
+            marker=marker,
+            linestyle=line,
+            color=color,
+            markerfacecolor=fill,
+            markersize=6 if marker in "x+" else 4,
+            linewidth=0.9,
+            label=label,
+        )
     axes.set_yscale("symlog", linthresh=1.0)
-    ticks = [t for t in (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5) if t <= axes.get_ylim()[1]]
-    axes.set_yticks(ticks, [f"{t:g}" for t in ticks])
-    axes.yaxis.set_minor_locator(NullLocator())
     axes.set_ylim(0.0, None)
+    ticks(axes.yaxis, (0.0, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5))
     axes.set_xlim(0.0, None)
-    axes.set_xlabel("Friction coefficient μ")
-    axes.set_ylabel("Displacement [mm]")
+    title = f"θ = {comparison.slope_deg:g}°: all μ"
+    labeled(axes, "Friction coefficient μ", "Displacement [mm]", title)
     axes.legend(loc="best", handlelength=2.8)
 
 
@@ -177,28 +138,19 @@ def curves(study: DesignCurves) -> str:
     """Return Figs. 10 and 11: PRD against PPA for several mu, and against slope for several PPA."""
     slope = _nearest(study.slopes_deg, FIG_10_SLOPE_DEG)
     mu = _nearest(study.mus, FIG_11_MU)
+    over_ppa = [(f"μ = {m:.2g}", study.prd_m[slope, k]) for k, m in _every(study.mus)]
+    over_slope = [
+        (f"{ppa:.2g} g", study.prd_m[:, mu, k])
+        for k, ppa in _every(study.ppas_g)
+        if study.prd_m[:, mu, k].max() > 0.0
+    ]
     with style():
         figure, grid = _rows(1, 2.75, below_in=0.88)
         left, right = grid[0]
-        _family(
-            left,
-            study.ppas_g,
-            [(f"μ = {m:.2g}", study.prd_m[slope, k]) for k, m in _every(study.mus)],
-        )
-        left.set_xlabel("PPA [g]")
-        left.set_title(f"θ = {study.slopes_deg[slope]:g}°", loc="left", weight="semibold")
-        _family(
-            right,
-            study.slopes_deg,
-            [
-                (f"{ppa:.2g} g", study.prd_m[:, mu, k])
-                for k, ppa in _every(study.ppas_g)
-                if study.prd_m[:, mu, k].max() > 0.0
-            ],
-        )
-        right.set_xlabel("Slope θ [deg]")
-        right.set_title(f"μ = {study.mus[mu]:.2g}", loc="left", weight="semibold")
-        left.set_ylabel("PRD [mm]")
+        _family(left, study.ppas_g, over_ppa)
+        _family(right, study.slopes_deg, over_slope)
+        labeled(left, "PPA [g]", "PRD [mm]", f"θ = {study.slopes_deg[slope]:g}°")
+        labeled(right, "Slope θ [deg]", title=f"μ = {study.mus[mu]:.2g}")
         return svg_text(figure)
 
 
@@ -227,8 +179,6 @@ def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None
         )
     axes.set_ylim(0.0, None)
     axes.set_xlim(x[0], x[-1])
-    axes.grid(True)
-    axes.set_axisbelow(True)
     axes.legend(
         loc="upper center",
         bbox_to_anchor=(0.5, -0.22),
@@ -236,7 +186,6 @@ def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None
         handlelength=2.4,
         columnspacing=1.0,
     )
-    bare(axes)
 
 
 def contours(study: DesignCurves) -> str:

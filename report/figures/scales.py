@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
 from report.words import letters
 
@@ -30,4 +31,12 @@ def decades(axis: Axis, maximum: int = 9) -> None:
     """Label powers of ten on a logarithmic axis, at most `maximum` of them."""
     axis.set_major_locator(LogLocator(numticks=maximum))
     axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
+    axis.set_minor_locator(NullLocator())
+
+
+def ticks(axis: Axis, values: Sequence[float]) -> None:
+    """Label given values, those within the limits of the axis, and no others."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(FixedLocator([value for value in values if low <= value <= high]))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
     axis.set_minor_locator(NullLocator())

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
-
-from report.figures.base import ACCENT, INK, PALE, bare, framed, style, svg_text
+from report.figures.base import ACCENT, INK, PALE, framed, labeled, style, svg_text
+from report.figures.scales import ticks
 from solver.verification.shake_table import RATIOS, ShakeTable
 
 _TICKS = tuple(digit * 10.0**power for power in range(-1, 6) for digit in (1, 2, 5))
@@ -28,12 +27,6 @@ def computed_against_measured(table: ShakeTable) -> str:
         axes.set_xlim(low, high)
         axes.set_ylim(low, high)
         for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_locator(FixedLocator([v for v in _TICKS if low <= v <= high]))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-            axis.set_minor_locator(NullLocator())
-        axes.set_xlabel("PRD, stated [mm]")
-        axes.set_ylabel("PRD, computed [mm]")
-        axes.grid(True)
-        axes.set_axisbelow(True)
-        bare(axes)
+            ticks(axis, _TICKS)
+        labeled(axes, "PRD, stated [mm]", "PRD, computed [mm]")
         return svg_text(figure)

@@ -8,13 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from report.figures.base import GRAY, INK, PALE, WIDTH_IN, Broken, bare, style, svg_text
+from report.figures.base import GRAY, INK, PALE, Broken, labeled, panels, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades
 from solver.model import Floats
-from solver.verification.evidence import WorkPoint
+from solver.verification.evidence import WorkPoint, by_setting
 
 PANELS = (("prd_error", "PRD"), ("residual_error", "residual"))
 UNITS = {"percent": "%", "m": "m"}
@@ -40,34 +39,28 @@ def curves(points: Sequence[WorkPoint], measure: str, floor: float) -> tuple[Wor
 
     Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
     """
-    names = dict.fromkeys(point.method for point in points)
-    drawn = (
-        _curve(name, [p for p in points if p.method == name], measure, floor) for name in names
-    )
-    return tuple(curve for curve in drawn if curve.median.size)
+    drawn = []
+    for name, groups in by_setting(points).items():
+        answered = (_answered(group, measure, floor) for group in groups)
+        runs = [group for group in answered if group.size]
+        if runs:
+            drawn.append(_curve(name, runs))
+    return tuple(drawn)
 
 
-def _curve(name: str, points: Sequence[WorkPoint], measure: str, floor: float) -> WorkCurve:
-    rows = [
-        (p.setting, p.seconds, max(getattr(p, measure), floor))
-        for p in points
-        if not math.isnan(p.seconds) and not math.isnan(getattr(p, measure))
-    ]
-    settings = list(dict.fromkeys(p.setting for p in points if not math.isnan(p.setting)))
-    by_setting = [[row for row in rows if row[0] == value] for value in settings] or [rows]
-    groups = [np.array(group)[:, 1:] for group in by_setting if group]
-    if not groups:
-        empty = np.empty(0)
-        return WorkCurve(
-            method=name, seconds=empty, low=empty, median=empty, high=empty, each=empty
-        )
+def _answered(points: Sequence[WorkPoint], measure: str, floor: float) -> Floats:
+    rows = [(point.seconds, getattr(point, measure)) for point in points]
+    return np.array([(s, max(error, floor)) for s, error in rows if not math.isnan(s + error)])
+
+
+def _curve(name: str, runs: Sequence[Floats]) -> WorkCurve:
     return WorkCurve(
         method=name,
-        seconds=np.array([np.median(group[:, 0]) for group in groups]),
-        low=np.array([group[:, 1].min() for group in groups]),
-        median=np.array([np.median(group[:, 1]) for group in groups]),
-        high=np.array([group[:, 1].max() for group in groups]),
-        each=np.concatenate(groups),
+        seconds=np.array([np.median(group[:, 0]) for group in runs]),
+        low=np.array([group[:, 1].min() for group in runs]),
+        median=np.array([np.median(group[:, 1]) for group in runs]),
+        high=np.array([group[:, 1].max() for group in runs]),
+        each=np.concatenate(runs),
     )
 
 
@@ -82,21 +75,19 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
         Error of the exact method in that unit, from its checks.
     """
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.4))
-        figure.subplots_adjust(left=0.085, right=0.99, top=0.935, bottom=0.3, wspace=0.08)
-        panels = figure.subplots(1, 2, sharey=True)
-        for axes, (measure, name) in zip(panels, PANELS, strict=True):
+        margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.02, "wspace": 0.08}
+        figure, grid = panels(1, 2, 3.4, **margins, sharey=True)
+        for axes, (measure, name) in zip(grid.flat, PANELS, strict=True):
             for curve in curves(points, f"{measure}_{unit}", floor):
                 look = LOOKS[curve.method]
                 size = {"markersize": 10} if curve.method == "exact" else {}
                 axes.plot(curve.seconds, curve.median, **look.all | size)
                 if curve.method == "exact":
                     _name_floor(axes, curve)
+            labeled(axes, "Time per run [s]", title=f"Error in {name}")
             _log_axes(axes)
-            axes.set_title(f"Error in {name}", loc="left", weight="semibold")
-            axes.set_xlabel("Time per run [s]")
-        panels[0].set_ylabel(f"Median error over analysis cases [{UNITS[unit]}]")
-        handles, labels = panels[0].get_legend_handles_labels()
+        grid[0, 0].set_ylabel(f"Median error over analysis cases [{UNITS[unit]}]")
+        handles, labels = grid[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="lower center", ncols=4, handlelength=3.2)
         return svg_text(figure)
 
@@ -111,14 +102,11 @@ def _name_floor(axes: Axes, curve: WorkCurve) -> None:
     )
 
 
-def _log_axes(axes: Axes) -> None:
+def _log_axes(axes: Axes, across: int = 9, up: int = 12) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
-    decades(axes.xaxis)
-    decades(axes.yaxis, maximum=12)
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    decades(axes.xaxis, across)
+    decades(axes.yaxis, up)
 
 
 def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
@@ -129,29 +117,21 @@ def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
     rivals = [point for point in points if point.method != "exact"]
     shown = curves(rivals, f"{measure}_percent", floor)
     rows = math.ceil(len(shown) / 4)
+    margins = {"left": 0.085, "right": 0.99, "above": 0.2, "below": 0.42}
+    between = {"wspace": 0.1, "hspace": 0.22}
     with style():
-        height = 1.75 * rows + 0.45
-        figure = Figure(figsize=(WIDTH_IN, height))
-        figure.subplots_adjust(
-            left=0.085,
-            right=0.99,
-            top=1 - 0.2 / height,
-            bottom=0.42 / height,
-            wspace=0.1,
-            hspace=0.22,
+        figure, grid = panels(
+            rows, 4, 1.75 * rows + 0.45, **margins, **between, sharex=True, sharey=True
         )
-        grid = figure.subplots(rows, 4, sharex=True, sharey=True, squeeze=False)
         for axes in grid.flat[len(shown) :]:
             axes.set_axis_off()
         for axes, curve in zip(grid.flat, shown, strict=False):
             _panel(axes, curve, shown)
         for axes in grid[:, 0]:
             axes.set_ylabel("Error [%]")
-        for index in range(len(shown)):
-            if index + 4 >= len(shown):
-                axes = grid.flat[index]
-                axes.set_xlabel("Time per run [s]")
-                axes.tick_params(labelbottom=True)
+        for axes in grid.flat[max(len(shown) - 4, 0) : len(shown)]:
+            axes.set_xlabel("Time per run [s]")
+            axes.tick_params(labelbottom=True)
         return svg_text(figure)
 
 
@@ -176,7 +156,6 @@ def _panel(axes: Axes, curve: WorkCurve, shown: Sequence[WorkCurve]) -> None:
     axes.plot(curve.seconds, curve.median, **look.all | {"markersize": 3.8}, zorder=3)
     if curve.seconds.size == 1:
         axes.vlines(curve.seconds, curve.low, curve.high, color=INK, linewidth=0.8, zorder=2.5)
-    _log_axes(axes)
-    decades(axes.xaxis, maximum=5)
-    decades(axes.yaxis, maximum=6)
+    labeled(axes)
     axes.set_title(look.label, loc="left")
+    _log_axes(axes, across=5, up=6)

@@ -28,9 +28,10 @@ from solver.verification.model_evidence import (
     SECOND,
     WORST,
     ModelEvidence,
-    PlaneWork,
+    PlaneRun,
     StaticEvidence,
 )
+from solver.verification.model_study import RATE_S_PER_M, ROW_SHARES, SLOW_SHARE
 from solver.verification.static_study import (
     FALLING,
     JUMPING,
@@ -83,7 +84,7 @@ _STOP = (
     (words("Method", 3.4), lambda point: lettered(point.method)),
     (words("Setting", 1.1), lambda point: _setting(point.setting)),
     (text("Steps"), lambda point: point.steps),
-    (text("Position error", "mm", 1.3), lambda point: _position(point.error_m)),
+    (text("Position error", "mm", 1.3), lambda point: _position(point.end_error_m)),
     (text("Final velocity", "mm/s", 1.3), lambda point: two_digits(1e3 * point.end_speed_mps)),
 )
 
@@ -106,6 +107,9 @@ def models(verification: Verification) -> Section:
         template="manual/models.html",
         content={
             "LEAST_M": LEAST_M,
+            "SLOW_SHARE": SLOW_SHARE,
+            "RATE_S_PER_M": RATE_S_PER_M,
+            "ROW_SHARES": ROW_SHARES,
             "CHANGED": CHANGED,
             "FALLING": FALLING,
             "JUMPING": JUMPING,
@@ -185,7 +189,7 @@ def _powers(static: StaticEvidence) -> list[float]:
     return [math.log(np.median(more) / np.median(less)) / step for more, less in pairs]
 
 
-def _shown(points: Sequence[PlaneWork]) -> Iterator[tuple[str, PlaneWork]]:
+def _shown(points: Sequence[PlaneRun]) -> Iterator[tuple[str, PlaneRun]]:
     """Yield the runs that are shown, the first of each method with its name."""
     for name, own in by_name(points, lambda point: point.method).items():
         for count, point in enumerate(own[::2] if len(own) > 3 else own):
@@ -201,7 +205,7 @@ def _ratio(value: float) -> str:
     return number(value, 0 if value >= 10.0 else 1)
 
 
-def _error(point: PlaneWork) -> str:
+def _error(point: PlaneRun) -> str:
     return "failed" if math.isnan(point.seconds) else percent(point.error_percent)
 
 

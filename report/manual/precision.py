@@ -9,14 +9,14 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from report.document.sections import Section
-from report.document.tables import Column, Table, by_name, listed
+from report.document.tables import Column, Table, listed
 from report.entities.shown import text, words
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
 from report.words.formats import percent, seconds, slug
 from report.words.letters import lettered
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import Verification, WorkPoint
+from solver.verification.evidence import Verification, WorkPoint, by_setting
 
 LEAST_PERCENT = 1e-6
 """Smallest error drawn in the charts of single methods; smaller ones are drawn there."""
@@ -82,11 +82,8 @@ def _medians(points: Sequence[WorkPoint]) -> Table:
 
 def _shown(points: Sequence[WorkPoint]) -> Iterator[tuple[str, Sequence[WorkPoint]]]:
     """Yield the runs of each setting that is shown, the first with the name of its method."""
-    for name, own in by_name(points, lambda point: point.method).items():
-        settings = list(dict.fromkeys(p.setting for p in own if not math.isnan(p.setting)))
-        shown = settings[::2] if len(settings) > 5 else settings
-        groups = [[p for p in own if p.setting == value] for value in shown] or [own]
-        for count, group in enumerate(groups):
+    for name, groups in by_setting(points).items():
+        for count, group in enumerate(groups[::2] if len(groups) > 5 else groups):
             yield "" if count else lettered(METHODS[name].title), group
 
 

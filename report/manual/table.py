@@ -6,61 +6,59 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from solver.verification.evidence import CheckRow, Verification, WorkPoint
-from solver.verification.model_evidence import PlaneWork
+from solver.verification.evidence import Verification, WorkPoint
 
-_OF_CHECK = ("id", "section", "problem", "source", "quantity", "unit", "expected", "computed")
-_OF_RUN = {
+_COLUMNS = {
+    "kind": "kind",
+    "id": "id",
+    "section": "section",
+    "problem": "problem",
+    "source": "source",
+    "quantity": "quantity",
+    "unit": "unit",
+    "expected": "expected",
+    "computed": "computed",
+    "error": "error [-]",
+    "tolerance": "tolerance [-]",
+    "passed": "passed",
     "method": "method",
+    "parameters": "parameters",
     "record": "record",
-    "case": "scene",
-    "time per run [s]": "seconds",
-    "PRD error [m]": "prd_error_m",
-    "PRD error [%]": "prd_error_percent",
-    "residual error [m]": "residual_error_m",
-    "residual error [%]": "residual_error_percent",
+    "scene": "case",
+    "seconds": "time per run [s]",
+    "prd_error_m": "PRD error [m]",
+    "prd_error_percent": "PRD error [%]",
+    "residual_error_m": "residual error [m]",
+    "residual_error_percent": "residual error [%]",
     "status": "status",
 }
-_COLUMNS = (
-    "kind", *_OF_CHECK, "error [-]", "tolerance [-]", "passed", "method", "parameters",
-    *list(_OF_RUN)[1:],
-)  # fmt: skip
+"""Heading of each column, by the field that it has."""
 
 
 def verification_csv(verification: Verification) -> bytes:
     """Return one table: checks, runs, runs in two axes; a cell that does not apply is empty."""
-    rows = [*map(_check, verification.checks), *map(_run, verification.work)]
+    rows = [_row("check", row, passed="yes" if row.passed else "no") for row in verification.checks]
+    rows += [_row("run", point, parameters=_given(point)) for point in verification.work]
     rows += [
-        _run_in_two_axes(evidence.work_scene, point)
+        _row(
+            "run in two axes",
+            point,
+            parameters=point.setting,
+            scene=evidence.work_scene,
+            prd_error_percent=point.error_percent,
+        )
         for evidence in verification.models
         for point in evidence.work
     ]
-    text: str = pd.DataFrame(rows, columns=list(_COLUMNS)).to_csv(index=False, lineterminator="\n")
+    frame = pd.DataFrame(rows, columns=list(_COLUMNS)).rename(columns=_COLUMNS)
+    text: str = frame.to_csv(index=False, lineterminator="\n")
     return text.encode()
 
 
-def _check(row: CheckRow) -> Mapping[str, object]:
-    return {
-        "kind": "check",
-        **{name: getattr(row, name) for name in _OF_CHECK},
-        "error [-]": row.error,
-        "tolerance [-]": row.tolerance,
-        "passed": "yes" if row.passed else "no",
-    }
+def _row(kind: str, item: object, **more: str | float) -> Mapping[str, object]:
+    own = {name: getattr(item, name) for name in _COLUMNS if hasattr(item, name)}
+    return own | {"kind": kind} | more
 
 
-def _run(point: WorkPoint) -> Mapping[str, object]:
-    given = " ".join(f"{key}={value:g}" for key, value in point.parameters.items())
-    found = {column: getattr(point, name) for column, name in _OF_RUN.items()}
-    return {"kind": "run", "parameters": given, **found}
-
-
-def _run_in_two_axes(scene: str, point: PlaneWork) -> Mapping[str, object]:
-    return {
-        "kind": "run in two axes",
-        "method": point.method,
-        "parameters": point.setting,
-        "case": scene,
-        "time per run [s]": point.seconds,
-        "PRD error [%]": point.error_percent,
-    }
+def _given(point: WorkPoint) -> str:
+    return " ".join(f"{name}={value:g}" for name, value in point.parameters.items())

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from solver.building.periods import FOOT_M, approximate_period_s
-from solver.building.roof import RoofMotion, building_of_modes, building_of_periods, to_roof
+from solver.building.roof import RoofMotion, building_of_modes, to_roof
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 from solver.records.spectrum import response_spectrum
@@ -44,35 +44,19 @@ RIGID = building_of_modes([0.1], [0.05], [0.0])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FloorRecords:
-    """Motions of one building in one direction, over the same time, the roof's in the last column.
-
-    Attributes
-    ----------
-    title, description : str
-    is_recorded : bool
-        In an earthquake; otherwise computed.
-    dt_s : float
-    ground_mps2, floors_mps2 : array, shape (n,) and (n, m)
-    floors : tuple of str
-        Their ordinal numbers.
-    heights : tuple of float
-        Relative to the height of the building.
-    code_period_s : float
-        Approximate period from type and height [s]; NaN for none.
-    search_s : pair of float
-        Search range of the first period [s].
-    """
+    """Motions of one building in one direction, over the same time; the last column is the roof."""
 
     title: str
     description: str
-    is_recorded: bool
+    is_recorded: bool  # in an earthquake; otherwise computed
     dt_s: float
+    # shape (n,) and (n, m)
     ground_mps2: Floats
     floors_mps2: Floats
-    floors: tuple[str, ...]
-    heights: tuple[float, ...]
-    code_period_s: float
-    search_s: tuple[float, float]
+    floors: tuple[str, ...]  # their ordinal numbers
+    heights: tuple[float, ...]  # relative to the height of the building
+    code_period_s: float  # approximate period from type and height [s]; NaN for none
+    search_s: tuple[float, float]  # search range of the first period [s]
 
 
 def recorded_buildings(folder: Path) -> tuple[FloorRecords, ...]:
@@ -123,88 +107,56 @@ def _market_street(folder: Path) -> FloorRecords:
 
 def compare(records: FloorRecords) -> RoofComparison:
     """Predict the roof motion from the ground motion and compare it with the record."""
-    roof, dt = records.floors_mps2[:, -1], records.dt_s
+    ground, dt, roof = records.ground_mps2, records.dt_s, records.floors_mps2[:, -1]
     scale = PPA_G * STANDARD_GRAVITY_MPS2 / float(np.abs(roof).max())
-    roof_sa = response_spectrum(roof, dt, SPECTRUM_S)
-    return RoofComparison(
+    found = RoofComparison(
         title=records.title,
         description=records.description,
         is_recorded=records.is_recorded,
         dt_s=dt,
         roof_mps2=roof,
-        ground_peak_mps2=float(np.abs(records.ground_mps2).max()),
+        ground_peak_mps2=float(np.abs(ground).max()),
         periods_s=SPECTRUM_S,
-        ground_sa_mps2=response_spectrum(records.ground_mps2, dt, SPECTRUM_S),
-        roof_sa_mps2=roof_sa,
+        ground_sa_mps2=response_spectrum(ground, dt, SPECTRUM_S),
+        roof_sa_mps2=response_spectrum(roof, dt, SPECTRUM_S),
         bands_s=BANDS_S,
         slope_deg=SLOPE_DEG,
         scale=scale,
         mus=np.array(MUS),
         prd_m=_slips(roof, dt, scale),
-        predictions=(
-            *(_predict(n, f, records, scale, roof_sa) for n, f in _properties(records)),
-            _compared(
-                "ground motion applied at the roof, no building",
-                Identified(math.nan, math.nan, math.nan, math.nan),
-                to_roof(records.ground_mps2, dt, RIGID),
-                records,
-                scale,
-                roof_sa,
-            ),
-        ),
+        predictions=(),
     )
+    motions = [
+        (name, properties, to_roof(ground, dt, properties.building()))
+        for name, properties in _properties(records)
+    ]
+    unknown = Identified(math.nan, math.nan, math.nan, math.nan)
+    alone = "ground motion applied at the roof, no building"
+    motions.append((alone, unknown, to_roof(ground, dt, RIGID)))
+    return replace(found, predictions=tuple(_predicted(found, *motion) for motion in motions))
 
 
 def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
     """Properties fitted to all floors, to all but the roof, from height, and with code damping."""
     fits = []
     for count in range(len(records.floors), 0, -1):
-        fits.append(
-            identify(
-                records.ground_mps2,
-                records.dt_s,
-                records.heights[:count],
-                records.floors_mps2[:, :count],
-                records.search_s,
-            )
-        )
+        heights, floors = records.heights[:count], records.floors_mps2[:, :count]
+        fits.append(identify(records.ground_mps2, records.dt_s, heights, floors, records.search_s))
         several = "s" if count > 1 else ""
         yield f"fitted to the {' and '.join(records.floors[:count])} floor{several}", fits[-1]
     if not math.isnan(records.code_period_s):
-        yield (
-            BY_HEIGHT,
-            Identified(records.code_period_s, CODE_DAMPING, FRAME_ALPHA0, math.nan),
-        )
-        yield (
-            f"first fit, but with {100 * CODE_DAMPING:g} % damping",
-            fits[0]._replace(damping=CODE_DAMPING),
-        )
+        yield BY_HEIGHT, Identified(records.code_period_s, CODE_DAMPING, FRAME_ALPHA0, math.nan)
+        with_code_damping = fits[0]._replace(damping=CODE_DAMPING)
+        yield f"first fit, but with {100 * CODE_DAMPING:g} % damping", with_code_damping
 
 
-def _predict(
-    name: str, properties: Identified, records: FloorRecords, scale: float, roof_sa: Floats
+def _predicted(
+    found: RoofComparison, name: str, properties: Identified, motion: RoofMotion
 ) -> RoofPrediction:
-    building = building_of_periods(
-        [properties.period_s], damping=[properties.damping], alpha0=properties.alpha0
-    )
-    motion = to_roof(records.ground_mps2, records.dt_s, building)
-    return _compared(name, properties, motion, records, scale, roof_sa)
-
-
-def _compared(
-    name: str,
-    properties: Identified,
-    motion: RoofMotion,
-    records: FloorRecords,
-    scale: float,
-    roof_sa: Floats,
-) -> RoofPrediction:
-    roof = records.floors_mps2[:, -1]
     # The computed motion outlasts the record; only the recorded duration can be compared.
-    steps = round(records.dt_s / motion.dt_s)
-    a = motion.a_mps2[::steps][: roof.size]
-    sa = response_spectrum(a, records.dt_s, SPECTRUM_S)
-    ratios, scatters = _by_band(np.log(sa / roof_sa))
+    a = motion.a_mps2[:: round(found.dt_s / motion.dt_s)][: found.roof_mps2.size]
+    sa = response_spectrum(a, found.dt_s, SPECTRUM_S)
+    ratios, scatters = _by_band(np.log(sa / found.roof_sa_mps2))
     return RoofPrediction(
         name=name,
         period_s=properties.period_s,
@@ -212,13 +164,13 @@ def _compared(
         alpha0=properties.alpha0,
         n_modes=motion.n_modes,
         left_out_share=motion.left_out_share,
-        unexplained=unexplained(a, roof),
+        unexplained=unexplained(a, found.roof_mps2),
         peak_mps2=float(np.abs(a).max()),
         sa_mps2=sa,
         band_ratios=ratios,
         band_scatters=scatters,
         a_mps2=a,
-        prd_m=_slips(a, records.dt_s, scale),
+        prd_m=_slips(a, found.dt_s, found.scale),
     )
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 
@@ -103,89 +104,60 @@ def _exponential(matrix: Floats) -> Floats:
 
 
 def _steps() -> Iterator[CheckRow]:
+    source = "Oscillator of period T: 1 - exp(-D t) (cos(W t) - D / W sin(W t)) at t = 1.37 s; "
+    source += "D = zeta omega, W = damped frequency"
     for period_s, zeta in ((0.9, 0.03), (0.05, 0.2), (6.0, 0.005)):
         t, w = 1.37, 2.0 * math.pi / period_s
         kappa = math.sqrt(1.0 - zeta**2)
         wave = math.cos(kappa * w * t) - zeta / kappa * math.sin(kappa * w * t)
-        acceleration = absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0]
-        yield check(
-            "RM-1",
-            f"Unit step, T = {period_s:g} s, zeta = {zeta:g}",
-            "Oscillator of period T: 1 - exp(-D t) (cos(W t) - D / W sin(W t)) at t = 1.37 s; "
-            "D = zeta omega, W = damped frequency",
-            "Acceleration",
-            "m/s2",
-            1.0 - math.exp(-zeta * w * t) * wave,
-            float(acceleration),
-            ROUNDING,
-        )
+        expected = 1.0 - math.exp(-zeta * w * t) * wave
+        found = float(absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0])
+        name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
+        yield check("RM-1", source, "Acceleration", "m/s2", name, expected, found)
 
 
 def _steady_waves() -> Iterator[CheckRow]:
     dt, period_s, zeta = 0.001, 0.5, 0.1
+    source = "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2; one story, "
+    source += "damping ratio 0.1, step 0.001 s"
     building = building_of_periods([period_s], damping=[zeta], stories=1)
     for ratio in (0.5, 1.0, 2.0):
         w = ratio * 2.0 * math.pi / period_s
         wave = np.sin(w * dt * np.arange(round(20.0 / dt)))
         roof = roof_motion(wave, dt, building)[: wave.size]
         damped = (2.0 * zeta * ratio) ** 2
-        yield check(
-            "RM-2",
-            f"Harmonic, frequency ratio r = {ratio:g}",
-            "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2; one story, "
-            "damping ratio 0.1, step 0.001 s",
-            "Roof / ground",
-            "1",
-            math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped)),
-            float(np.abs(roof[-round(1.0 / dt) :]).max()),
-            1e-4,
-        )
+        expected = math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped))
+        found = float(np.abs(roof[-round(1.0 / dt) :]).max())
+        name = f"Harmonic, frequency ratio r = {ratio:g}"
+        yield check("RM-2", source, "Roof / ground", "1", name, expected, found, 1e-4)
 
 
 def _limits() -> Iterator[CheckRow]:
+    table = "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma"
+    closed = "Shear beam: 2 n - 1, and 4 / ((2 n - 1) pi) with alternating sign"
     bending, shear = beam_modes(0.0, 3), beam_modes(math.inf, 3)
     first = _BENDING[0][0]
     for n, (gamma, sigma) in enumerate(_BENDING, start=1):
-        sign = (-1) ** (n - 1)
-        for id, name, source, modes, ratio, factor, tolerance in (
-            (
-                "RM-3",
-                "bending",
-                "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma",
-                bending,
-                (gamma / first) ** 2,
-                sign * 4.0 * sigma / gamma,
-                1e-8,
-            ),
-            (
-                "RM-4",
-                "shear",
-                "Shear beam: 2 n - 1, and 4 / ((2 n - 1) pi) with alternating sign",
-                shear,
-                2.0 * n - 1.0,
-                sign * 4.0 / ((2.0 * n - 1.0) * math.pi),
-                ROUNDING,
-            ),
-        ):
-            problem = f"Cantilever in {name}, mode {n}"
-            yield from _mode(id, problem, source, modes, n, ratio, factor, tolerance)
+        sign, odd = (-1) ** (n - 1), 2.0 * n - 1.0
+        ratio, factor = (gamma / first) ** 2, sign * 4.0 * sigma / gamma
+        yield from _mode("RM-3", table, "Cantilever in bending", bending, n, ratio, factor, 1e-8)
+        factor = sign * 4.0 / (odd * math.pi)
+        yield from _mode("RM-4", closed, "Cantilever in shear", shear, n, odd, factor, ROUNDING)
 
 
 def _coupled() -> Iterator[CheckRow]:
     source = "64 cubic finite elements with consistent mass"
     for alpha0 in (2.0, 12.0):
-        ratios, factors = _finite_elements(alpha0)
-        modes = beam_modes(alpha0, 3)
-        for n in (1, 2, 3):
-            problem = f"Cantilever, stiffness ratio {alpha0:g}, mode {n}"
-            ratio, factor = ratios[n - 1], factors[n - 1]
-            yield from _mode("RM-5", problem, source, modes, n, ratio, factor, 1e-5)
+        name, modes = f"Cantilever, stiffness ratio {alpha0:g}", beam_modes(alpha0, 3)
+        expected = zip(*_finite_elements(alpha0), strict=True)
+        for n, (ratio, factor) in enumerate(islice(expected, 3), start=1):
+            yield from _mode("RM-5", source, name, modes, n, ratio, factor, 1e-5)
 
 
 def _mode(
     id: str,
-    problem: str,
     source: str,
+    problem: str,
     modes: Modes,
     n: int,
     ratio: float,
@@ -193,12 +165,12 @@ def _mode(
     tolerance: float,
 ) -> Iterator[CheckRow]:
     """Yield the rows of a mode: period ratio, 1 by definition for the first, and factor."""
+    name = f"{problem}, mode {n}"
     if n > 1:
-        inverse = float(1.0 / modes.period_ratios[n - 1])
-        quantity = "Period ratio T1 / Tn"
-        yield check(id, problem, source, quantity, "1", ratio, inverse, tolerance)
-    computed = float(modes.factors[n - 1, 0])
-    yield check(id, problem, source, "Roof factor", "1", factor, computed, tolerance)
+        found = float(1.0 / modes.period_ratios[n - 1])
+        yield check(id, source, "Period ratio T1 / Tn", "1", name, ratio, found, tolerance)
+    found = float(modes.factors[n - 1, 0])
+    yield check(id, source, "Roof factor", "1", name, factor, found, tolerance)
 
 
 def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:
@@ -225,68 +197,46 @@ def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[
 
 
 def _sums() -> Iterator[CheckRow]:
-    for alpha0, name in (
+    source = "1, the limit of a rigid building; mean of the sums of 399 and 400 modes"
+    for alpha0, kind in (
         (0.0, " in bending"),
         (6.0, ", stiffness ratio 6"),
         (math.inf, " in shear"),
     ):
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
-        yield check(
-            "RM-6",
-            f"Cantilever{name}, all modes",
-            "1, the limit of a rigid building; mean of the sums of 399 and 400 modes",
-            "Sum of roof factors",
-            "1",
-            1.0,
-            float(0.5 * (sums[-1] + sums[-2])),
-            1e-4,
-        )
+        found, name = float(0.5 * (sums[-1] + sums[-2])), f"Cantilever{kind}, all modes"
+        yield check("RM-6", source, "Sum of roof factors", "1", name, 1.0, found, 1e-4)
 
 
 def _stories() -> Iterator[CheckRow]:
+    source = "Mode shape sin((2 n - 1) pi k / (2 N + 1)) at floor k"
     for stories in (1, 2, 5):
         angle = math.pi / (2.0 * stories + 1.0)
         shape = np.sin(angle * np.arange(1, stories + 1))
-        modes = story_modes(math.inf, stories)
-        yield check(
-            "RM-7",
-            f"Shear building, stories: {stories}, first mode",
-            "Mode shape sin((2 n - 1) pi k / (2 N + 1)) at floor k",
-            "Roof factor",
-            "1",
-            float(shape.sum() * shape[-1] / (shape**2).sum()),
-            float(modes.factors[0, 0]),
-            1e-9,
-        )
+        expected = float(shape.sum() * shape[-1] / (shape**2).sum())
+        found = float(story_modes(math.inf, stories).factors[0, 0])
+        name = f"Shear building, stories: {stories}, first mode"
+        yield check("RM-7", source, "Roof factor", "1", name, expected, found, 1e-9)
 
 
 def _whole_building(made: FloorRecords) -> CheckRow:
     building = building_of_periods([PERIOD_S], damping=[DAMPING], alpha0=ALPHA0, stories=STORIES)
     roof = roof_motion(made.ground_mps2, made.dt_s, building, share=0.0)
     stepped = made.floors_mps2[:, -1]
-    off = float(np.abs(roof[: stepped.size] - stepped).max())
-    return check(
-        "RM-8",
-        "Model building, all modes",
-        "Direct integration of all floors by one matrix exponential",
-        "Largest difference / peak",
-        "1",
-        0.0,
-        off / float(np.abs(stepped).max()),
-        1e-7,
-    )
+    off = float(np.abs(roof[: stepped.size] - stepped).max() / np.abs(stepped).max())
+    name = "Model building, all modes"
+    source = "Direct integration of all floors by one matrix exponential"
+    return check("RM-8", source, "Largest difference / peak", "1", name, 0.0, off, 1e-7)
 
 
 def _identified(comparison: RoofComparison) -> Iterator[CheckRow]:
-    best = comparison.predictions[0]
+    best, name = comparison.predictions[0], "Model building, fitted"
     source = "Properties of the model building, as a beam half a story taller; fitted to two floors"
     ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
-    for quantity, unit, expected, value, tolerance in (
+    for quantity, unit, expected, found, tolerance in (
         ("First period", "s", PERIOD_S, best.period_s, 0.005),
         ("Damping", "1", DAMPING, best.damping, 0.02),
         ("Lateral stiffness ratio", "1", ratio, best.alpha0, 0.025),
         ("Unexplained fraction", "1", 0.0, best.unexplained, 0.01),
     ):
-        yield check(
-            "RM-9", "Model building, fitted", source, quantity, unit, expected, value, tolerance
-        )
+        yield check("RM-9", source, quantity, unit, name, expected, found, tolerance)

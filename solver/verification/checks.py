@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -26,6 +27,10 @@ G = 9.81
 ROUNDING = 1e-12
 """Tolerance where the expected and computed values differ by rounding error only."""
 
+PIECEWISE = "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps"
+"""Source of the checks with pulses."""
+
+_DOWNSLOPE = "Downslope slip, horizontal", "m"
 
 SECTIONS = {
     "CF": "Closed forms",
@@ -42,13 +47,13 @@ SECTIONS = {
 
 def check(
     id: str,
-    problem: str,
     source: str,
     quantity: str,
     unit: str,
+    problem: str,
     expected: float,
     computed: float,
-    tolerance: float,
+    tolerance: float = ROUNDING,
     of: float = 0.0,
 ) -> CheckRow:
     """Return the row; the error is relative to `of`, else to `expected`; absolute if both are 0."""
@@ -70,11 +75,11 @@ def check(
 
 def slip_checks(
     id: str,
-    problem: str,
     source: str,
+    problem: str,
     expected: SlideResult | Reference,
     result: SlideResult,
-    tolerance: float,
+    tolerance: float = ROUNDING,
 ) -> Iterator[CheckRow]:
     """Yield the rows of PRD and residual.
 
@@ -84,7 +89,7 @@ def slip_checks(
         ("PRD", expected.prd_m, result.prd_m),
         ("Residual (error relative to the PRD)", expected.residual_m, result.residual_m),
     ):
-        yield check(id, problem, source, quantity, "m", known, value, tolerance, of=expected.prd_m)
+        yield check(id, source, quantity, "m", problem, known, value, tolerance, expected.prd_m)
 
 
 def trapezoid(peak: float, plateau: int, rest: int, ramp: int = 1) -> Floats:
@@ -105,71 +110,41 @@ def closed_forms() -> Iterator[CheckRow]:
 
 
 def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
-    dt = 0.01
+    dt, ramps = 0.01, 3000
+    newmark = f"Newmark, Geotechnique 15 (1965); each ramp is 1/{ramps} of the pulse"
     for a, mu, lasts in ((0.4, 0.1, 0.2), (0.5, 0.2, 0.3), (1.0, 0.4, 0.1)):
         name = f"A = {a:g} g for {lasts:g} s, mu = {mu:g}, flat roof"
         plateau = round(lasts / dt)
         expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
         result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
-        source = "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps"
-        yield check(
-            "CF-1",
-            f"Trapezoidal pulse {name}",
-            source,
-            "PRD",
-            "m",
-            expected,
-            result.prd_m,
-            ROUNDING,
-        )
-        ramps = 3000
-        newmark = (a * G * lasts) ** 2 / (2.0 * G * mu) * (1.0 - mu / a)
+        pulse = f"Trapezoidal pulse {name}"
+        yield check("CF-1", PIECEWISE, "PRD", "m", pulse, expected, result.prd_m)
+        expected = (a * G * lasts) ** 2 / (2.0 * G * mu) * (1.0 - mu / a)
         ax = trapezoid(-a * G, ramps - 1, 10 * ramps)
         result = slide(ax, lasts / ramps, slope_rad=0.0, mu=mu, g_mps2=G)
         # A ramp shortens the slip by mu / A of its length; the factor 1.5 is a margin on that.
         tolerance = 1.5 * mu / a / ramps
-        source = "Newmark, Geotechnique 15 (1965); each ramp is 1/3000 of the pulse"
-        yield check(
-            "CF-2",
-            f"Rectangular pulse {name}",
-            source,
-            "PRD",
-            "m",
-            newmark,
-            result.prd_m,
-            tolerance,
-        )
+        pulse = f"Rectangular pulse {name}"
+        yield check("CF-2", newmark, "PRD", "m", pulse, expected, result.prd_m, tolerance)
 
 
 def _pulses_on_a_slope() -> Iterator[CheckRow]:
     dt = 0.01
+    row = partial(check, "CF-3", PIECEWISE, *_DOWNSLOPE)
     for degrees, mu, a, lasts in ((5, 0.4, 0.6, 0.3), (10, 0.5, 0.8, 0.15)):
         slope, plateau = math.radians(degrees), round(lasts / dt)
         for b in (0.0, -0.3, 0.3):
             drive, resist = problems.slope_pulse(slope, mu, a, b, G)
             expected = problems.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
-            result = slide(
-                trapezoid(-a * G, plateau, 900),
-                dt,
-                slope_rad=slope,
-                mu=mu,
-                az_mps2=trapezoid(b * G, plateau, 900),
-                g_mps2=G,
-            )
-            yield check(
-                "CF-3",
-                f"Trapezoidal pulse A = {a:g} g, vertical {b:g} g, for {lasts:g} s, mu = {mu:g}, "
-                f"slope {degrees} deg",
-                "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps",
-                "Downslope slip, horizontal",
-                "m",
-                expected,
-                result.down_m,
-                ROUNDING,
-            )
+            ax, az = (trapezoid(peak * G, plateau, 900) for peak in (-a, b))
+            result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, g_mps2=G)
+            name = f"Trapezoidal pulse A = {a:g} g, vertical {b:g} g, for {lasts:g} s, "
+            yield row(f"{name}mu = {mu:g}, slope {degrees} deg", expected, result.down_m)
 
 
 def _half_sines() -> Iterator[CheckRow]:
+    chords = "Closed-form integration of the sine; record sampled at 400 points"
+    second = "Errors with 200 and 400 samples: linear interpolation is second order"
     for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
         expected = problems.half_sine_travel(a, mu, freq, G)
         name = f"Half-sine pulse A = {a:g} g, {freq:g} Hz, mu = {mu:g}, flat roof"
@@ -179,13 +154,11 @@ def _half_sines() -> Iterator[CheckRow]:
             pulse = a * G * np.sin(np.pi * np.arange(steps + 1) / steps)
             ax = np.concatenate([pulse, np.zeros(40 * steps)])
             travels_m.append(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m)
-        source = "Closed-form integration of the sine; record sampled at 400 points"
         # Straight chords of a sine lose the share (step in radians)^2 / 12 of its area.
         tolerance = 2.0 * a / mu * (math.pi / 400) ** 2 / 12.0
-        yield check("CF-4", name, source, "PRD", "m", expected, travels_m[-1], tolerance)
+        yield check("CF-4", chords, "PRD", "m", name, expected, travels_m[-1], tolerance)
         order = math.log2(abs(travels_m[1] - expected) / abs(travels_m[2] - expected))
-        source = "Errors with 200 and 400 samples: linear interpolation is second order"
-        yield check("CF-5", name, source, "Order of convergence", "1", 2.0, order, 0.025)
+        yield check("CF-5", second, "Order of convergence", "1", name, 2.0, order, 0.025)
 
 
 def _harmonic() -> CheckRow:
@@ -195,10 +168,10 @@ def _harmonic() -> CheckRow:
     stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
     return check(
         "CF-6",
-        "Steady-state harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
         "(2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A; sampled at 0.0005 s",
         "Travel per half cycle",
         "m",
+        "Steady-state harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
         problems.harmonic_travel(0.5, 0.2, 1.0, G),
         abs(stops[-1] - stops[-2]) if len(stops) > 1 else math.nan,
         1e-5,
@@ -210,33 +183,20 @@ def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> CheckRow:
     steps = round(time_s / 0.01)
     result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
     expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
-    return check(
-        id,
-        f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s",
-        "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2",
-        "Downslope slip, horizontal",
-        "m",
-        expected,
-        result.down_m,
-        ROUNDING,
-    )
+    name = f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s"
+    source = "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2"
+    return check(id, source, *_DOWNSLOPE, name, expected, result.down_m)
 
 
 def _yield_accelerations() -> Iterator[CheckRow]:
+    source = "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); computed by bisection"
+    row = partial(check, "CF-8", source, "Yield acceleration", "m/s2", tolerance=1e-9)
     for degrees, mu in ((0.0, 0.4), (4.0, 0.4), (-7.0, 0.2), (30.0, 1.0)):
         slope = math.radians(degrees)
         limits = problems.yield_accelerations(slope, mu, G)
-        for name, limit in zip(("downslope", "upslope"), limits, strict=True):
-            yield check(
-                "CF-8",
-                f"Slope {degrees:g} deg, mu = {mu:g}: onset of {name} slip",
-                "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); computed by bisection",
-                "Yield acceleration",
-                "m/s2",
-                limit,
-                _limit_by_bisection(slope, mu, limit),
-                1e-9,
-            )
+        for way, limit in zip(("downslope", "upslope"), limits, strict=True):
+            name = f"Slope {degrees:g} deg, mu = {mu:g}: onset of {way} slip"
+            yield row(name, limit, _limit_by_bisection(slope, mu, limit))
 
 
 def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
@@ -252,37 +212,30 @@ def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
 
 def _self_locking() -> CheckRow:
     ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
-    return check(
-        "CF-9",
-        "Self-locking: slope 60 deg, mu = 3, horizontal acceleration 50 m/s2",
-        "mu sin(theta) >= cos(theta): no horizontal acceleration causes slip",
-        "PRD",
-        "m",
-        0.0,
-        slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G).prd_m,
-        0.0,
-    )
+    prd_m = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G).prd_m
+    name = "Self-locking: slope 60 deg, mu = 3, horizontal acceleration 50 m/s2"
+    source = "mu sin(theta) >= cos(theta): no horizontal acceleration causes slip"
+    return check("CF-9", source, "PRD", "m", name, 0.0, prd_m, 0.0)
 
 
 def physical_checks(record: Record) -> Iterator[CheckRow]:
     """Run the four physical checks of the paper."""
     slope, dt = math.radians(30), 0.01
-    source = "Paper, Physical Checks (1): slope 30 deg, mu = 1"
+    row = partial(check, "PH-1", "Paper, Physical Checks (1): slope 30 deg, mu = 1", "PRD", "m")
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
-    yield check("PH-1", "No shaking: no slip", source, "PRD", "m", 0.0, still.prd_m, 0.0)
+    yield row("No shaking: no slip", 0.0, still.prd_m, 0.0)
     drive, resist = problems.slope_pulse(slope, 1.0, 0.6, 0.0, G)
     expected = problems.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
     loose = slide(trapezoid(-0.6 * G, 30, 900), dt, slope_rad=slope, mu=1.0, g_mps2=G)
-    name = "A pulse of 0.6 g for 0.3 s causes slip"
-    yield check("PH-1", name, source, "PRD", "m", expected, loose.prd_m, ROUNDING)
+    yield row("A pulse of 0.6 g for 0.3 s causes slip", expected, loose.prd_m)
     yield _free_slide("PH-2", 7.0, 0.1, 5.0)
     down, up = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
     yield check(
         "PH-3",
-        f"Slopes 4 and -4 deg, mu = 0.4, {record.name}, PPA = 1.5 g",
         "Paper, Physical Checks (3): the deflections differ",
         "PRDs differ by more than 1 % (1 = yes)",
         "1",
+        f"Slopes 4 and -4 deg, mu = 0.4, {record.name}, PPA = 1.5 g",
         1.0,
         float(abs(down.prd_m - up.prd_m) > 0.01 * max(down.prd_m, up.prd_m)),
         0.0,
@@ -293,19 +246,13 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
 def _critical_friction() -> Iterator[CheckRow]:
     slope, time_s = math.radians(0.5), 5.0
     source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
-    for factor in (0.999, 1.0):
-        mu = factor * math.tan(slope)
-        expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
+    less, just = 0.999 * math.tan(slope), math.tan(slope)
+    travel_m = problems.free_slide_travel(slope, less, time_s, G) * math.cos(slope)
+    for factor, mu, expected, tolerance in (
+        # sin - mu cos cancels to a thousandth of sin, which costs three digits.
+        (0.999, less, travel_m, 1e-11),
+        (1.0, just, 0.0, ROUNDING),
+    ):
         result = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
         name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
-        # sin - mu cos cancels to a thousandth of sin, which costs three digits.
-        yield check(
-            "PH-4",
-            name,
-            source,
-            "PRD",
-            "m",
-            expected if factor < 1.0 else 0.0,
-            result.prd_m,
-            1e-11 if factor < 1.0 else ROUNDING,
-        )
+        yield check("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from solver.rules.provisions import (
 from solver.sliding.checked import scene
 from solver.sliding.tipping import Supports, tipping
 from solver.sliding.uplift import uplift
-from solver.verification.checks import ROUNDING, check
+from solver.verification.checks import check
 from solver.verification.evidence import CheckRow
 
 _INCH, _FOOT = 0.0254, 0.3048
@@ -51,30 +52,27 @@ def design_checks() -> Iterator[CheckRow]:
 
 
 def _prescriptive() -> Iterator[CheckRow]:
+    source = "60 in (S_DS - 0.4)^2 >= 6 in; 5 I_e (S_DS - 0.4)^2 ft >= 24 in"
+    row = partial(check, "DV-1", source, "Prescriptive displacement", "in")
     for code, s_ds_g, importance, inches in (
         ("SEAOC PV1-2012", 1.0, 1.25, 60.0 * 0.6**2),
         ("SEAOC PV1-2012", 0.6, 1.0, 6.0),
         ("ASCE 7-16", 1.5, 1.25, 12.0 * 5.0 * 1.25 * 1.1**2),
         ("ASCE 7-22", 1.0, 1.0, 24.0),
     ):
-        found = prescriptive_displacement(
-            RULE_SETS[code], s_ds_g=s_ds_g, sdc="D", importance=importance
-        )
-        yield check(
-            "DV-1",
-            f"{code}, SDC D, S_DS = {s_ds_g:g} g, I_e = {importance:g}",
-            "60 in (S_DS - 0.4)^2 >= 6 in; 5 I_e (S_DS - 0.4)^2 ft >= 24 in",
-            "Prescriptive displacement",
-            "in",
-            inches,
-            found.value_m / _INCH,
-            ROUNDING,
-        )
+        found_m = _displacement_m(code, s_ds_g, importance)
+        name = f"{code}, SDC D, S_DS = {s_ds_g:g} g, I_e = {importance:g}"
+        yield row(name, inches, found_m / _INCH)
+
+
+def _displacement_m(code: str, s_ds_g: float, importance: float) -> float:
+    rules = RULE_SETS[code]
+    return prescriptive_displacement(rules, s_ds_g=s_ds_g, sdc="D", importance=importance).value_m
 
 
 def _published() -> Iterator[CheckRow]:
-    rules = RULE_SETS["SEAOC PV1-2012"]
-    delta_m = prescriptive_displacement(rules, s_ds_g=1.0, sdc="D", importance=1.25).value_m
+    rules, row = RULE_SETS["SEAOC PV1-2012"], partial(check, "DV-2", _PUBLISHED)
+    delta_m = _displacement_m("SEAOC PV1-2012", 1.0, 1.25)
     for kind, importance, inches in (
         (Neighbor.LIKE, 1.0, 10.8),
         (Neighbor.FIXED, 1.0, 21.6),
@@ -82,21 +80,17 @@ def _published() -> Iterator[CheckRow]:
         (Neighbor.EDGE, 1.25, 40.5),
     ):
         found_m = required_separation(rules, kind, design_m=delta_m, importance=importance)
-        yield check(
-            "DV-2", f"Separation from a neighbor: {kind}", _PUBLISHED, "Separation", "in", inches,
-            found_m / _INCH, _PRINTED,
-        )  # fmt: skip
+        name = f"Separation from a neighbor: {kind}"
+        yield row("Separation", "in", name, inches, found_m / _INCH, _PRINTED)
     for weight_lb, strength_lb in ((2691.7, 358.0), (827.1, 110.0)):
-        yield check(
-            "DV-2", f"Interconnection, {weight_lb:g} lb on the lighter side", _PUBLISHED,
-            "Strength", "lb", strength_lb,
-            interconnection_strength_n(rules, s_ds_g=1.0, w1_n=weight_lb), _PRINTED,
-        )  # fmt: skip
+        found_lb = interconnection_strength_n(rules, s_ds_g=1.0, w1_n=weight_lb)
+        name = f"Interconnection, {weight_lb:g} lb on the lighter side"
+        yield row("Strength", "lb", name, strength_lb, found_lb, _PRINTED)
 
 
 def _permit_sheet() -> Iterator[CheckRow]:
-    rules, s_ds_g = RULE_SETS["ASCE 7-16"], 2.0 / 3.0 * 1.2 * 1.313
-    delta_m = prescriptive_displacement(rules, s_ds_g=s_ds_g, sdc="D", importance=1.0).value_m
+    rules, by_hand = RULE_SETS["ASCE 7-16"], "By hand: larger of 0.133 S_DS W1 and 0.1 W1"
+    delta_m = _displacement_m("ASCE 7-16", 2.0 / 3.0 * 1.2 * 1.313, 1.0)
     for kind, feet in (
         (Neighbor.LIKE, 1.06),
         (Neighbor.FIXED, 2.12),
@@ -104,86 +98,66 @@ def _permit_sheet() -> Iterator[CheckRow]:
         (Neighbor.EDGE, 4.23),
     ):
         found_m = required_separation(rules, kind, design_m=delta_m, importance=1.0)
-        yield check(
-            "DV-8", f"Separation from a neighbor, ASCE 7-16: {kind}", _SHEET, "Separation", "ft",
-            feet, found_m / _FOOT, 0.005 / feet,
-        )  # fmt: skip
+        name, found_ft = f"Separation from a neighbor, ASCE 7-16: {kind}", found_m / _FOOT
+        yield check("DV-8", _SHEET, "Separation", "ft", name, feet, found_ft, 0.005 / feet)
     for s_ds_g, factor in ((1.5, 0.133 * 1.5), (0.5, 0.1)):
-        yield check(
-            "DV-8", f"Interconnection, 1000 lb on the lighter side, S_DS = {s_ds_g:g} g",
-            "By hand: larger of 0.133 S_DS W1 and 0.1 W1", "Strength", "lb", 1000.0 * factor,
-            interconnection_strength_n(rules, s_ds_g=s_ds_g, w1_n=1000.0), ROUNDING,
-        )  # fmt: skip
+        found_lb = interconnection_strength_n(rules, s_ds_g=s_ds_g, w1_n=1000.0)
+        name = f"Interconnection, 1000 lb on the lighter side, S_DS = {s_ds_g:g} g"
+        yield check("DV-8", by_hand, "Strength", "lb", name, 1000.0 * factor, found_lb)
 
 
 def _statistics() -> Iterator[CheckRow]:
-    for peaks_m, words, expected in (
+    for peaks_m, words, expected_m in (
         ((1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0), "7 motions: 1.1 x mean", 1.1 * 4.0),
         ((1.0, 2.0, 3.0), "3 motions: 1.1 x largest", 1.1 * 3.0),
     ):
-        found = analysis_value(RULE_SETS["ASCE 7-16"], peaks_m)
-        yield check(
-            "DV-3", f"Peaks of 1 m to {len(peaks_m)} m, {words}", "By hand", "Value from analysis",
-            "m", expected, found.value_m, ROUNDING,
-        )  # fmt: skip
+        found_m = analysis_value(RULE_SETS["ASCE 7-16"], peaks_m).value_m
+        name = f"Peaks of 1 m to {len(peaks_m)} m, {words}"
+        yield check("DV-3", "By hand", "Value from analysis", "m", name, expected_m, found_m)
 
 
 def _uplift() -> CheckRow:
-    g = STANDARD_GRAVITY_MPS2
-    rising = scene(
-        np.zeros(3),
-        1.0,
-        slope_rad=math.radians(5.0),
-        mu=0.4,
-        az_mps2=np.array([0.0, -2.0, 0.0]) * g,
-    )
-    return check(
-        "DV-4", "Vertical acceleration falls to -2 g within 1 s, slope 5 deg",
-        "N = (g + a_v) cos(theta): zero after 0.5 s", "Time of uplift", "s", 0.5,
-        uplift(rising).t_first_s, ROUNDING,
-    )  # fmt: skip
+    az = np.array([0.0, -2.0, 0.0]) * STANDARD_GRAVITY_MPS2
+    rising = scene(np.zeros(3), 1.0, slope_rad=math.radians(5.0), mu=0.4, az_mps2=az)
+    name = "Vertical acceleration falls to -2 g within 1 s, slope 5 deg"
+    source = "N = (g + a_v) cos(theta): zero after 0.5 s"
+    return check("DV-4", source, "Time of uplift", "s", name, 0.5, uplift(rising).t_first_s)
 
 
 def _tipping() -> Iterator[CheckRow]:
+    row = partial(
+        check, "DV-5", "min(a_h / g, mu) / (b / (2 h))", "Ratio of shear to tipping shear"
+    )
     # Tall and rough enough to tip before it slides; then the same with less friction.
     supports = Supports(height_m=1.0, spacing_m=1.5)
+    ax = 0.5 * STANDARD_GRAVITY_MPS2 * np.array([0.0, 1.0, 0.0])
     for mu, shear in ((2.0, 0.5), (0.3, 0.3)):
-        push = scene(
-            0.5 * STANDARD_GRAVITY_MPS2 * np.array([0.0, 1.0, 0.0]), 0.5, slope_rad=0.0, mu=mu
-        )
-        yield check(
-            "DV-5", f"Pulse of 0.5 g, flat roof, mu = {mu:g}, h = 1 m, b = 1.5 m",
-            "min(a_h / g, mu) / (b / (2 h))", "Ratio of shear to tipping shear", "1", shear / 0.75,
-            tipping(push, supports).ratio, ROUNDING,
-        )  # fmt: skip
+        found = tipping(scene(ax, 0.5, slope_rad=0.0, mu=mu), supports).ratio
+        name = f"Pulse of 0.5 g, flat roof, mu = {mu:g}, h = 1 m, b = 1.5 m"
+        yield row("1", name, shear / 0.75, found)
 
 
 def _spectrum() -> Iterator[CheckRow]:
     zeta, dt = 0.05, 0.001
+    source = "1 + exp(-zeta pi / sqrt(1 - zeta^2)); sampled at 0.001 s"
     expected = 1.0 + math.exp(-zeta * math.pi / math.sqrt(1.0 - zeta**2))
     for period_s in (0.1, 1.0):
         found = response_spectrum(np.ones(round(3.0 * period_s / dt)), dt, [period_s])
-        yield check(
-            "DV-6", f"Unit step, T = {period_s:g} s, zeta = {zeta:g}",
-            "1 + exp(-zeta pi / sqrt(1 - zeta^2)); sampled at 0.001 s", "S_a / a", "1", expected,
-            float(found[0]), 1e-5,
-        )  # fmt: skip
+        name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
+        yield check("DV-6", source, "S_a / a", "1", name, expected, float(found[0]), 1e-5)
 
 
 def _filters() -> Iterator[CheckRow]:
+    source = "1 / sqrt(1 + (f / fc)^(2 n)), or with fc / f; middle of a sine of 200 s"
     dt, t = 0.005, np.arange(40001) * 0.005
-    for name, settings, sign in (
+    for kind, settings, sign in (
         ("High-pass", Processing(highpass_hz=_FILTER_HZ, order=_FILTER_ORDER), -1.0),
         ("Low-pass", Processing(lowpass_hz=_FILTER_HZ, order=_FILTER_ORDER), 1.0),
     ):
         for ratio in (0.5, 1.0, 2.0):
             wave = np.sin(2.0 * math.pi * ratio * _FILTER_HZ * t)
             made = process(Record(name="wave", a_mps2=wave, dt_s=dt), settings).a_mps2
-            middle = made[made.size // 2 - 4000 : made.size // 2 + 4000]
-            yield check(
-                "DV-7", f"{name} of order {_FILTER_ORDER}, sine at {ratio:g} times the corner",
-                "1 / sqrt(1 + (f / fc)^(2 n)), or with fc / f; middle of a sine of 200 s",
-                "Amplitude", "1",
-                1.0 / math.sqrt(1.0 + ratio ** (sign * 2 * _FILTER_ORDER)),
-                float(np.abs(middle).max()), 1e-9,
-            )  # fmt: skip
+            found = float(np.abs(made[made.size // 2 - 4000 : made.size // 2 + 4000]).max())
+            expected = 1.0 / math.sqrt(1.0 + ratio ** (sign * 2 * _FILTER_ORDER))
+            name = f"{kind} of order {_FILTER_ORDER}, sine at {ratio:g} times the corner"
+            yield check("DV-7", source, "Amplitude", "1", name, expected, found, 1e-9)

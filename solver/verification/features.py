@@ -37,28 +37,17 @@ def _static(test: TableTest) -> bool:
     return not _has_one_coefficient(test)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Feature:
-    """What the program does, and what shows that it does it right.
-
-    Attributes
-    ----------
-    name : str
-    checks : tuple of str
-        Ids of checks that verify it; empty if no check of the manual does.
-    extra : tuple of str
-        Ids of checks that count where they can run: they need SciPy.
-    validated_by : callable
-        Which tests of a shake table would validate it.
-    only : str
-        What the checks do not cover, or what covers it instead.
-    """
+    """What the program does, and what shows that it does it right."""
 
     name: str
+    # ids of checks that verify it; empty if no check of the manual does
     checks: tuple[str, ...] = ()
-    extra: tuple[str, ...] = ()
+    extra: tuple[str, ...] = ()  # ids of checks that count where they can run: they need SciPy
+    # which tests of a shake table would validate it
     validated_by: Callable[[TableTest], bool] = _no_test
-    only: str = ""
+    only: str = ""  # what the checks do not cover, or what covers it instead
 
 
 def _ids(letters: str, last: int, first: int = 1) -> tuple[str, ...]:
@@ -69,102 +58,74 @@ _TESTS_ONLY = "Automatic tests only"
 
 FEATURES = (
     Feature(
-        name="Sliding in one axis",
-        checks=(*_ids("CF", 9), *_ids("PH", 4), "DA-1", *_ids("SY", 5)),
+        "Sliding in one axis",
+        (*_ids("CF", 9), *_ids("PH", 4), "DA-1", *_ids("SY", 5)),
         validated_by=_one_axis,
     ),
+    Feature("Sliding in one axis with vertical shaking", ("CF-3", "DA-1"), validated_by=_vertical),
+    Feature("Sliding in two axes", _ids("TA", 5), extra=("TA-13",), validated_by=_two_axes),
+    Feature("Error bound in two axes, one coefficient", ("TA-11",), extra=("TA-13",)),
     Feature(
-        name="Sliding in one axis with vertical shaking",
-        checks=("CF-3", "DA-1"),
-        validated_by=_vertical,
-    ),
-    Feature(
-        name="Sliding in two axes",
-        checks=_ids("TA", 5),
-        extra=("TA-13",),
-        validated_by=_two_axes,
-    ),
-    Feature(name="Error bound in two axes, one coefficient", checks=("TA-11",), extra=("TA-13",)),
-    Feature(
-        name="Velocity-dependent friction",
-        checks=("TA-6", "TA-11"),
+        "Velocity-dependent friction",
+        ("TA-6", "TA-11"),
         only="Small dependence, random pairs; no closed form",
     ),
     Feature(
-        name="Static friction above kinetic",
-        checks=("TA-7", "TA-8"),
+        "Static friction above kinetic",
+        ("TA-7", "TA-8"),
         validated_by=_static,
         only="Small difference; no closed form",
     ),
     Feature(
-        name="Row of linked blocks",
-        checks=("TA-9",),
+        "Row of linked blocks",
+        ("TA-9",),
         only="Rows that move as one block; loaded links: automatic tests",
     ),
-    Feature(name="Choice of the simplest adequate model", checks=("TA-10", "TA-12")),
-    Feature(name="Uplift", checks=("DV-4",)),
-    Feature(name="Tipping", checks=("DV-5",)),
+    Feature("Choice of the simplest adequate model", ("TA-10", "TA-12")),
+    Feature("Uplift", ("DV-4",)),
+    Feature("Tipping", ("DV-5",)),
     Feature(
-        name="Roof motion from ground motion",
-        checks=_ids("RM", 9),
+        "Roof motion from ground motion",
+        _ids("RM", 9),
         only="Elastic, uniform building; recorded ones in section 11",
     ),
-    Feature(name="Response spectra", checks=("DV-6",)),
+    Feature("Response spectra", ("DV-6",)),
+    Feature("Filters of records", ("DV-7",), only="Other processing: automatic tests only"),
     Feature(
-        name="Filters of records",
-        checks=("DV-7",),
-        only="Other processing: automatic tests only",
-    ),
-    Feature(
-        name="Prescriptive displacement, value from analysis",
-        checks=("DV-1", "DV-3"),
+        "Prescriptive displacement, value from analysis",
+        ("DV-1", "DV-3"),
         only="Formulas; a package marks unconfirmed values",
     ),
-    Feature(name="Separation, interconnection: SEAOC PV1-2012", checks=("DV-2",)),
+    Feature("Separation, interconnection: SEAOC PV1-2012", ("DV-2",)),
     Feature(
-        name="Separation, interconnection: ASCE 7",
-        checks=("DV-8",),
+        "Separation, interconnection: ASCE 7",
+        ("DV-8",),
         only="ASCE 7-16; 7-22 has the same numbers, not compared with its text",
     ),
-    Feature(name="Comparison methods", checks=("ME-1",)),
-    Feature(name="Formats of records", only=_TESTS_ONLY),
-    Feature(name="Scaling and acceptance of motions", only=_TESTS_ONLY),
-    Feature(name="Generated suites of motions", only=_TESTS_ONLY),
-    Feature(name="Reading of workbook and roof drawing", only=_TESTS_ONLY),
-    Feature(name="Gaps between outlines", only=_TESTS_ONLY),
+    Feature("Comparison methods", ("ME-1",)),
+    Feature("Formats of records", only=_TESTS_ONLY),
+    Feature("Scaling and acceptance of motions", only=_TESTS_ONLY),
+    Feature("Generated suites of motions", only=_TESTS_ONLY),
+    Feature("Reading of workbook and roof drawing", only=_TESTS_ONLY),
+    Feature("Gaps between outlines", only=_TESTS_ONLY),
     Feature(
-        name="Text and tables of a package",
-        only=f"{_TESTS_ONLY}; verify-package repeats a package",
+        "Text and tables of a package", only=f"{_TESTS_ONLY}; verify-package repeats a package"
     ),
-    Feature(name="Studies, fragilities and their exports", only=_TESTS_ONLY),
+    Feature("Studies, fragilities and their exports", only=_TESTS_ONLY),
 )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureStatus:
-    """What the checks and the tests of one verification show of a feature.
-
-    Attributes
-    ----------
-    feature : Feature
-    ids : tuple of str
-        Checks that ran, by id.
-    n_checks, n_passed : int
-    missing : tuple of str
-        Ids of checks that verify it and did not run.
-    n_tests : int
-        Measured tests of a shake table that belong to it.
-    is_validated : bool
-        Whether those tests satisfy the acceptance.
-    """
+    """What the checks and the tests of one verification show of a feature."""
 
     feature: Feature
-    ids: tuple[str, ...]
+    ids: tuple[str, ...]  # checks that ran, by id
     n_checks: int
     n_passed: int
-    missing: tuple[str, ...]
-    n_tests: int
-    is_validated: bool
+    missing: tuple[str, ...]  # ids of checks that verify it and did not run
+    n_tests: int  # measured tests of a shake table that belong to it
+    is_validated: bool  # whether those tests satisfy the acceptance
 
     @property
     def is_verified(self) -> bool:

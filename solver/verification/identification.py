@@ -15,7 +15,7 @@ import numpy as np
 
 from solver.building.beam import MOST_ALPHA0, Modes, beam_modes
 from solver.building.roof import absolute_accelerations
-from solver.building.structure import MOST_DAMPING
+from solver.building.structure import MOST_DAMPING, Building, building_of_periods
 from solver.model import Floats
 from solver.verification.study import best_of, unexplained
 
@@ -40,6 +40,10 @@ class Identified(NamedTuple):
     damping: float
     alpha0: float
     unexplained: float
+
+    def building(self) -> Building:
+        """Return the beam."""
+        return building_of_periods([self.period_s], damping=[self.damping], alpha0=self.alpha0)
 
 
 def identify(

@@ -8,20 +8,22 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from solver.forces import forces
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
+from solver.records.record import read_only
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification import plane_scipy
-from solver.verification.bound_study import bound_ratios
 from solver.verification.checks import check, slip_checks
 from solver.verification.evidence import CheckRow
+from solver.verification.random_pairs import bound_ratios
 from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
-from solver.verification.triples import Triple, readonly
+from solver.verification.triples import Triple
 
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""
@@ -61,57 +63,41 @@ def stays(triple: Triple) -> bool:
 
 
 def _one_axis(triple: Triple) -> Iterator[CheckRow]:
+    source = "Exact method, one axis with vertical"
     for case in MODEL_CASES:
         scene = triple.scene(case, coulomb(case.mu), second=False)
         name = f"No cross-slope component: {triple.name}, {case}"
         exact, plane = one_axis.run(scene), two_axes.run(scene, TIGHT)
-        source = "Exact method, one axis with vertical"
-        yield from slip_checks("TA-1", name, source, exact, plane, AGREES)
+        yield from slip_checks("TA-1", source, name, exact, plane, AGREES)
 
 
 def _turned(triple: Triple) -> Iterator[CheckRow]:
+    row = partial(check, "TA-2", "Flat roof: the displacement rotates with the motion")
     case = MODEL_CASES[0]
     flat = triple.scene(case, coulomb(case.mu))
     plain = two_axes.run(flat, TIGHT)
     for degrees in (30.0, 137.0):
         turned = two_axes.run(_turned_by(flat, degrees), TIGHT)
         back = _turn(np.array([turned.residual_m, turned.residual_across_m]), -degrees)
-        off = math.dist(back.tolist(), (plain.residual_m, plain.residual_across_m))
+        off = math.dist(back.tolist(), (plain.residual_m, plain.residual_across_m)) / plain.prd_m
         name = f"Both components rotated by {degrees:g} degrees: {triple.name}, {case}"
-        source = "Flat roof: the displacement rotates with the motion"
-        yield check("TA-2", name, source, "PRD", "m", plain.prd_m, turned.prd_m, AGREES)
-        yield check(
-            "TA-2",
-            name,
-            source,
-            "Residual, rotated back: difference / PRD",
-            "1",
-            0.0,
-            off / plain.prd_m,
-            AGREES,
-        )
+        yield row("PRD", "m", name, plain.prd_m, turned.prd_m, AGREES)
+        yield row("Residual, rotated back: difference / PRD", "1", name, 0.0, off, AGREES)
 
 
 def _in_proportion(triple: Triple) -> CheckRow:
     case = MODEL_CASES[0]
     scene = triple.scene(case, coulomb(case.mu), second=False)
-    line = two_axes.run(_turned_by(scene, 53.0), TIGHT)
-    return check(
-        "TA-3",
-        f"One component rotated by 53 degrees: {triple.name}, {case}",
-        "Proportional components cause slip along one line: exact method, one axis",
-        "PRD",
-        "m",
-        one_axis.run(scene).prd_m,
-        line.prd_m,
-        AGREES,
-    )
+    exact, line = one_axis.run(scene), two_axes.run(_turned_by(scene, 53.0), TIGHT)
+    name = f"One component rotated by 53 degrees: {triple.name}, {case}"
+    source = "Proportional components cause slip along one line: exact method, one axis"
+    return check("TA-3", source, "PRD", "m", name, exact.prd_m, line.prd_m, AGREES)
 
 
 def _turned_by(scene: Scene, degrees: float) -> Scene:
     across = scene.ay_mps2 if scene.ay_mps2.size else np.zeros_like(scene.ax_mps2)
     x, y = _turn(np.array([scene.ax_mps2, across]), degrees)
-    return replace(scene, ax_mps2=readonly(x), ay_mps2=readonly(y))
+    return replace(scene, ax_mps2=read_only(x), ay_mps2=read_only(y))
 
 
 def _turn(pair: Floats, degrees: float) -> Floats:
@@ -140,8 +126,8 @@ def _circle() -> Iterator[CheckRow]:
         "Steady state: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples per cycle"
     )
     final = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
-    yield check("TA-4", name, source, "Speed", "m/s", speed, final, AGREES)
-    yield check("TA-4", name, source, "Diameter", "m", 2.0 * speed / omega, across, AGREES)
+    yield check("TA-4", source, "Speed", "m/s", name, speed, final, AGREES)
+    yield check("TA-4", source, "Diameter", "m", name, 2.0 * speed / omega, across, AGREES)
 
 
 def stopped_scene() -> Scene:
@@ -166,45 +152,27 @@ def _stop() -> Iterator[CheckRow]:
         "(v (mu N + G cos ψ))' = G^2 - (mu N)^2, ψ = angle from drive G to v, and similar forms "
         "for displacement, from 0.06 s"
     )
+    stop_s = history.events[-1].t_s - at * scene.dt_s
+    across_m = float(history.across_m[-1] - history.across_m[at])
+    along_m = float(history.u_m[-1] - history.u_m[at])
     for quantity, unit, known, computed in (
-        ("Time to stop", "s", rest, history.events[-1].t_s - at * scene.dt_s),
-        (
-            "Transverse displacement",
-            "m",
-            ahead,
-            float(history.across_m[-1] - history.across_m[at]),
-        ),
-        (
-            "Longitudinal displacement",
-            "m",
-            -aside,
-            float(history.u_m[-1] - history.u_m[at]),
-        ),
+        ("Time to stop", "s", rest, stop_s),
+        ("Transverse displacement", "m", ahead, across_m),
+        ("Longitudinal displacement", "m", -aside, along_m),
     ):
-        yield check("TA-5", name, source, quantity, unit, known, computed, AGREES)
+        yield check("TA-5", source, quantity, unit, name, known, computed, AGREES)
 
 
 def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
+    source = "Converges to two axes with one coefficient: within 50 times the difference"
     case = MODEL_CASES[1]
     plain = two_axes.run(triple.scene(case, coulomb(case.mu)), TIGHT)
     for drop in (1e-4, 1e-5, 1e-6):
-        law = Friction(
-            mu_slow=case.mu * (1.0 - drop),
-            mu_fast=case.mu,
-            rate_s_per_m=30.0,
-            mu_static=case.mu * (1.0 - drop),
-        )
-        result = two_axes.run(triple.scene(case, law), TIGHT)
-        yield check(
-            "TA-6",
-            f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.name}, {case}",
-            "Converges to two axes with one coefficient: within 50 times the difference",
-            "PRD",
-            "m",
-            plain.prd_m,
-            result.prd_m,
-            50.0 * drop,
-        )
+        slow = case.mu * (1.0 - drop)
+        law = Friction(mu_slow=slow, mu_fast=case.mu, rate_s_per_m=30.0, mu_static=slow)
+        found = two_axes.run(triple.scene(case, law), TIGHT)
+        name = f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.name}, {case}"
+        yield check("TA-6", source, "PRD", "m", name, plain.prd_m, found.prd_m, 50.0 * drop)
 
 
 def _static_friction(triple: Triple) -> Iterator[CheckRow]:
@@ -212,54 +180,31 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
     case = MODEL_CASES[1]
     both = triple.scene(case, coulomb(case.mu))
     alone = triple.scene(case, coulomb(case.mu), second=False)
+    one, two = one_axis.run(alone).prd_m, two_axes.run(both, TIGHT).prd_m
     for excess in (1e-2, 1e-3, 1e-4):
         law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
-        for id, scene, axes, kinetic, method in (
-            (
-                "TA-7",
-                alone,
-                "one axis",
-                one_axis.run(alone).prd_m,
-                "the exact method with vertical",
-            ),
-            (
-                "TA-8",
-                both,
-                "two axes",
-                two_axes.run(both, TIGHT).prd_m,
-                "two axes with one coefficient",
-            ),
+        for id, scene, axes, kinetic_m, method in (
+            ("TA-7", alone, "one axis", one, "the exact method with vertical"),
+            ("TA-8", both, "two axes", two, "two axes with one coefficient"),
         ):
-            yield check(
-                id,
-                f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, "
-                f"{case}",
-                f"Converges to {method}: within 50 times the square of the difference",
-                "PRD",
-                "m",
-                kinetic,
-                two_axes.run(replace(scene, friction=law), TIGHT).prd_m,
-                50.0 * excess**2,
-            )
+            source = f"Converges to {method}: within 50 times the square of the difference"
+            name = f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, "
+            found_m = two_axes.run(replace(scene, friction=law), TIGHT).prd_m
+            tolerance = 50.0 * excess**2
+            yield check(id, source, "PRD", "m", f"{name}{case}", kinetic_m, found_m, tolerance)
 
 
 def _one_block(triple: Triple) -> Iterator[CheckRow]:
     """Rows that move as one block: one block, and three identical ones with unloaded links."""
+    source = "Exact method, one axis with vertical: the links carry no force"
+    row = partial(check, "TA-9", source, "PRD, largest of the blocks", "m")
     case = MODEL_CASES[1]
     scene = triple.scene(case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
     for count in (1, 3):
-        row = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
-        yield check(
-            "TA-9",
-            f"Row of identical blocks, {count} in all: {triple.name}, {case}",
-            "Exact method, one axis with vertical: the links carry no force",
-            "PRD, largest of the blocks",
-            "m",
-            exact.prd_m,
-            max(row.prd_m),
-            AGREES,
-        )
+        blocks = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
+        name = f"Row of identical blocks, {count} in all: {triple.name}, {case}"
+        yield row(name, exact.prd_m, max(blocks.prd_m), AGREES)
 
 
 def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
@@ -274,41 +219,29 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
             said = 0.0 if choice.model is Model.TWO_AXES else choice.next_effect_m
             over += not change <= said + choice.result.error_m
             count += 1
-    return check(
-        "TA-10",
-        f"Effect of the neglected component: {triple.name}, {count} cases",
-        "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003",
-        "Cases that exceed the stated effect",
-        "1",
-        0.0,
-        float(over),
-        0.0,
-    )
+    name = f"Effect of the neglected component: {triple.name}, {count} cases"
+    source = "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003"
+    exceeding = "Cases that exceed the stated effect"
+    return check("TA-10", source, exceeding, "1", name, 0.0, float(over), 0.0)
 
 
 def _random_pairs(*, quick: bool) -> Iterator[CheckRow]:
     """Count the random pairs of every kind that have no result or exceed their bounds."""
+    source = "Both runs of a pair have a result, and they agree within the sum of their error "
+    row = partial(check, "TA-11", f"{source}bounds", "Failed pairs", "1")
     for ratios in bound_ratios(quick=quick):
-        yield check(
-            "TA-11",
-            f"{ratios.n_pairs} random pairs, {ratios.kind}",
-            "Both runs of a pair have a result, and they agree within the sum of their error "
-            "bounds",
-            "Failed pairs",
-            "1",
-            0.0,
-            float(ratios.n_over + ratios.n_unanswered),
-            0.0,
-        )
+        failed = float(ratios.n_over + ratios.n_unanswered)
+        yield row(f"{ratios.n_pairs} random pairs, {ratios.kind}", 0.0, failed, 0.0)
 
 
 def _choices(triple: Triple) -> Iterator[CheckRow]:
+    source = "Number of the simplest sufficient model (section 12)"
     case = MODEL_CASES[1]
     full = triple.scene(case, coulomb(case.mu))
     peak = forces(full).friction_demand
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
     faint = faded(full, 1e-4)
-    level = replace(faint, az_mps2=readonly(1e-5 * full.az_mps2))
+    level = replace(faint, az_mps2=read_only(1e-5 * full.az_mps2))
     for what, scene, model in (
         ("Friction above the demand", replace(full, friction=coulomb(1.001 * peak)), Model.NO_SLIP),
         ("Second and vertical components negligible", level, Model.ONE_AXIS),
@@ -316,32 +249,19 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
         ("Three components", full, Model.TWO_AXES),
         ("Velocity-dependent friction", replace(full, friction=law), Model.SPEED_FRICTION),
     ):
-        yield check(
-            "TA-12",
-            f"{what}: {triple.name}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g",
-            "Number of the simplest sufficient model (section 12)",
-            "Model chosen",
-            "1",
-            float(model),
-            float(least_model.solve(scene, Settings()).model),
-            0.0,
-        )
+        name = f"{what}: {triple.name}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
+        found = float(least_model.solve(scene, Settings()).model)
+        yield check("TA-12", source, "Model chosen", "1", name, float(model), found, 0.0)
 
 
 def _against_scipy(triple: Triple, samples: int) -> Iterator[CheckRow]:
-    case = MODEL_CASES[1]
-    scene = triple.cut(samples).scene(case, coulomb(case.mu))
+    source = "SciPy DOP853, relative tolerance 10⁻¹², restarted at every sample and event"
+    row = partial(check, "TA-13", source, "Position error / PRD", "1")
+    case, part = MODEL_CASES[1], triple.cut(samples)
+    scene = part.scene(case, coulomb(case.mu))
     x, y = plane_scipy.reference(scene)
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
         history = two_axes.run_history(scene, tolerance)
-        off = float(np.hypot(history.u_m - x, history.across_m - y).max())
-        yield check(
-            "TA-13",
-            f"Tolerance of 1 / {1.0 / tolerance:,.0f}: {triple.cut(samples).name}, {case}",
-            "SciPy DOP853, relative tolerance 10⁻¹², restarted at every sample and event",
-            "Position error / PRD",
-            "1",
-            0.0,
-            off / history.result.prd_m,
-            tolerance,
-        )
+        off = float(np.hypot(history.u_m - x, history.across_m - y).max()) / history.result.prd_m
+        name = f"Tolerance of 1 / {1.0 / tolerance:,.0f}: {part.name}, {case}"
+        yield row(name, 0.0, off, tolerance)

@@ -24,24 +24,14 @@ OVER_STATIC = "Static and kinetic μ / static μ"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelChange:
-    """Effect of a fuller model on the PRD, over many runs.
-
-    Attributes
-    ----------
-    name : str
-    ratios : array, shape (n,)
-        PRD of the fuller model over that of the simpler, ascending, for the runs in which both are
-        `LEAST_M` or more.
-    n_small : int
-        Number of the other runs.
-    maximum_m : float
-        Largest change of the PRD, of either sign, over all runs [m].
-    """
+    """Effect of a fuller model on the PRD, over many runs."""
 
     name: str
+    # shape (n,): PRD of the fuller model over that of the simpler, ascending, for the runs in which
+    # both are `LEAST_M` or more
     ratios: Floats
-    n_small: int
-    maximum_m: float
+    n_small: int  # number of the other runs
+    maximum_m: float  # largest change of the PRD, of either sign, over all runs [m]
 
     def at(self, percent: float) -> float:
         """Return a percentile of the ratios; NaN where there are none."""
@@ -60,44 +50,22 @@ class ModelChange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelStudy:
-    """The same scenes by every model.
-
-    Attributes
-    ----------
-    motions : tuple of str
-    n_recorded : int
-        Number of motions recorded in earthquakes.
-    slopes_deg, mus, ppas_g : tuple of float
-        The scenes are all combinations of these.
-    slow_share, rate_s_per_m : float
-        Velocity-dependent friction: mu_slow, the coefficient of the other models, over mu_fast, and
-        its rate. The same share is kinetic over static friction where they differ.
-    n_runs, n_uplift : int
-        Scenes times motions and headings, and the runs in which the normal force vanishes.
-    changes : tuple of ModelChange
-        `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `HELD_ONE`, `HELD`,
-        `OVER_STATIC`, `STIFF` and `SOFT`.
-    row_ppa_g : float
-        PPA of the rows, which are run in the first heading only.
-    row_shares : tuple of float
-        Friction of the blocks of a row over that of the scene.
-    largest_error : float
-        Largest error bound in two axes, relative to the PRD.
-    """
+    """The same scenes by every model."""
 
     motions: tuple[str, ...]
-    n_recorded: int
+    n_recorded: int  # number of motions recorded in earthquakes
+    # the scenes are all combinations of these
     slopes_deg: tuple[float, ...]
     mus: tuple[float, ...]
     ppas_g: tuple[float, ...]
-    slow_share: float
-    rate_s_per_m: float
+    # scenes times motions and headings, and the runs in which the normal force vanishes
     n_runs: int
     n_uplift: int
+    # `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `HELD_ONE`, `HELD`, `OVER_STATIC`,
+    # `STIFF` and `SOFT`
     changes: tuple[ModelChange, ...]
-    row_ppa_g: float
-    row_shares: tuple[float, ...]
-    largest_error: float
+    row_ppa_g: float  # PPA of the rows, which are run in the first heading only
+    largest_error: float  # largest error bound in two axes, relative to the PRD
 
     def named(self, name: str) -> ModelChange:
         """Return the change with that name."""
@@ -106,78 +74,43 @@ class ModelStudy:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaticDifference:
-    """Effect of static friction above kinetic as the difference decreases.
+    """Effect of static friction above kinetic as the difference decreases."""
 
-    Attributes
-    ----------
-    excess : float
-        Static over kinetic friction, less 1.
-    one_axis, two_axes : array, shape (n,)
-        Change of the PRD of each scene relative to kinetic friction alone, ascending.
-    """
-
-    excess: float
+    excess: float  # static over kinetic friction, less 1
+    # shape (n,): change of the PRD of each scene relative to kinetic friction alone, ascending
     one_axis: Floats
     two_axes: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FadingAxis:
-    """Difference between two axes and one as the second component decreases.
+    """Difference between two axes and one as the second component decreases."""
 
-    Attributes
-    ----------
-    share : float
-        Factor of the second component.
-    one_coefficient, static_above : array, shape (n,)
-        Change of the PRD of each scene relative to one axis with the same friction, ascending:
-        with kinetic friction alone, and with static friction above it.
-    """
-
-    share: float
+    share: float  # factor of the second component
+    # shape (n,): change of the PRD of each scene relative to one axis with the same friction,
+    # ascending: with kinetic friction alone, and with static friction above it
     one_coefficient: Floats
     static_above: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PushedPoint:
-    """A block driven back by a force between kinetic and static friction.
+    """A block driven back by a force between kinetic and static friction."""
 
-    Attributes
-    ----------
-    across_mps2 : float
-        Transverse acceleration [m/s2].
-    end_m : float
-        Final distance from the start [m].
-    error_m : float
-        Error reported by the run [m].
-    falling_end_m : float
-        Final distance where friction falls from static to kinetic gradually with velocity [m].
-    """
-
-    across_mps2: float
-    end_m: float
-    error_m: float
+    across_mps2: float  # transverse acceleration [m/s2]
+    end_m: float  # final distance from the start [m]
+    error_m: float  # error reported by the run [m]
+    # final distance where friction falls from static to kinetic gradually with velocity [m]
     falling_end_m: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StaticEvidence:
-    """Results for static friction above kinetic friction.
+    """Results for static friction above kinetic friction."""
 
-    Attributes
-    ----------
-    n_scenes : int
-        Scenes of `differences` and `fading`: those whose PRD in one axis is `LEAST_M` or more.
-    ratio : float
-        Static over kinetic friction in `fading`.
-    differences : tuple of StaticDifference
-    fading : tuple of FadingAxis
-    pushed : tuple of PushedPoint
-    """
-
+    # scenes of `differences` and `fading`: those whose PRD in one axis is `LEAST_M` or more
     n_scenes: int
-    ratio: float
+    ratio: float  # static over kinetic friction in `fading`
     differences: tuple[StaticDifference, ...]
     fading: tuple[FadingAxis, ...]
     pushed: tuple[PushedPoint, ...]
@@ -185,24 +118,12 @@ class StaticEvidence:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundRatios:
-    """Differences of random pairs of runs relative to their bounds.
+    """Differences of random pairs of runs relative to their bounds."""
 
-    Attributes
-    ----------
-    kind : str
-        Kind of pair, see `random_pairs.KINDS`.
-    n_pairs : int
-        Includes pairs without slip, which have no ratio.
-    n_unanswered : int
-        Pairs in which a run has no result.
-    ratios : array, shape (n,)
-        Difference in position over the sum of the two bounds, ascending.
-    """
-
-    kind: str
-    n_pairs: int
-    n_unanswered: int
-    ratios: Floats
+    kind: str  # kind of pair, see `random_pairs.KINDS`
+    n_pairs: int  # includes pairs without slip, which have no ratio
+    n_unanswered: int  # pairs in which a run has no result
+    ratios: Floats  # shape (n,): difference in position over the sum of the two bounds, ascending
 
     @property
     def n_over(self) -> int:
@@ -211,90 +132,37 @@ class BoundRatios:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlaneWork:
-    """One run of a method in two axes.
-
-    Attributes
-    ----------
-    method, setting : str
-    seconds : float
-        Time per run [s]; NaN for a failed run.
-    steps : int
-        Steps; for SciPy, evaluations of the right-hand side.
-    error_percent : float
-        Error relative to the PRD: of the position, largest at samples, or of the PRD; NaN for a
-        failed run.
-    """
+class PlaneRun:
+    """One run of a method in two axes; a failed run has no time and no errors, which are NaN."""
 
     method: str
     setting: str
-    seconds: float
-    steps: int
+    seconds: float  # time per run [s]
+    steps: int  # steps; for SciPy, evaluations of the right-hand side
+    # error relative to the PRD: of the position, largest at samples, or of the PRD
     error_percent: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StopPoint:
-    """One run of a block that comes to rest under a constant transverse acceleration.
-
-    Attributes
-    ----------
-    method, setting : str
-    steps : int
-        As in `PlaneWork`.
-    error_m : float
-        Error in final position [m]; NaN for a failed run.
-    end_speed_mps : float
-        Final velocity; the exact value is 0 [m/s].
-    """
-
-    method: str
-    setting: str
-    steps: int
-    error_m: float
-    end_speed_mps: float
+    end_error_m: float  # error in final position [m]
+    end_speed_mps: float  # final speed [m/s]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelTime:
-    """Run time of a model relative to the others.
-
-    Attributes
-    ----------
-    title : str
-    seconds : float
-        Median over the scenes, warm, without the choice of model [s].
-    ratio : float
-        Relative to one axis.
-    """
+    """Run time of a model relative to the others."""
 
     title: str
-    seconds: float
-    ratio: float
+    seconds: float  # median over the scenes, warm, without the choice of model [s]
+    ratio: float  # relative to one axis
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelEvidence:
-    """The complete comparison of models.
-
-    Attributes
-    ----------
-    study : ModelStudy
-    static : StaticEvidence
-    bounds : tuple of BoundRatios
-    work_scene : str
-    work : tuple of PlaneWork
-    stops : tuple of StopPoint
-    times_motion : str
-        Name, length and time step of the motion used for `times`.
-    times : tuple of ModelTime
-    """
+    """The complete comparison of models."""
 
     study: ModelStudy
     static: StaticEvidence
     bounds: tuple[BoundRatios, ...]
     work_scene: str
-    work: tuple[PlaneWork, ...]
-    stops: tuple[StopPoint, ...]
-    times_motion: str
+    work: tuple[PlaneRun, ...]
+    stops: tuple[PlaneRun, ...]
+    times_motion: str  # name, length and time step of the motion used for `times`
     times: tuple[ModelTime, ...]

@@ -18,7 +18,6 @@ from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, RowResult, slide_row
 from solver.verification import plane_work
-from solver.verification.bound_study import bound_ratios
 from solver.verification.model_evidence import (
     HELD,
     HELD_ONE,
@@ -37,6 +36,7 @@ from solver.verification.model_evidence import (
     ModelTime,
     StaticEvidence,
 )
+from solver.verification.random_pairs import bound_ratios
 from solver.verification.static_study import held, static_evidence
 from solver.verification.study import (
     MODEL_CASES,
@@ -82,7 +82,7 @@ def model_evidence(triples: Sequence[Triple], *, quick: bool) -> ModelEvidence:
         bounds=bound_ratios(quick=quick),
         work_scene=scene,
         work=work,
-        stops=tuple(plane_work.stops()),
+        stops=plane_work.stops(),
         times_motion=f"{first.name}, {length:.0f} s in steps of {first.dt_s:g} s",
         times=times(first),
     )
@@ -104,13 +104,10 @@ def study(triples: Sequence[Triple], *, quick: bool) -> ModelStudy:
         slopes_deg=tuple(slopes),
         mus=tuple(mus),
         ppas_g=tuple(ppas),
-        slow_share=SLOW_SHARE,
-        rate_s_per_m=RATE_S_PER_M,
         n_runs=len(scenes),
         n_uplift=len(scenes) - len(answered),
         changes=(*changes, *_rows(scenes_of(triples, grid(slopes, mus, [row_ppa_g])))),
         row_ppa_g=row_ppa_g,
-        row_shares=ROW_SHARES,
         largest_error=max(errors, default=math.nan),
     )
 

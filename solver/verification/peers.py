@@ -18,13 +18,12 @@ import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2, Scene, coulomb
 from solver.records.record import Record
-from solver.rivals.methods import NO_RECORD
-from solver.sliding import one_axis, two_axes
+from solver.sliding import checked, one_axis, two_axes
 from solver.verification import model_checks
 from solver.verification.evidence import PeerPoint, percent_off
 from solver.verification.plane_scipy import samples_of
-from solver.verification.scenes import CASES, Case, scale_to
-from solver.verification.study import MODEL_CASES, clocked
+from solver.verification.scenes import CASES, Case
+from solver.verification.study import MODEL_CASES, clocked, posed
 from solver.verification.triples import Triple
 
 SUBSTEPS = 10
@@ -44,19 +43,12 @@ _Named = tuple[str, Case, Scene]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Peer:
-    """Another program.
-
-    Attributes
-    ----------
-    name, module, note : str
-    prd_m : callable
-        PRD [m] of a scene; NaN if it does not converge.
-    """
+    """Another program."""
 
     name: str
     module: str
     note: str
-    prd_m: Callable[[Scene], float]
+    prd_m: Callable[[Scene], float]  # PRD [m] of a scene; NaN if it does not converge
 
 
 def peer_points(
@@ -85,20 +77,7 @@ def peer_points(
 def _record_scenes(records: Sequence[Record], quick: bool) -> Iterator[_Named]:
     for record in records:
         for case in CASES[:2] if quick else CASES[:4]:
-            yield (
-                record.name,
-                case,
-                Scene(
-                    ax_mps2=record.a_mps2,
-                    ay_mps2=NO_RECORD,
-                    az_mps2=NO_RECORD,
-                    dt_s=record.dt_s,
-                    slope_rad=case.slope_rad,
-                    friction=coulomb(case.mu),
-                    scale=scale_to(record, case.ppa_g),
-                    g_mps2=_G,
-                ),
-            )
+            yield record.name, case, posed(checked.scene, record, case)()
 
 
 def _motion_scenes(triples: Sequence[Triple], quick: bool, *, second: bool) -> Iterator[_Named]:
@@ -109,8 +88,7 @@ def _motion_scenes(triples: Sequence[Triple], quick: bool, *, second: bool) -> I
 
 
 def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> PeerPoint:
-    has_two = scene.ay_mps2.size > 0
-    exact = two_axes.run(scene) if has_two else one_axis.run(scene)
+    exact = two_axes.run(scene) if scene.ay_mps2.size else one_axis.run(scene)
     note, seconds = f"{model}; {peer.note}", math.nan
     try:
         importlib.import_module(peer.module)

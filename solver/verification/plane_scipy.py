@@ -29,26 +29,13 @@ EVALUATIONS = 40_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Integrated:
-    """Result of a general-purpose solver.
+    """Result of a general-purpose solver."""
 
-    Attributes
-    ----------
-    followed : bool
-        Whether the run was completed; otherwise all lengths are NaN.
-    prd_m : float
-        Largest distance in plan at its steps [m].
-    end_m : tuple of float
-        Final position, x and y [m].
-    end_speed_mps : float
-    evaluations : int
-        Evaluations of the right-hand side.
-    """
-
-    followed: bool
-    prd_m: float
-    end_m: tuple[float, float]
+    followed: bool  # whether the run was completed; otherwise all lengths are NaN
+    prd_m: float  # largest distance in plan at its steps [m]
+    end_m: tuple[float, float]  # final position, x and y [m]
     end_speed_mps: float
-    evaluations: int
+    evaluations: int  # evaluations of the right-hand side
 
 
 def is_installed() -> bool:

@@ -2,23 +2,26 @@
 
 Short records of many shapes, most unlike an earthquake: equal samples, jumps, accelerations equal
 to the yield acceleration, proportional components, no friction, no normal force.
-Read `Pair`, then `KINDS`.
+Read `Pair`, then `KINDS`; `bound_ratios` counts for the manual.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Friction, Scene, Status, coulomb
+from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.two_axes import TwoAxesOutcome, follow
+from solver.verification.model_evidence import BoundRatios
 from solver.verification.study import flat_scene
-from solver.verification.triples import readonly
 
 EPS = 2.0**-52
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
@@ -31,23 +34,33 @@ Compare = Callable[[TwoAxesOutcome, TwoAxesOutcome], Floats]
 Law = Callable[[float], Friction]
 
 
+def _places(outcome: TwoAxesOutcome) -> Floats:
+    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
+    return np.array([outcome.prd_m, *sides, *outcome.end_m])
+
+
+def _same(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
+    return np.subtract(_places(a), _places(b))
+
+
+def _mirrored_across(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
+    x, y = b.end_m
+    return np.subtract(_places(a), [b.prd_m, b.down_m, b.up_m, b.right_m, b.left_m, x, -y])
+
+
+def _mirrored_along(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
+    x, y = b.end_m
+    return np.subtract(_places(a), [b.prd_m, b.up_m, b.down_m, b.left_m, b.right_m, -x, y])
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairComparison:
-    """Comparison of the two runs of a pair.
+    """Comparison of the two runs of a pair."""
 
-    Attributes
-    ----------
-    prd_m : float
-        PRD of the first run [m].
-    off_m : float
-        Largest difference in position between the two [m].
-    bound_m : float
-        Allowed difference: the sum of both bounds plus the effect of rounding error in the second
-        scene's input [m]; inf where friction falls with velocity.
-    """
-
-    prd_m: float
-    off_m: float
+    prd_m: float  # PRD of the first run [m]
+    off_m: float  # largest difference in position between the two [m]
+    # allowed difference: the sum of both bounds plus the effect of rounding error in the second
+    # scene's input [m]; inf where friction falls with velocity
     bound_m: float
 
     @property
@@ -58,24 +71,13 @@ class PairComparison:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pair:
-    """Two scenes with equal results.
-
-    Attributes
-    ----------
-    first, second : Scene
-    tolerances : tuple of float
-        Of both runs.
-    rounding_m : float
-        Effect of rounding error in the second scene's input [m] (`rounding`).
-    compare : callable
-        Returns the differences in position, which should be zero.
-    """
+    """Two scenes with equal results."""
 
     first: Scene
     second: Scene
-    tolerances: tuple[float, float]
-    rounding_m: float
-    compare: Compare
+    tolerances: tuple[float, float]  # of both runs
+    rounding_m: float = 0.0  # effect of rounding error in the second scene's input (`rounding`)
+    compare: Compare = _same  # returns the differences in position, which should be zero
 
     def run(self) -> PairComparison:
         """Run both.
@@ -115,9 +117,6 @@ def rounding(scene: Scene) -> float:
     )
     push = (sn + mu * cs) * (scene.g_mps2 + az) + (cs + mu * sn) * ax + ay
     return EPS * push * ((scene.ax_mps2.size - 1) * scene.dt_s) ** 2
-
-
-# Scenes
 
 
 def _wave(rng: Random, n: int) -> Floats:
@@ -207,9 +206,9 @@ def _scene(
     has_vertical = rng.random() < 0.6
     az = _wave(rng, n) * G * rng.choice((0.0, 0.05, 0.3, 0.6)) if has_vertical else NO_RECORD
     return Scene(
-        ax_mps2=readonly(ax),
-        ay_mps2=readonly(ay),
-        az_mps2=readonly(_held_down(rng, ax, az, slope, minimum_normal_g)),
+        ax_mps2=read_only(ax),
+        ay_mps2=read_only(ay),
+        az_mps2=read_only(_held_down(rng, ax, az, slope, minimum_normal_g)),
         dt_s=float(rng.choice(STEPS_S)),
         slope_rad=slope,
         friction=law(float(mu)),
@@ -242,34 +241,12 @@ def _falling(rng: Random) -> Law:
     return law
 
 
-# Pairs
-
-
-def _places(outcome: TwoAxesOutcome) -> Floats:
-    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
-    return np.array([outcome.prd_m, *sides, *outcome.end_m])
-
-
-def _same(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
-    return np.subtract(_places(a), _places(b))
-
-
-def _mirrored_across(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
-    x, y = b.end_m
-    return np.subtract(_places(a), [b.prd_m, b.down_m, b.up_m, b.right_m, b.left_m, x, -y])
-
-
-def _mirrored_along(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
-    x, y = b.end_m
-    return np.subtract(_places(a), [b.prd_m, b.up_m, b.down_m, b.left_m, b.right_m, -x, y])
-
-
 def finer(scene: Scene, factor: int) -> Scene:
     """Return a scene with linearly interpolated samples added."""
     coarse = np.arange(scene.ax_mps2.size)
     fine = np.arange((coarse.size - 1) * factor + 1) / factor
     ax, ay, az = (
-        readonly(np.interp(fine, coarse, a)) if a.size else a
+        read_only(np.interp(fine, coarse, a)) if a.size else a
         for a in (scene.ax_mps2, scene.ay_mps2, scene.az_mps2)
     )
     return replace(scene, ax_mps2=ax, ay_mps2=ay, az_mps2=az, dt_s=scene.dt_s / factor)
@@ -277,18 +254,15 @@ def finer(scene: Scene, factor: int) -> Scene:
 
 def _put_between(rng: Random, first: Scene) -> Pair:
     tolerance = float(rng.choice(TOLERANCES))
+    second = finer(first, int(rng.integers(2, 9)))
     return Pair(
-        first=first,
-        second=finer(first, int(rng.integers(2, 9))),
-        tolerances=(tolerance, tolerance),
-        rounding_m=rounding(first),
-        compare=_same,
+        first=first, second=second, tolerances=(tolerance, tolerance), rounding_m=rounding(first)
     )
 
 
 def _tolerances(rng: Random, first: Scene) -> Pair:
     tolerances = float(rng.choice(TOLERANCES)), float(rng.choice(TOLERANCES))
-    return Pair(first=first, second=first, tolerances=tolerances, rounding_m=0.0, compare=_same)
+    return Pair(first=first, second=first, tolerances=tolerances)
 
 
 def _either(rng: Random, first: Scene) -> Pair:
@@ -297,41 +271,32 @@ def _either(rng: Random, first: Scene) -> Pair:
 
 def _mirrored(rng: Random) -> Pair:
     first, tolerance = _scene(rng), float(rng.choice(TOLERANCES))
-    across, compare = replace(first, ay_mps2=readonly(-first.ay_mps2)), _mirrored_across
+    across, compare = replace(first, ay_mps2=read_only(-first.ay_mps2)), _mirrored_across
     if rng.random() < 0.5:
-        across = replace(first, ax_mps2=readonly(-first.ax_mps2), slope_rad=-first.slope_rad)
+        across = replace(first, ax_mps2=read_only(-first.ax_mps2), slope_rad=-first.slope_rad)
         compare = _mirrored_along
-    return Pair(
-        first=first,
-        second=across,
-        tolerances=(tolerance, tolerance),
-        rounding_m=0.0,
-        compare=compare,
-    )
+    return Pair(first=first, second=across, tolerances=(tolerance, tolerance), compare=compare)
 
 
 def _rotated(rng: Random) -> Pair:
     first, tolerance = _scene(rng, slope_deg=0.0), float(rng.choice(TOLERANCES))
     turn = float(rng.choice((math.pi / 2, rng.uniform(0.0, 6.3))))
     sn, cs = math.sin(turn), math.cos(turn)
-    second = replace(
-        first,
-        ax_mps2=readonly(cs * first.ax_mps2 - sn * first.ay_mps2),
-        ay_mps2=readonly(sn * first.ax_mps2 + cs * first.ay_mps2),
-    )
+    ax, ay = first.ax_mps2, first.ay_mps2
 
     def compare(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
         x, y = a.end_m
         x, y = cs * x - sn * y, sn * x + cs * y
         return np.array([a.prd_m - b.prd_m, math.hypot(x - b.end_m[0], y - b.end_m[1])])
 
-    # Two products and a sum per sample, and the same again for rotating the position.
-    allowed = 4.0 * rounding(first)
     return Pair(
         first=first,
-        second=second,
+        second=replace(
+            first, ax_mps2=read_only(cs * ax - sn * ay), ay_mps2=read_only(sn * ax + cs * ay)
+        ),
         tolerances=(tolerance, tolerance),
-        rounding_m=allowed,
+        # Two products and a sum per sample, and the same again for rotating the position.
+        rounding_m=4.0 * rounding(first),
         compare=compare,
     )
 
@@ -366,10 +331,37 @@ KINDS: dict[str, Callable[[Random], Pair]] = {
 UNBOUNDED = ("velocity-weakening friction",)
 """Kinds whose runs have no bound; the runs must only finish."""
 
+PAIRS = (40, 1000)
+"""Number of pairs of each kind that the manual counts, quick and full."""
+
+_PRINTED = {
+    "N to zero": "normal force near zero",
+    "friction by speed": "velocity-dependent friction",
+}
+
+
+@cache
+def bound_ratios(*, quick: bool) -> tuple[BoundRatios, ...]:
+    """Run the first pairs of every kind that has a bound: differences relative to the bounds."""
+    return tuple(_of_kind(kind, PAIRS[not quick]) for kind in KINDS if kind not in UNBOUNDED)
+
+
+def _of_kind(kind: str, count: int) -> BoundRatios:
+    outcomes = []
+    for index in range(count):
+        with suppress(ArithmeticError):
+            outcomes.append(pair(kind, index).run())
+    return BoundRatios(
+        kind=_PRINTED.get(kind, kind),
+        n_pairs=count,
+        n_unanswered=count - len(outcomes),
+        ratios=np.sort([outcome.ratio for outcome in outcomes if outcome.prd_m > 0.0]),
+    )
+
 
 def warm_up() -> None:
     """Compile or load what pairs need: two axes with and without vertical, and both laws."""
-    push = readonly(np.array([0.0, 5.0, -5.0, 0.0]))
+    push = read_only(np.array([0.0, 5.0, -5.0, 0.0]))
     scene = flat_scene(push, push, 0.01, coulomb(0.2))
     law = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=1.0, mu_static=0.2)
     for friction in (scene.friction, law):

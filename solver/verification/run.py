@@ -22,52 +22,15 @@ from solver.verification import (
     stability,
     workprecision,
 )
-from solver.verification.building import FloorRecords, recorded_buildings
-from solver.verification.evidence import (
-    CheckRow,
-    Conditioning,
-    Convergence,
-    DesignCurves,
-    LinkComparison,
-    PeerPoint,
-    RoofComparison,
-    RoofPrediction,
-    StabilityMap,
-    Verification,
-    WorkPoint,
-)
-from solver.verification.model_evidence import ModelEvidence
+from solver.verification.building import FloorRecords
+from solver.verification.evidence import CheckRow, Verification
 from solver.verification.scenes import own_records
-from solver.verification.shake_table import SHIPPED, ShakeTable, compare
-from solver.verification.table_tests import TableTest, table_tests
-from solver.verification.triples import Triple, own_triples, recorded_triples
-
-__all__ = [
-    "CheckRow",
-    "Conditioning",
-    "Convergence",
-    "DesignCurves",
-    "FloorRecords",
-    "LinkComparison",
-    "ModelEvidence",
-    "PeerPoint",
-    "RoofComparison",
-    "RoofPrediction",
-    "ShakeTable",
-    "StabilityMap",
-    "TableTest",
-    "Triple",
-    "Verification",
-    "WorkPoint",
-    "recorded_buildings",
-    "recorded_triples",
-    "table_tests",
-    "verify",
-]
+from solver.verification.shake_table import SHIPPED, compare
+from solver.verification.table_tests import TableTest
+from solver.verification.triples import Triple, own_triples
 
 
 def verify(
-    records: Sequence[Record],
     *,
     quick: bool,
     progress: Callable[[str], None],
@@ -79,8 +42,6 @@ def verify(
 
     Parameters
     ----------
-    records : sequence of Record
-        Additional records; the project's records always run. If quick, only the first is used.
     quick : bool
         Use fewer records, scenes, settings and cells.
     progress : callable
@@ -101,36 +62,35 @@ def verify(
     """
     start = time.perf_counter()
     progress("Generating the project's records")
-    chosen = (*own_records(quick), *(records[:1] if quick else records))
-    main = chosen[0]
+    records = own_records(quick)
     progress("Checks: closed forms, 50-digit arithmetic, symmetries, physical checks of the paper")
-    rows = list(_rows(chosen))
+    rows = list(_rows(records))
     progress("Roof motion from ground motion: modes, model building, recorded buildings if given")
-    made = building_checks.made_building(main)
+    made = building_checks.made_building(records[0])
     roofs = tuple(building.compare(floors) for floors in (made, *buildings))
     rows += building_checks.building_checks(made, roofs[0])
     progress("Two axes: checks, comparison of models, accuracy against run time")
     triples = (*own_triples(quick), *(motions[:1] if quick else motions))
     rows += model_checks.model_checks(triples, quick=quick)
     models = model_study.model_evidence(triples, quick=quick)
-    progress(f"Accuracy against run time: every method on {len(chosen)} records")
-    work = tuple(workprecision.work_points(chosen, quick=quick))
+    progress(f"Accuracy against run time: every method on {len(records)} records")
+    work = tuple(workprecision.work_points(records, quick=quick))
     progress("Stability: maps of error over two parameters")
-    maps = tuple(stability.maps(main, quick=quick))
+    maps = tuple(stability.maps(records[0], quick=quick))
     progress("Sensitivity to small changes of friction")
-    conditioning = tuple(stability.conditioning(main, quick=quick))
+    conditioning = tuple(stability.conditioning(records[0], quick=quick))
     progress("The paper's convergence study (Fig. 5)")
-    convergence = tuple(paper_studies.convergence(record) for record in chosen)
+    convergence = tuple(paper_studies.convergence(record) for record in records)
     progress("The paper's comparison with a link model (Figs. 6 to 9)")
     links = tuple(
         paper_studies.link_comparison(record, slope_deg)
-        for record in chosen
+        for record in records
         for slope_deg in paper_studies.LINK_MUS
     )
     progress("The paper's design curves (Figs. 10 to 12)")
-    curves = tuple(paper_studies.design_curves(record) for record in chosen)
+    curves = tuple(paper_studies.design_curves(record) for record in records)
     progress("Other programs, if installed")
-    judged = tuple(peers.peer_points(peers.JUDGES, chosen[:3], triples, quick=quick))
+    judged = tuple(peers.peer_points(peers.JUDGES, records[:3], triples, quick=quick))
     return Verification(
         checks=tuple(rows),
         work=work,
@@ -143,7 +103,7 @@ def verify(
         models=(models,),
         tables=(*SHIPPED, *((compare(tests),) if tests else ())),
         peers=judged,
-        records=tuple(record.name for record in chosen),
+        records=tuple(record.name for record in records),
         quick=quick,
         seconds=time.perf_counter() - start,
     )

@@ -6,18 +6,16 @@ Generates the project's records, identical on every machine; runs nothing. Read
 
 from __future__ import annotations
 
-import importlib.util
 import math
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from solver.kernels import one_axis
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
-from solver.records.record import Record
-from solver.rivals.methods import NO_RECORD, AxisScene
+from solver.records.record import Record, read_only
 from solver.synthesis import SuiteMotion, Target, make_suite
+from solver.verification import plane_scipy
 
 SEED = 2003
 """Seed of the project's generated records."""
@@ -72,8 +70,7 @@ def near_fault_pulse() -> Record:
     dt = 0.01
     t = np.arange(801) * dt - 4.0
     a = np.exp(-((t / 1.2) ** 2)) * np.sin(math.pi * t) * STANDARD_GRAVITY_MPS2
-    a.setflags(write=False)
-    return Record(name="near-fault-pulse", dt_s=dt, a_mps2=a)
+    return Record(name="near-fault-pulse", dt_s=dt, a_mps2=read_only(a))
 
 
 def scale_to(record: Record, ppa_g: float) -> float:
@@ -81,33 +78,20 @@ def scale_to(record: Record, ppa_g: float) -> float:
     return ppa_g * STANDARD_GRAVITY_MPS2 / float(np.abs(record.a_mps2).max())
 
 
-def prepared(record: Record, case: Case) -> AxisScene:
-    """Return the input of `Method.follow`, so that only the method is timed."""
-    return AxisScene(
-        ax=record.a_mps2,
-        x=one_axis.bounds(record.a_mps2),
-        az=NO_RECORD,
-        z=one_axis.bounds(NO_RECORD),
-        dt=record.dt_s,
-        sn=math.sin(case.slope_rad),
-        cs=math.cos(case.slope_rad),
-        mu=case.mu,
-        g=STANDARD_GRAVITY_MPS2,
-        scale=scale_to(record, case.ppa_g),
-    )
-
-
 def shortened(record: Record, duration_s: float) -> Record:
     """Return the part of the record of that length with the most energy."""
-    count = min(round(duration_s / record.dt_s) + 1, record.a_mps2.size)
-    energy = np.convolve(record.a_mps2**2, np.ones(count), "valid")
-    first = int(energy.argmax())
-    a: Floats = record.a_mps2[first : first + count].copy()
-    a.setflags(write=False)
-    name = f"{record.name}, strongest {duration_s:g} s"
-    return Record(name=name, dt_s=record.dt_s, a_mps2=a)
+    count = round(duration_s / record.dt_s) + 1
+    a = read_only(record.a_mps2[strongest(record.a_mps2**2, count)])
+    return Record(name=f"{record.name}, strongest {duration_s:g} s", dt_s=record.dt_s, a_mps2=a)
+
+
+def strongest(energy: Floats, count: int) -> slice:
+    """Return the consecutive samples, at most `count`, with the most energy."""
+    sums = np.convolve(energy, np.ones(min(count, energy.size)), "valid")
+    first = int(sums.argmax())
+    return slice(first, first + count)
 
 
 def is_runnable(method: str) -> bool:
     """Whether the method's library is installed: SciPy for regularized friction."""
-    return method != "regularized" or importlib.util.find_spec("scipy") is not None
+    return method != "regularized" or plane_scipy.is_installed()

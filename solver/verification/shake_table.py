@@ -31,21 +31,12 @@ LEAST_M = 1e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableRun:
-    """A test and what is computed for it.
-
-    Attributes
-    ----------
-    test : TableTest
-    model : Model
-        The model that was used.
-    status : Status
-    prd_m, residual_m : float
-        Magnitudes [m]; NaN without a result.
-    """
+    """A test and what is computed for it."""
 
     test: TableTest
-    model: Model
+    model: Model  # the model that was used
     status: Status
+    # magnitudes [m]; NaN without a result
     prd_m: float
     residual_m: float
 

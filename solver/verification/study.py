@@ -24,12 +24,11 @@ from solver.model import (
     SlideResult,
     coulomb,
 )
-from solver.records.record import Record
-from solver.rivals.methods import NO_RECORD
-from solver.sliding import two_axes
-from solver.sliding.checked import slide, slide_history
+from solver.records.record import Record, read_only
+from solver.rivals.methods import NO_RECORD, AxisScene
+from solver.sliding import checked, one_axis, two_axes
 from solver.verification.scenes import Case, scale_to
-from solver.verification.triples import Triple, readonly
+from solver.verification.triples import Triple
 
 T = TypeVar("T")
 
@@ -59,8 +58,8 @@ def scenes_of(triples: Iterable[Triple], cases: Sequence[Case]) -> list[Scene]:
 def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction) -> Scene:
     """Return a block on a flat roof under given horizontal accelerations of n samples each."""
     return Scene(
-        ax_mps2=readonly(ax_mps2),
-        ay_mps2=readonly(ay_mps2),
+        ax_mps2=read_only(ax_mps2),
+        ay_mps2=read_only(ay_mps2),
         az_mps2=NO_RECORD,
         dt_s=dt_s,
         slope_rad=0.0,
@@ -72,7 +71,7 @@ def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction
 
 def faded(scene: Scene, share: float) -> Scene:
     """Return the scene with its second component multiplied by `share`; 0 removes it."""
-    across = readonly(share * scene.ay_mps2) if share else NO_RECORD
+    across = read_only(share * scene.ay_mps2) if share else NO_RECORD
     return replace(scene, ay_mps2=across)
 
 
@@ -92,18 +91,24 @@ def plane_prds(
 
 def run(record: Record, case: Case, method: str = "exact", **parameters: float) -> SlideResult:
     """Run one case of a record by a method."""
-    return _posed(slide, record, case)(method=method, **parameters)
+    return posed(checked.slide, record, case)(method=method, **parameters)
 
 
 def history(record: Record, case: Case, method: str, **parameters: float) -> SlideHistory:
     """Return the motion of that run at the samples."""
-    return _posed(slide_history, record, case)(method=method, **parameters)
+    return posed(checked.slide_history, record, case)(method=method, **parameters)
 
 
-def _posed(solve: Callable[..., T], record: Record, case: Case) -> partial[T]:
+def posed(solve: Callable[..., T], record: Record, case: Case) -> partial[T]:
+    """Return what solves one case of a record."""
     scale = scale_to(record, case.ppa_g)
     place = {"slope_rad": case.slope_rad, "mu": case.mu, "scale": scale}
     return partial(solve, record.a_mps2, record.dt_s, **place)
+
+
+def prepared(record: Record, case: Case) -> AxisScene:
+    """Return the input of `Method.follow`, so that only the method is timed."""
+    return one_axis.prepared(posed(checked.scene, record, case)())
 
 
 def clocked(work: Callable[[], T]) -> tuple[T, float]:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import csv
 import math
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -26,11 +25,25 @@ MOST_SLIP_M = 100.0
 BAR = "|"
 """Separates a file from its channel, as in the workbook."""
 
-_LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
-_WORDS = ("Test", "Data", "Source", "x", "y", "z")
 _PRD, _RESIDUAL = "PRD", "Residual"
 _SLOPE, _FRICTION, _STATIC = "Slope [deg]", "Friction", "Static friction"
-_RANGES = {_SLOPE: (-30.0, 30.0), _FRICTION: (0.0, 2.0), _STATIC: (0.0, 2.0)}
+_KEYS = ("Test", "Data", "Source", "x", "y", "z", _SLOPE, _FRICTION, _STATIC)
+_LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
+_HEADINGS = {key: (key, 1.0) for key in _KEYS} | {
+    f"{key}{gap}[{unit}]": (key, factor)
+    for key in (_PRD, _RESIDUAL)
+    for unit, factor in _LENGTHS.items()
+    for gap in (" ", "")
+}
+"""Key and unit of each accepted heading."""
+
+_RANGES = {
+    _SLOPE: (-30.0, 30.0),
+    _FRICTION: (0.0, 2.0),
+    _STATIC: (0.0, 2.0),
+    _PRD: (0.0, MOST_SLIP_M),
+    _RESIDUAL: (0.0, MOST_SLIP_M),
+}
 _REQUIRED = ("Test", "Data", "Source", "x", _SLOPE, _FRICTION, _PRD)
 
 
@@ -43,24 +56,15 @@ class Data(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableTest:
-    """One run of a shake table.
+    """One run of a shake table."""
 
-    Attributes
-    ----------
-    name, source : str
-        As in `NAME`.
-    data : Data
-    scene : Scene
-        Accelerations of the table, slope and friction.
-    prd_m, residual_m : float
-        Largest and final horizontal displacement relative to the table [m], both magnitudes; the
-        second is NaN if it is not given.
-    """
-
+    # as in `NAME`
     name: str
     source: str
     data: Data
-    scene: Scene
+    scene: Scene  # accelerations of the table, slope and friction
+    # largest and final horizontal displacement relative to the table [m], both magnitudes; the
+    # second is NaN if it is not given
     prd_m: float
     residual_m: float
 
@@ -80,12 +84,11 @@ def table_tests(folder: Path) -> tuple[TableTest, ...]:
     InputError
         With every problem, as ``tests.csv, row 3, column PRD [mm]: found what; what is accepted``.
     """
-    table = _Table(folder)
     tests: list[TableTest] = []
     problems: list[str] = []
-    for row in table.rows:
+    for row in _rows(folder):
         try:
-            tests.append(_test(table, row))
+            tests.append(_test(folder, row))
         except InputError as error:
             problems += error.problems
     names = [test.name.casefold() for test in tests]
@@ -111,33 +114,28 @@ class _Row:
         return f"{NAME}, row {self.number}, column {self.headings.get(key, key)}"
 
 
-class _Table:
-    """`NAME` as read: its headings are known, and every row has as many cells."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        lines = _lines(folder / NAME)
-        headings = [" ".join(cell.split()) for cell in lines[0][1]] if lines else []
-        self.lengths = _lengths(headings)
-        keys = [_key(heading) for heading in headings]
-        problems = [*_heading_problems(headings, keys)]
-        if problems:
-            raise InputError(problems)
-        if len(lines) < 2:
-            raise InputError(f"{NAME}: has no tests; give one row for each below the headings")
-        problems = [
-            f"{NAME}, row {number}: has {len(cells)} cells; the headings are {len(keys)}. A text"
-            " with a comma needs quotation marks"
-            for number, cells in lines[1:]
-            if len(cells) != len(keys)
-        ]
-        if problems:
-            raise InputError(problems)
-        names = dict(zip(keys, headings, strict=True))
-        self.rows = [
-            _Row(number, dict(zip(keys, map(str.strip, cells), strict=True)), names)
-            for number, cells in lines[1:]
-        ]
+def _rows(folder: Path) -> list[_Row]:
+    """Return the rows of `NAME`: its headings are known, and every row has as many cells."""
+    lines = _lines(folder / NAME)
+    headings = [" ".join(cell.split()) for cell in lines[0][1]] if lines else []
+    problems = list(_heading_problems(headings))
+    if problems:
+        raise InputError(problems)
+    if len(lines) < 2:
+        raise InputError(f"{NAME}: has no tests; give one row for each below the headings")
+    problems = [
+        f"{NAME}, row {number}: has {len(cells)} cells; the headings are {len(headings)}. A text"
+        " with a comma needs quotation marks"
+        for number, cells in lines[1:]
+        if len(cells) != len(headings)
+    ]
+    if problems:
+        raise InputError(problems)
+    named = {_HEADINGS[heading][0]: heading for heading in headings}
+    return [
+        _Row(number, dict(zip(named, map(str.strip, cells), strict=True)), named)
+        for number, cells in lines[1:]
+    ]
 
 
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
@@ -162,25 +160,11 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def _key(heading: str) -> str:
-    """Return the heading without the unit of a length; nothing for a length without a unit."""
-    plain = re.sub(r"\s*\[(mm|cm|m|in)\]$", "", heading)
-    known = (*_WORDS, _PRD, _RESIDUAL)
-    if plain in known and (plain != heading) == (plain in (_PRD, _RESIDUAL)):
-        return plain
-    return "" if heading in (_PRD, _RESIDUAL) else heading
-
-
-def _lengths(headings: list[str]) -> Mapping[str, float]:
-    found = ((_key(h), re.search(r"\[(mm|cm|m|in)\]$", h)) for h in headings)
-    return {key: _LENGTHS[unit[1]] for key, unit in found if unit}
-
-
-def _heading_problems(headings: list[str], keys: list[str]) -> Iterator[str]:
-    known = (*_WORDS, _SLOPE, _FRICTION, _STATIC, _PRD, _RESIDUAL)
-    accepted = ", ".join([*known[:-2], f"{_PRD} [mm]", f"{_RESIDUAL} [mm]"])
+def _heading_problems(headings: list[str]) -> Iterator[str]:
+    accepted = ", ".join([*_KEYS, f"{_PRD} [mm]", f"{_RESIDUAL} [mm]"])
+    keys = [_HEADINGS[heading][0] if heading in _HEADINGS else "" for heading in headings]
     for heading, key in zip(headings, keys, strict=True):
-        if key not in known:
+        if not key:
             yield f"{NAME}, row 1: found the heading {shown(heading)}; accepted are {accepted}"
         elif keys.count(key) > 1:
             yield f"{NAME}, row 1: the heading {heading} is there twice"
@@ -190,14 +174,13 @@ def _heading_problems(headings: list[str], keys: list[str]) -> Iterator[str]:
             yield f"{NAME}, row 1: has no heading {name}; the headings are {accepted}"
 
 
-def _test(table: _Table, row: _Row) -> TableTest:
+def _test(folder: Path, row: _Row) -> TableTest:
     """Return the test of a row; raise InputError with all its problems."""
     problems: list[str] = []
     name, source = (_word(row, key, problems) for key in ("Test", "Source"))
     data = _data(row, problems)
-    slope_deg, mu, static = (_ranged(row, key, problems) for key in _RANGES)
-    prd_m, residual_m = (_slip(table, row, key, problems) for key in (_PRD, _RESIDUAL))
-    records = dict(_records(table.folder, row, problems))
+    slope_deg, mu, static, prd_m, residual_m = (_number(row, key, problems) for key in _RANGES)
+    records = dict(_records(folder, row, problems))
     problems += _unlike(row, records)
     if static < mu:
         problems.append(f"{row.at(_STATIC)}: found {static:g}, below the kinetic {mu:g}")
@@ -244,25 +227,13 @@ def _data(row: _Row, problems: list[str]) -> Data:
     return Data(text)
 
 
-def _ranged(row: _Row, key: str, problems: list[str]) -> float:
-    """Return a number within its range; NaN if it is not given or wrong."""
-    low, high = _RANGES[key]
-    return _number(row, key, low, high, problems, is_required=key in _REQUIRED)
-
-
-def _slip(table: _Table, row: _Row, key: str, problems: list[str]) -> float:
-    """Return a length [m]; NaN if it is not given or wrong."""
-    unit = table.lengths.get(key, 1.0)
-    most = MOST_SLIP_M / unit
-    return unit * _number(row, key, 0.0, most, problems, is_required=key in _REQUIRED)
-
-
-def _number(
-    row: _Row, key: str, low: float, high: float, problems: list[str], *, is_required: bool
-) -> float:
+def _number(row: _Row, key: str, problems: list[str]) -> float:
+    """Return a number within its range, a length in m; NaN if it is not given or wrong."""
     text = row.cells.get(key, "")
-    if not text and not is_required:
+    if not text and key not in _REQUIRED:
         return math.nan
+    unit = _HEADINGS[row.headings[key]][1]
+    low, high = (limit / unit for limit in _RANGES[key])
     try:
         value = float(text)
     except ValueError:
@@ -271,7 +242,7 @@ def _number(
         found = shown(text) if text else "nothing"
         problems.append(f"{row.at(key)}: found {found}; give a number from {low:g} to {high:g}")
         return math.nan
-    return value
+    return unit * value
 
 
 def _records(folder: Path, row: _Row, problems: list[str]) -> Iterator[tuple[str, Record]]:

@@ -12,9 +12,9 @@ import numpy as np
 
 from solver.formats import read_motion_file
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, InputError, Orientation, Scene
-from solver.records.record import Record
+from solver.records.record import Record, read_only
 from solver.rivals.methods import NO_RECORD
-from solver.verification.scenes import Case, own_suite
+from solver.verification.scenes import Case, own_suite, strongest
 
 _UP = ("up", "v", "ud", "vertical", "vert", "z")
 """Words in a channel's name that mark the vertical component."""
@@ -22,21 +22,12 @@ _UP = ("up", "v", "ud", "vertical", "vert", "z")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Triple:
-    """Two horizontal components and the vertical one, over the same time.
-
-    Attributes
-    ----------
-    name : str
-    is_recorded : bool
-        In an earthquake; otherwise generated.
-    dt_s : float
-    x_mps2, y_mps2, z_mps2 : array, shape (n,)
-        Read-only [m/s2].
-    """
+    """Two horizontal components and the vertical one, over the same time."""
 
     name: str
-    is_recorded: bool
+    is_recorded: bool  # in an earthquake; otherwise generated
     dt_s: float
+    # shape (n,): read-only [m/s2]
     x_mps2: Floats
     y_mps2: Floats
     z_mps2: Floats
@@ -46,7 +37,7 @@ class Triple:
         x, y = (
             (self.y_mps2, self.x_mps2) if orientation.is_transverse else (self.x_mps2, self.y_mps2)
         )
-        return replace(self, x_mps2=readonly(orientation.polarity * x), y_mps2=y)
+        return replace(self, x_mps2=read_only(orientation.polarity * x), y_mps2=y)
 
     def scale_to(self, ppa_g: float) -> float:
         """Return the factor that scales the larger horizontal peak to `ppa_g` [g]."""
@@ -70,20 +61,10 @@ class Triple:
 
     def cut(self, samples: int) -> Triple:
         """Return the `samples` consecutive samples with the most horizontal energy."""
-        energy = np.convolve(self.x_mps2**2 + self.y_mps2**2, np.ones(samples), "valid")
-        first = int(energy.argmax())
-        x, y, z = (
-            readonly(a[first : first + samples]) for a in (self.x_mps2, self.y_mps2, self.z_mps2)
-        )
+        part = strongest(self.x_mps2**2 + self.y_mps2**2, samples)
+        x, y, z = (read_only(a[part]) for a in (self.x_mps2, self.y_mps2, self.z_mps2))
         name = f"{self.name}, strongest {(samples - 1) * self.dt_s:g} s"
         return replace(self, name=name, x_mps2=x, y_mps2=y, z_mps2=z)
-
-
-def readonly(values: Floats) -> Floats:
-    """Return a read-only copy: numba compiles a second version for writable arrays."""
-    copied = np.array(values, dtype=np.float64)
-    copied.setflags(write=False)
-    return copied
 
 
 def own_triples(quick: bool) -> tuple[Triple, ...]:

@@ -16,8 +16,8 @@ from solver.model import STANDARD_GRAVITY_MPS2, SlideResult, Status
 from solver.records.record import Record
 from solver.rivals.methods import METHODS, AxisScene, Method
 from solver.verification.evidence import WorkPoint, percent_off
-from solver.verification.scenes import CASES, Case, is_runnable, prepared
-from solver.verification.study import clocked, minimum_seconds, run
+from solver.verification.scenes import CASES, Case, is_runnable
+from solver.verification.study import clocked, minimum_seconds, prepared, run
 
 SLOW_RECORDS, SLOW_CASES = 6, 2
 """Number of records, and of cases of each, for a method that takes a second per run."""

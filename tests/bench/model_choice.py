@@ -25,9 +25,10 @@ from measure import RECORDS, SMOKE, figure
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, Scene, SlideResult, Status, coulomb
+from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model, one_axis, two_axes
-from solver.verification.triples import own_triples, readonly, recorded_triples
+from solver.verification.triples import own_triples, recorded_triples
 
 SCENES = 30 if SMOKE else 10_000
 KINDS, ACROSS = ("noise", "periodic", "recorded"), ("like it", "noise", "push")
@@ -54,7 +55,7 @@ def pairs(folder: Path) -> Iterator[Motion]:
             dt = float(one["dt_s"])
             sides = [read_record(folder / r["file"], units="g", dt_s=dt) for r in (one, other)]
             n = min(len(side.a_mps2) for side in sides)
-            x, y = (readonly(side.a_mps2[:n]) for side in sides)
+            x, y = (read_only(side.a_mps2[:n]) for side in sides)
             yield x, y, NO_RECORD, dt
 
 
@@ -90,9 +91,9 @@ def random_scene(rng: np.random.Generator) -> Scene:
         ay = np.minimum(t / rng.uniform(0.5, 5.0), 1.0)
     peak = mu * rng.uniform(1.02, 4.0) * G
     return Scene(
-        ax_mps2=readonly(ax * peak),
-        ay_mps2=readonly(ay * 10.0 ** rng.uniform(-4.0, 0.3) * mu * G),
-        az_mps2=readonly(az * peak) if az.size else NO_RECORD,
+        ax_mps2=read_only(ax * peak),
+        ay_mps2=read_only(ay * 10.0 ** rng.uniform(-4.0, 0.3) * mu * G),
+        az_mps2=read_only(az * peak) if az.size else NO_RECORD,
         dt_s=dt,
         slope_rad=math.radians(rng.choice((0.0, 0.0, 1.0, 3.0, 7.0))),
         friction=coulomb(mu),
@@ -145,7 +146,7 @@ def worst(scene: Scene, step_deg: int) -> float:
     ax, ay, found = scene.ax_mps2, scene.ay_mps2, []
     for angle in np.radians(np.arange(0, 360, step_deg)):
         x, y = np.cos(angle) * ax - np.sin(angle) * ay, np.sin(angle) * ax + np.cos(angle) * ay
-        turned = replace(scene, ax_mps2=readonly(x), ay_mps2=readonly(y))
+        turned = replace(scene, ax_mps2=read_only(x), ay_mps2=read_only(y))
         found.append(least_model.solve(turned).result.prd_m)
     return float(np.max(found))
 
@@ -158,9 +159,9 @@ def turn() -> None:
         peak = float(max(np.abs(ax).max(), np.abs(ay).max()))
         for slope_deg, mu, peak_g in CASES[:: 9 if SMOKE else 1]:
             scene = Scene(
-                ax_mps2=readonly(ax),
-                ay_mps2=readonly(ay),
-                az_mps2=readonly(az),
+                ax_mps2=read_only(ax),
+                ay_mps2=read_only(ay),
+                az_mps2=read_only(az),
                 dt_s=dt,
                 slope_rad=math.radians(slope_deg),
                 friction=coulomb(mu),
@@ -171,7 +172,7 @@ def turn() -> None:
             if package > LEAST_M:
                 every.append(worst(scene, STEP_DEG) / package)
                 if az.size:
-                    reversed_.append(worst(replace(scene, az_mps2=readonly(-az)), 90) / package)
+                    reversed_.append(worst(replace(scene, az_mps2=read_only(-az)), 90) / package)
     kind = "recorded" if RECORDS else "made"
     figure("motions that are turned", len(motions()), kind)
     for what, ratios in rows.items():

@@ -124,11 +124,7 @@ def test_in_the_stability_maps_of_the_manual(drawn, count):
         y_label="Sub-step [s]",
         y=y,
         error_percent=np.geomspace(1e-3, 1e3, 35).reshape(5, 7),
-        failed=np.zeros((5, 7), dtype=bool),
         limit=1e-2 / np.sqrt(x / 1e2),
-        x_mark=math.nan,
-        x_log=True,
-        y_log=True,
     )
     maps.stability([one] * count)
     assert not list(faults(drawn))

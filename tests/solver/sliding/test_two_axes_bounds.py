@@ -14,12 +14,12 @@ import pytest
 from campaign import campaign
 from places import DATA
 from solver.model import Friction, Scene, Status, coulomb
+from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import checked, least_model, two_axes
 from solver.sliding.least_model import Model
 from solver.sliding.two_axes import follow
 from solver.verification.random_pairs import finer, pair, rounding
-from solver.verification.triples import readonly
 
 G = 9.80665
 SCENES = json.loads((DATA / "two_axes.json").read_text("utf-8"))
@@ -28,7 +28,7 @@ SCENES = json.loads((DATA / "two_axes.json").read_text("utf-8"))
 def scene(group, number):
     """Return a scene of the file; an empty vertical is none."""
     given = SCENES[group][number]
-    records = {name: readonly(given[name]) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
+    records = {name: read_only(given[name]) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
     friction = Friction(**given["friction"]) if "friction" in given else coulomb(given["mu"])
     about = {name: given[name] for name in ("dt_s", "slope_rad")}
     return Scene(**records, **about, friction=friction, scale=1.0, g_mps2=G)
@@ -174,8 +174,8 @@ def extremes_of_cubics(ax, ay, dt):
 
 def frictionless(ax, ay, dt):
     return Scene(
-        ax_mps2=readonly(ax),
-        ay_mps2=readonly(ay),
+        ax_mps2=read_only(ax),
+        ay_mps2=read_only(ay),
         az_mps2=NO_RECORD,
         dt_s=dt,
         slope_rad=0.0,
@@ -190,7 +190,7 @@ def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
     weightless = np.full(4, -G * (1.0 - 1e-9))
     block = replace(
         frictionless([0.0, -20.0, 20.0, 20.0], [0.0, 0.02, 0.01, -0.01], 0.2),
-        az_mps2=readonly(weightless),
+        az_mps2=read_only(weightless),
         friction=coulomb(0.5),
     )
     free = follow(replace(block, friction=coulomb(0.0)), 1e-10)
@@ -220,7 +220,7 @@ def test_the_rounding_of_a_weight_that_presses_hard_is_within_the_bound():
     along = float(-mu * (Fraction(G) + up) - push)
     block = replace(
         frictionless([along, along], [0.0, 0.0], 1.0),
-        az_mps2=readonly([float(up)] * 2),
+        az_mps2=read_only([float(up)] * 2),
         friction=coulomb(float(mu)),
     )
     exact = (abs(Fraction(along)) - mu * (Fraction(G) + up)) / 2

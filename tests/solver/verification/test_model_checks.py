@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import pytest
 
+from solver.records.record import read_only
 from solver.sliding import two_axes
 from solver.verification import model_checks
 from solver.verification.checks import SECTIONS
-from solver.verification.triples import own_triples, readonly
+from solver.verification.triples import own_triples
 
 
 @pytest.fixture(scope="module")
@@ -48,6 +49,6 @@ def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
 
 def test_a_motion_whose_vertical_lifts_the_block_is_left_out():
     (triple,) = own_triples(True)
-    lifting = replace(triple, name="lifting", z_mps2=readonly(9.0 * triple.z_mps2))
+    lifting = replace(triple, name="lifting", z_mps2=read_only(9.0 * triple.z_mps2))
     rows = model_checks.model_checks((triple, lifting), quick=True)
     assert not any("lifting" in row.problem for row in rows)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from solver.records.record import read_only
 from solver.sliding.checked import slide
 from solver.verification import model_study
 from solver.verification.model_evidence import (
@@ -19,7 +20,7 @@ from solver.verification.model_evidence import (
     WORST,
     ModelChange,
 )
-from solver.verification.triples import own_triples, readonly
+from solver.verification.triples import own_triples
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +71,7 @@ def test_a_row_is_compared_with_a_rigid_array_of_its_mean_friction(study):
 
 def test_lifted_runs_are_counted_and_not_compared():
     (triple,) = own_triples(True)
-    lifting = replace(triple, z_mps2=readonly(20.0 * triple.z_mps2))
+    lifting = replace(triple, z_mps2=read_only(20.0 * triple.z_mps2))
     study = model_study.study((lifting,), quick=True)
     assert study.n_uplift == study.n_runs
     assert all(change.ratios.size == 0 and math.isnan(change.median) for change in study.changes)

@@ -38,9 +38,9 @@ def test_scipy_takes_part_where_it_is_installed(points):
 def test_without_scipy_the_rest_is_there_and_the_series_rest_where_they_should(monkeypatch):
     monkeypatch.setitem(sys.modules, "scipy", None)
     _, points = plane_work.work(own_triples(True)[0], quick=True)
-    stops = list(plane_work.stops())
+    stops = plane_work.stops()
     assert not any("SciPy" in point.method for point in (*points, *stops))
     ours = of(stops, plane_work.OURS)
-    assert all(point.end_speed_mps == 0.0 and point.error_m < 1e-9 for point in ours)
+    assert all(point.end_speed_mps == 0.0 and point.end_error_m < 1e-9 for point in ours)
     assert all(point.end_speed_mps > 1e-6 for point in of(stops, plane_work.CHATTERING))
-    assert all(1e-6 < point.error_m < 1e-2 for point in of(stops, plane_work.HOLDING))
+    assert all(1e-6 < point.end_error_m < 1e-2 for point in of(stops, plane_work.HOLDING))

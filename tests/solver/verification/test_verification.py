@@ -99,9 +99,9 @@ def test_a_method_without_a_number_fails_its_check(monkeypatch):
 
 
 def test_an_error_is_absolute_where_nothing_is_expected():
-    row = checks.check("CF-1", "b", "c", "d", "m", 0.0, -3e-4, 1e-3)
+    row = checks.check("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
     assert (row.error, row.passed) == (3e-4, True)
-    assert checks.check("CF-1", "b", "c", "d", "m", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
+    assert checks.check("CF-1", "c", "d", "m", "b", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
 
 
 @pytest.mark.parametrize("with_vertical", [False, True])

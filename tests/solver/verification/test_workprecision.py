@@ -10,7 +10,7 @@ import pytest
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification import study, workprecision
-from solver.verification.scenes import CASES, near_fault_pulse, prepared, shortened
+from solver.verification.scenes import CASES, near_fault_pulse, shortened
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +71,7 @@ def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
 
 def test_what_is_timed_is_what_is_run(record):
     for case, name in itertools.product(CASES, ("exact", "paper", "penalty-implicit")):
-        method, scene = METHODS[name], prepared(record, case)
+        method, scene = METHODS[name], study.prepared(record, case)
         outcome = method.follow(scene, method.parameters, np.empty((2, 0)))
         assert scene.cs * outcome.s_end == study.run(record, case, name).residual_m
 
