@@ -27,8 +27,8 @@ from report.sheet.answers import (
     table_answers,
 )
 from report.sheet.fields import Bounds, Entry, Frozen, SheetSection, entries
-from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell
-from report.sheet.needs import row_status
+from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
+from report.sheet.needs import row_status, status_name
 from report.sheet.schema import UnitsFirst, provision_name
 from report.words.units import Unit
 
@@ -309,13 +309,15 @@ def table_formulas(
 ) -> Mapping[str, tuple[str, str]]:
     """Return formula, without its equals sign, and number format of each column that computes."""
     answers = table_answers(place.section.key, is_us=is_us)
-    return {STATUS: (row_status(place, layout), STATUS_FORMAT)} | {
+    return {STATUS: (status_name(place.section), STATUS_FORMAT)} | {
         answer.name: (answer.write(layout), answer.number_format) for answer in answers
     }
 
 
-def write_answers(sheet: Worksheet, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
+def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
     """Write the formulas of a table; in Excel new rows get them by themselves."""
+    name_formula(book, status_name(place.section), row_status(place, layout))
+    sheet = book[place.section.sheet]
     formulas = table_formulas(layout, place, is_us=is_us)
     columns = sheet.tables[place.section.table_name].tableColumns
     for count, name in enumerate(place.letters):
