@@ -34,7 +34,7 @@ def moved(formula: str, rows: int) -> str:
         if token.subtype == Token.RANGE and not re.search(r"[!\[]", token.value):
             cells = token.value.split(":")
             token.value = ":".join(_moved(cell, rows) for cell in cells)
-    return tokens.render()
+    return "=" + "".join(token.value for token in tokens.items)
 
 
 def _moved(cell: str, rows: int) -> str:
@@ -43,17 +43,18 @@ def _moved(cell: str, rows: int) -> str:
 
 
 def _written(token: Token) -> str:
+    text = str(token.value)
     match token.type, token.subtype:
         case Token.OPERAND, Token.TEXT:
-            return token.value
+            return text
         case Token.OPERAND, Token.NUMBER:
-            return f"{float(token.value):.12g}"
+            return f"{float(text):.12g}"
         case Token.OPERAND, Token.RANGE:
-            return _range(token.value)
+            return _range(text)
         case Token.WSPACE, _:
             return ""
         case _:
-            return token.value.casefold().removeprefix(_NEWER)
+            return text.casefold().removeprefix(_NEWER)
 
 
 def _range(text: str) -> str:
