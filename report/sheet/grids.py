@@ -27,8 +27,8 @@ from report.sheet.answers import (
     table_answers,
 )
 from report.sheet.fields import Bounds, Entry, Frozen, SheetSection, entries
-from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell
-from report.sheet.needs import row_status
+from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
+from report.sheet.needs import row_status, status_name
 from report.sheet.schema import UnitsFirst, provision_name
 from report.words.units import Unit
 
@@ -102,7 +102,7 @@ def _write_block_row(
     sheet, needed = book[section.sheet], entry.is_required
     style.put(sheet, row, 1, f"{entry.cell.label}{' *' if needed else ''}", bold=needed)
     # Bounds of quantities are 0 or open, so they are valid in any unit.
-    texts = (_allowed(entry, unit), _example(entry, unit), entry.cell.help)
+    texts = (_allowed(entry, unit), _example(entry, unit), entry.help)
     for column, text in enumerate(texts, start=5):
         style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
     sheet.row_dimensions[row].height = 6 + 13 * _lines(texts, BLOCK_WIDTHS[4:])
@@ -278,7 +278,7 @@ def _write_heading(sheet: Worksheet, row: int, number: int, column: GridColumn) 
 def _write_help(sheet: Worksheet, place: TablePlace, entry: Entry, unit: Unit | None) -> None:
     source = _source(place.section, entry)
     if source:
-        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.cell.help)
+        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
     else:
         style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
 
@@ -311,13 +311,16 @@ def table_formulas(
 ) -> Mapping[str, tuple[str, str]]:
     """Return formula, without its equals sign, and number format of each column that computes."""
     answers = table_answers(place.section.key, is_us=is_us)
-    return {STATUS: (row_status(place, layout), STATUS_FORMAT)} | {
-        answer.name: (answer.write(layout), answer.number_format) for answer in answers
+    return {STATUS: (status_name(place.section), STATUS_FORMAT)} | {
+        answer.name: (answer.written(layout, place.section.key), answer.number_format)
+        for answer in answers
     }
 
 
-def write_answers(sheet: Worksheet, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
+def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
     """Write the formulas of a table; in Excel new rows get them by themselves."""
+    name_formula(book, status_name(place.section), row_status(place, layout))
+    sheet = book[place.section.sheet]
     formulas = table_formulas(layout, place, is_us=is_us)
     columns = sheet.tables[place.section.table_name].tableColumns
     for count, name in enumerate(place.letters):

@@ -48,10 +48,13 @@ class TablePlace:
         """Return the reference to a column in the row of the formula."""
         return f"{self.section.table_name}[[#This Row],{self._column(name)}]"
 
-    def these(self, first: str, last: str) -> str:
-        """Return the reference to neighboring columns in the row of the formula."""
-        table = self.section.table_name
-        return f"{table}[[#This Row],{self._column(first)}:{self._column(last)}]"
+    def here(self, first: str, last: str = "") -> str:
+        """Return the reference to columns in the row of the cell that asks for a defined name.
+
+        References of a name that are not fixed are those of a cell of the first row.
+        """
+        cells = f"${self.letters[first]}1" + (f":${self.letters[last]}1" if last else "")
+        return f"{quote_sheetname(self.sheet)}!{cells}"
 
     def head(self, name: str) -> str:
         """Return the reference to a heading."""

@@ -13,7 +13,7 @@ from itertools import product
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
 
-from report.sheet.answers import site_answers
+from report.sheet.answers import STATUS, site_answers
 from report.sheet.archive import OpenBook
 from report.sheet.cells import Found, cut, plain
 from report.sheet.counts import START, write_counts
@@ -73,7 +73,7 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the cells that have lost their live formula, by sheet, column and row.
 
     A workbook without live formulas, as of 0.1, has none. Not watched: a part of a sheet in which
-    rows were inserted or deleted, unless it is a table.
+    rows were inserted or deleted, unless it is a table; the status of rows in a workbook of 0.2.
     """
     lost = [
         Overwritten(position=position, found=found, title=_title(book, position), formula=formula)
@@ -176,7 +176,7 @@ def live_formulas(book: OpenBook) -> Mapping[CellPosition, str]:
     areas = {s.key: area for s in SECTIONS if s.is_table and (area := table_area(book, s))}
     for section in (section for section in SECTIONS if section.is_table):
         layout.tables[section.key] = _place(book, section, areas.get(section.key), units)
-    formulas = dict(_in_tables(layout, areas, is_us=is_us))
+    formulas = dict(_in_tables(book, layout, areas, is_us=is_us))
     return formulas | dict(_named(book, _written(layout, is_us=is_us)))
 
 
@@ -204,13 +204,15 @@ def _heading(section: SheetSection, column: GridColumn, area: TableArea) -> Cell
 
 
 def _in_tables(
-    layout: Layout, areas: Mapping[str, TableArea], *, is_us: bool
+    book: OpenBook, layout: Layout, areas: Mapping[str, TableArea], *, is_us: bool
 ) -> Iterator[tuple[CellPosition, str]]:
     for key, area in areas.items():
         place = layout.tables[key]
         for name, (formula, _) in table_formulas(layout, place, is_us=is_us).items():
             heading = area.headings.get(label_key(place.headings[name]))
-            if heading is not None:
+            # A workbook of 0.2 has no name for the status of a row, and keeps its long formula.
+            is_known = name != STATUS or formula in book.book.defined_names
+            if heading is not None and is_known:
                 for row in range(area.header + 1, area.last + 1):
                     yield CellPosition(area.sheet, row, heading.column), f"={formula}"
 

@@ -1,6 +1,8 @@
 """How many cells a begun row or block lacks or has wrong, as formulas for the sheet.
 
-`conditions` says what is required and what is wrong, for `checks` too. Read `row_status`.
+The status of a row is one defined name for each table, whose references are to the row that asks;
+its cells hold the name alone. `conditions` says what is required and what is wrong, for `checks`
+too. Read `row_status`.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from report.sheet.conditions import (
     REQUIRED,
     UNIQUE,
 )
-from report.sheet.fields import Entry, entries
+from report.sheet.fields import Entry, SheetSection, entries
 from report.sheet.layout import BlockPlace, Layout, TablePlace
 
 WRONG = 1_000_000
@@ -30,17 +32,23 @@ def condition(section: str, entry: Entry, refer: Callable[[str], str]) -> str:
     return required.when.formula(refer) if required else ""
 
 
+def status_name(section: SheetSection) -> str:
+    """Return the defined name of the status of a row."""
+    return f"status_{section.key}"
+
+
 def row_status(place: TablePlace, layout: Layout) -> str:
     """Return the number of cells that a begun row lacks; an empty text for a row not begun.
 
-    Negative where a cell is wrong: see `WRONG`.
+    Negative where a cell is wrong: see `WRONG`. For the defined name of the table: the row is that
+    of the cell that asks for it.
     """
     fields = entries(place.section.model)
     lacking = [_count(place, run, '=""') for run in _runs(place, _required(fields))]
     for entry in fields:
         needed = condition(place.section.key, entry, place.this)
         if needed:
-            lacking.append(f'IF(AND({needed},TRIM({place.this(entry.name)})=""),1,0)')
+            lacking.append(f'IF(AND({needed},TRIM({place.here(entry.name)})=""),1,0)')
     begun = "+".join(_count(place, run, '<>""') for run in _runs(place, [e.name for e in fields]))
     tests = "+".join(f"({test})" for test in _wrong_in_row(place, layout))
     wrong = f"-{WRONG}*({tests})" if tests else ""
@@ -51,21 +59,21 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
     """Yield what makes a cell of a row wrong."""
     section = place.section.key
     for entry in entries(place.section.model):
-        yield from is_wrong(place.this(entry.name), entry, f"unit_{section}_{entry.name}")
+        yield from is_wrong(place.here(entry.name), entry, f"unit_{section}_{entry.name}")
     for alike in UNIQUE:
         if section in alike:
-            yield is_twice(place.this("id"), alike, layout)
+            yield is_twice(place.here("id"), alike, layout)
     for (home, field), tables in REFERENCES.items():
         if home == section:
-            yield is_nowhere(place.this(field), tables, OTHER_NAMES.get((home, field), ""), layout)
+            yield is_nowhere(place.here(field), tables, OTHER_NAMES.get((home, field), ""), layout)
     for low, high in ORDERED:
         if high in place.letters:
-            cells = [place.this(name) for name in (low, high)]
+            cells = [place.here(name) for name in (low, high)]
             given = ",".join(f"ISNUMBER({cell})" for cell in cells)
-            least, most = (f"N({place.this(name)})*unit_{section}_{name}" for name in (low, high))
+            least, most = (f"N({place.here(name)})*unit_{section}_{name}" for name in (low, high))
             yield f"AND({given},{least}>={most})"
     if "slope_deg" in place.letters:
-        slope = place.this("slope_deg")
+        slope = place.here("slope_deg")
         yield f"AND(ISNUMBER({slope}),{slope}>={MAX_SLOPE_DEG:g})"
 
 
@@ -115,7 +123,7 @@ def _required(fields: Sequence[Entry]) -> list[str]:
 
 
 def _count(place: TablePlace, run: tuple[str, str], test: str) -> str:
-    return f"SUMPRODUCT(--(TRIM({place.these(*run)}){test}))"
+    return f"SUMPRODUCT(--(TRIM({place.here(*run)}){test}))"
 
 
 def _runs(place: TablePlace, names: Sequence[str]) -> Iterator[tuple[str, str]]:

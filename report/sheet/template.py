@@ -49,7 +49,7 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
     write_rules(book, layout)
     write_lookups(book, layout)
     for place in layout.tables.values():
-        write_answers(book[place.section.sheet], layout, place, is_us=is_us)
+        write_answers(book, layout, place, is_us=is_us)
         mark_table(book[place.section.sheet], place)
     for block in layout.blocks.values():
         mark_block(book[block.section.sheet], block)

@@ -42,7 +42,7 @@ def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = N
             block = () if example is None else (getattr(example, section.key),)
             layout.blocks[section.key] = write_block(book, section, units, block)
     for place in layout.tables.values():
-        write_answers(book[place.section.sheet], layout, place, is_us=is_us)
+        write_answers(book, layout, place, is_us=is_us)
         mark_table(book[place.section.sheet], place)
     for made in layout.blocks.values():
         mark_block(book[made.section.sheet], made)

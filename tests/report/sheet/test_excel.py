@@ -83,7 +83,7 @@ def test_every_name_used_is_defined(parts):
     used = {
         name
         for text in formulas(parts)
-        for name in re.findall(r"\b(?:live|rule|unit|lacks|sdc)_\w+", outside_quotes(text))
+        for name in re.findall(r"\b(?:live|rule|unit|lacks|sdc|status)_\w+", outside_quotes(text))
     }
     assert used <= names
 

@@ -72,4 +72,5 @@ def test_formulas_are_no_longer_than_excel_permits(tmp_path):
     """Microsoft's specifications and limits of Excel: 8,192 characters."""
     book = load_workbook(make(tmp_path))
     texts = [c.value for sheet in book for row in sheet for c in row if c.data_type == "f"]
+    texts += [name.attr_text for name in book.defined_names.values()]
     assert max(map(len, texts)) <= 8192
