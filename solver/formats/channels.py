@@ -58,19 +58,19 @@ class Channel:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Part:
+class VolumePart:
     """Lines of one channel with its heading, from index `first` to before `stop`."""
 
     first: int
     stop: int
 
 
-def parts_of(source: Source, heading: re.Pattern[str]) -> list[Part]:
+def parts_of(source: Source, heading: re.Pattern[str]) -> list[VolumePart]:
     """Parts of a file, each of which begins with the first line of a heading."""
     starts = [index for index, line in enumerate(source.lines) if heading.match(line)]
     check_number(source, len(starts))
     stops = [*starts[1:], len(source.lines)]
-    return [Part(first=first, stop=stop) for first, stop in zip(starts, stops, strict=True)]
+    return [VolumePart(first=first, stop=stop) for first, stop in zip(starts, stops, strict=True)]
 
 
 def motion_file(

@@ -18,7 +18,7 @@ from collections.abc import Iterator, Sequence
 
 from solver.formats.channels import (
     Channel,
-    Part,
+    VolumePart,
     check_length,
     check_only_blank,
     check_steps,
@@ -95,7 +95,7 @@ def read(source: Source) -> MotionFile:
     return motion_file(source, form, channels, recorder_notes(source, len(parts)))
 
 
-def _volume_1(source: Source, part: Part) -> Channel:
+def _volume_1(source: Source, part: VolumePart) -> Channel:
     even = _search(source, part, _EVEN_1)
     dt_s, values, notes = _even_values(source, part, *even) if even else _pair_values(source, part)
     at, peak_mps2 = _peak(source, part, _PEAK_1)
@@ -107,7 +107,7 @@ def _volume_1(source: Source, part: Part) -> Channel:
     )
 
 
-def _pair_values(source: Source, part: Part) -> tuple[float, Floats, tuple[str, ...]]:
+def _pair_values(source: Source, part: VolumePart) -> tuple[float, Floats, tuple[str, ...]]:
     """Pairs of time and acceleration, ten numbers per line."""
     points = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
@@ -131,7 +131,7 @@ def _pair_values(source: Source, part: Part) -> tuple[float, Floats, tuple[str, 
 
 
 def _even_values(
-    source: Source, part: Part, at: int, match: re.Match[str]
+    source: Source, part: VolumePart, at: int, match: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
     """Evenly spaced values after a line with their count, rate, unit and format."""
     _check_heading(source, part, at, _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1))
@@ -152,7 +152,7 @@ def _even_values(
     return dt_s, values, ended
 
 
-def _volume_2(source: Source, part: Part) -> Channel:
+def _volume_2(source: Source, part: VolumePart) -> Channel:
     place = _search(source, part, _EVEN_2)
     if not place:
         raise InputError(
@@ -181,7 +181,7 @@ def _volume_2(source: Source, part: Part) -> Channel:
     )
 
 
-def _step_2(source: Source, part: Part, stated: Stated) -> Stated:
+def _step_2(source: Source, part: VolumePart, stated: Stated) -> Stated:
     """Step of the real heading, which has more digits than the line above the values."""
     exact = _reals_2(source, part)[_STEP_2 - 1]
     if math.isnan(exact.value):
@@ -195,7 +195,7 @@ def _step_2(source: Source, part: Part, stated: Stated) -> Stated:
     return exact
 
 
-def _check_heading(source: Source, part: Part, at: int, due: int) -> None:
+def _check_heading(source: Source, part: VolumePart, at: int, due: int) -> None:
     """Raise if the heading above the line of values has more or fewer lines than the format."""
     found = at - part.first
     if found != due:
@@ -205,16 +205,16 @@ def _check_heading(source: Source, part: Part, at: int, due: int) -> None:
         )
 
 
-def _reals_1(source: Source, part: Part) -> list[Stated]:
+def _reals_1(source: Source, part: VolumePart) -> list[Stated]:
     return header_values(source, part.first + _TEXT_1 + _WHOLE, _REALS_1, _REAL)
 
 
-def _reals_2(source: Source, part: Part) -> list[Stated]:
+def _reals_2(source: Source, part: VolumePart) -> list[Stated]:
     return header_values(source, part.first + _TEXT_2 + _WHOLE, _REALS_2, _REAL)
 
 
 def _search(
-    source: Source, part: Part, pattern: re.Pattern[str]
+    source: Source, part: VolumePart, pattern: re.Pattern[str]
 ) -> tuple[int, re.Match[str]] | None:
     """First line of a channel's heading that contains the pattern."""
     for index in _heading(part):
@@ -223,7 +223,7 @@ def _search(
     return None
 
 
-def _heading(part: Part) -> Iterator[int]:
+def _heading(part: VolumePart) -> Iterator[int]:
     lines = _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2) + 1
     return iter(range(part.first, min(part.first + lines, part.stop)))
 
@@ -237,7 +237,7 @@ def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
     return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)
 
 
-def _peak(source: Source, part: Part, pattern: re.Pattern[str]) -> tuple[int, float]:
+def _peak(source: Source, part: VolumePart, pattern: re.Pattern[str]) -> tuple[int, float]:
     place = _search(source, part, pattern)
     if not place:
         return part.first, 0.0
@@ -245,6 +245,6 @@ def _peak(source: Source, part: Part, pattern: re.Pattern[str]) -> tuple[int, fl
     return index, printed(match[1], index).value * unit_size(match[2])
 
 
-def _name(source: Source, part: Part, lines: int) -> str:
+def _name(source: Source, part: VolumePart, lines: int) -> str:
     heading = source.lines[part.first : min(part.first + lines, part.stop)]
     return next((line for line in heading if line.strip().upper().startswith("CHAN")), "")

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 from solver.formats.channels import (
     Channel,
-    Part,
+    VolumePart,
     check_length,
     check_only_blank,
     check_steps,
@@ -75,7 +75,7 @@ def _is_uncorrected(source: Source) -> bool:
     return source.line(0).strip().upper().startswith("UN")
 
 
-def _component(source: Source, part: Part) -> Channel:
+def _component(source: Source, part: VolumePart) -> Channel:
     whole = header_values(source, part.first + _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, part.first + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
     count = whole[_ACCELERATIONS - 1]
@@ -102,7 +102,7 @@ def _component(source: Source, part: Part) -> Channel:
     )
 
 
-def _block(part: Part, whole: Sequence[Stated]) -> Block:
+def _block(part: VolumePart, whole: Sequence[Stated]) -> Block:
     """Lines of the accelerations: up to the velocities, if there are any."""
     first, count = part.first + _HEADING, whole[_ACCELERATIONS - 1]
     end = first + _WHOLE.lines(int(count.value))
@@ -111,7 +111,7 @@ def _block(part: Part, whole: Sequence[Stated]) -> Block:
     return Block(first=first, stop=stop, count=int(count.value), promised=count.index)
 
 
-def _step(source: Source, part: Part, exact: Stated) -> Stated:
+def _step(source: Source, part: VolumePart, exact: Stated) -> Stated:
     """Step in the real numbers of the heading, compared with the one in the text."""
     at = part.first + _UNIT_LINE - 1
     line = source.line(at)
@@ -125,14 +125,14 @@ def _step(source: Source, part: Part, exact: Stated) -> Stated:
     return exact if exact.rounding <= stated.rounding else stated
 
 
-def _check_length(source: Source, part: Part, reached_s: float, dt_s: float) -> None:
+def _check_length(source: Source, part: VolumePart, reached_s: float, dt_s: float) -> None:
     """Compare count times step with the duration in the text."""
     at = part.first + _LENGTH_LINE - 1
     if match := _LENGTH.search(source.line(at)):
         check_length(source, printed(match[1], at), reached_s, dt_s)
 
 
-def _scale(source: Source, part: Part) -> float:
+def _scale(source: Source, part: VolumePart) -> float:
     """Value [m/s2] of one unit: from `Raw readings in units of 1.00 mm/s/s`, or of the peak."""
     at = part.first + _UNIT_LINE - 1
     if unit := _UNIT.search(source.line(at)):
@@ -149,7 +149,7 @@ def _scale(source: Source, part: Part) -> float:
     return source.scale(unit[1], at)
 
 
-def _rest(source: Source, part: Part, whole: Sequence[Stated]) -> tuple[str, ...]:
+def _rest(source: Source, part: VolumePart, whole: Sequence[Stated]) -> tuple[str, ...]:
     """Note that a file is truncated after its accelerations."""
     counts = [whole[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
     counts = [count for count in counts if 0.0 < count < 1e8]
