@@ -30,7 +30,7 @@ def work_precision(rivals: Rivals, us_first: bool) -> str:
         for name in dict.fromkeys(run.method.name for run in rivals.runs):
             _draw(axes, [run for run in rivals.runs if run.method.name == name and not run.failed])
         floor = max(rivals.doubled, FLOOR)
-        axes.plot([1.0], [100.0 * floor], **LOOKS["exact"].all | {"markersize": 9})
+        axes.plot([1.0], [100.0 * floor], **LOOKS["exact"] | {"markersize": 9})
         axes.annotate(
             "exact method: rounding error",
             (1.0, 100.0 * floor),
@@ -54,7 +54,7 @@ def _draw(axes: Axes, runs: Sequence[MethodRun]) -> None:
         return
     look = LOOKS[runs[0].method.name]
     if not runs[0].method.knob:  # the error does not depend on a number of steps
-        axes.axhline(100.0 * runs[0].error, color=look.color, linewidth=1.6, label=look.label)
+        axes.axhline(100.0 * runs[0].error, color=look["color"], linewidth=1.6, label=look["label"])
         return
     ordered = sorted(runs, key=lambda run: (run.steps, run.error))
     if runs[0].method.knob != "substeps":  # several stiffnesses have the same steps
@@ -63,7 +63,7 @@ def _draw(axes: Axes, runs: Sequence[MethodRun]) -> None:
             key=lambda run: list(run.parameters.values()),
         )
     errors = [100.0 * max(run.error, FLOOR) for run in ordered]
-    axes.plot([run.steps for run in ordered], errors, **look.all)
+    axes.plot([run.steps for run in ordered], errors, **look)
 
 
 def _axes(axes: Axes, maximum: float) -> None:

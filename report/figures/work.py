@@ -81,7 +81,7 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
             for curve in curves(points, f"{measure}_{unit}", floor):
                 look = LOOKS[curve.method]
                 size = {"markersize": 10} if curve.method == "exact" else {}
-                axes.plot(curve.seconds, curve.median, **look.all | size)
+                axes.plot(curve.seconds, curve.median, **look | size)
                 if curve.method == "exact":
                     _name_floor(axes, curve)
             labeled(axes, "Time per run [s]", title=f"Error in {name}")
@@ -153,9 +153,9 @@ def _panel(axes: Axes, curve: WorkCurve, shown: Sequence[WorkCurve]) -> None:
         curve.seconds, curve.low, curve.high, facecolor="#c9d5e3", edgecolor="none", zorder=1.5
     )
     look = LOOKS[curve.method]
-    axes.plot(curve.seconds, curve.median, **look.all | {"markersize": 3.8}, zorder=3)
+    axes.plot(curve.seconds, curve.median, **look | {"markersize": 3.8}, zorder=3)
     if curve.seconds.size == 1:
         axes.vlines(curve.seconds, curve.low, curve.high, color=INK, linewidth=0.8, zorder=2.5)
     labeled(axes)
-    axes.set_title(look.label, loc="left")
+    axes.set_title(look["label"], loc="left")
     _log_axes(axes, across=5, up=6)

@@ -50,9 +50,8 @@ class FloorRecords:
     description: str
     is_recorded: bool  # in an earthquake; otherwise computed
     dt_s: float
-    # shape (n,) and (n, m)
-    ground_mps2: Floats
-    floors_mps2: Floats
+    ground_mps2: Floats  # shape (n,)
+    floors_mps2: Floats  # shape (n, m)
     floors: tuple[str, ...]  # their ordinal numbers
     heights: tuple[float, ...]  # relative to the height of the building
     code_period_s: float  # approximate period from type and height [s]; NaN for none

@@ -106,8 +106,8 @@ class Convergence:
     record: str
     scenarios: int
     substeps: tuple[int, ...]
-    # shape (len(substeps),): of the residual, largest over the scenarios, see `percent_off`;
-    # relative to the exact method, and to the last number of sub-steps as in the paper (0 there)
+    # shape (len(substeps),): of the residual, largest over the scenarios, see `percent_off`:
+    # against the exact method, and against the last number of sub-steps as in the paper (0 there)
     largest_error_exact_percent: Floats
     largest_error_p256_percent: Floats
     # shape (len(substeps),): the same errors against the exact method, in percent of the PRD: where
@@ -133,10 +133,9 @@ class LinkComparison:
     rrd_exact_m: Floats
     rrd_link_m: Floats
     history_mu: float  # the friction coefficient with the largest difference in RRD
-    # shape (m,)
-    history_t_s: Floats
-    history_exact_m: Floats
-    history_link_m: Floats
+    history_t_s: Floats  # shape (m,)
+    history_exact_m: Floats  # shape (m,)
+    history_link_m: Floats  # shape (m,)
     # difference in RRD relative to the link's, as in the paper, see `percent_off`
     worst_percent: float
     mean_percent: float
@@ -149,10 +148,9 @@ class DesignCurves:
     record: str
     runs: int
     seconds: float  # total time of all runs [s]
-    # shape (p,), (q,), (r,): ascending; slopes from 0
-    slopes_deg: Floats
-    mus: Floats
-    ppas_g: Floats
+    slopes_deg: Floats  # shape (p,): ascending from 0
+    mus: Floats  # shape (q,): ascending
+    ppas_g: Floats  # shape (r,): ascending
     prd_m: Floats  # shape (p, q, r): the larger of both signs of the slope [m]
 
     def prd(self, slope_deg: float, ppa_g: float) -> Floats:
@@ -177,11 +175,9 @@ class Conditioning:
     slope_deg: float
     ppa_g: float
     relative_change: float  # of mu, both increased and decreased
-    # shape (n,)
-    mu: Floats
-    prd_m: Floats
-    # shape (n,): the larger of the two changes of the PRD, see `percent_off`
-    change_percent: Floats
+    mu: Floats  # shape (n,)
+    prd_m: Floats  # shape (n,)
+    change_percent: Floats  # shape (n,): larger of the two changes of the PRD, see `percent_off`
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,10 +198,9 @@ class RoofPrediction:
     """A roof motion computed from the ground motion, compared with the recorded one."""
 
     name: str  # source of the building's properties
-    # of the first mode [s], of every mode, and the lateral stiffness ratio
-    period_s: float
-    damping: float
-    alpha0: float
+    period_s: float  # of the first mode [s]
+    damping: float  # of every mode
+    alpha0: float  # lateral stiffness ratio
     n_modes: int
     left_out_share: float  # see `solver.building.roof.RoofMotion`
     # sum of squares of (computed - recorded) roof acceleration over that of the recorded one
@@ -213,10 +208,8 @@ class RoofPrediction:
     peak_mps2: float
     # shape (m,): pseudo-spectral acceleration at `RoofComparison.periods_s`, 5 % damping [m/s2]
     sa_mps2: Floats
-    # shape (b,): geometric mean of computed over recorded spectrum in each band, and the standard
-    # deviation of its natural logarithm there
-    band_ratios: Floats
-    band_scatters: Floats
+    band_ratios: Floats  # shape (b,): geometric mean of computed over recorded spectrum
+    band_scatters: Floats  # shape (b,): standard deviation of its natural logarithm
     a_mps2: Floats  # shape (n,): the roof motion, over the duration of the recorded one
     prd_m: Floats  # shape (k,): for the scenes of `RoofComparison` [m]
 
@@ -225,9 +218,8 @@ class RoofPrediction:
 class RoofComparison:
     """One building whose ground and roof were recorded, with the computed roof motions."""
 
-    # name; type of building and location of the instruments
     title: str
-    description: str
+    description: str  # type of building and location of the instruments
     is_recorded: bool  # in an earthquake; otherwise the model building
     dt_s: float
     roof_mps2: Floats  # shape (n,): recorded [m/s2]
@@ -237,12 +229,10 @@ class RoofComparison:
     ground_sa_mps2: Floats
     roof_sa_mps2: Floats
     bands_s: tuple[tuple[float, float], ...]  # limits of the period bands [s]
-    # slope and scale factor of all scenes
-    slope_deg: float
-    scale: float
-    # shape (k,): friction coefficient of each scene, and PRD under the recorded roof motion [m]
-    mus: Floats
-    prd_m: Floats
+    slope_deg: float  # of all scenes
+    scale: float  # of all scenes
+    mus: Floats  # shape (k,): friction coefficient of each scene
+    prd_m: Floats  # shape (k,): under the recorded roof motion [m]
     predictions: tuple[RoofPrediction, ...]
 
 

@@ -58,9 +58,8 @@ class ModelStudy:
     slopes_deg: tuple[float, ...]
     mus: tuple[float, ...]
     ppas_g: tuple[float, ...]
-    # scenes times motions and headings, and the runs in which the normal force vanishes
-    n_runs: int
-    n_uplift: int
+    n_runs: int  # scenes times motions and headings
+    n_uplift: int  # runs in which the normal force vanishes
     # `VERTICAL`, `SECOND`, `WORST`, `OVER_SLOW`, `OVER_FAST`, `HELD_ONE`, `HELD`, `OVER_STATIC`,
     # `STIFF` and `SOFT`
     changes: tuple[ModelChange, ...]
@@ -88,9 +87,9 @@ class FadingAxis:
 
     share: float  # factor of the second component
     # shape (n,): change of the PRD of each scene relative to one axis with the same friction,
-    # ascending: with kinetic friction alone, and with static friction above it
-    one_coefficient: Floats
-    static_above: Floats
+    # ascending
+    one_coefficient: Floats  # kinetic friction alone
+    static_above: Floats  # static friction above it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

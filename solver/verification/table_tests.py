@@ -58,15 +58,12 @@ class Data(StrEnum):
 class TableTest:
     """One run of a shake table."""
 
-    # as in `NAME`
-    name: str
+    name: str  # as in `NAME`, and so are the next two
     source: str
     data: Data
     scene: Scene  # accelerations of the table, slope and friction
-    # largest and final horizontal displacement relative to the table [m], both magnitudes; the
-    # second is NaN if it is not given
-    prd_m: float
-    residual_m: float
+    prd_m: float  # largest horizontal displacement relative to the table [m]
+    residual_m: float  # magnitude of the final one [m]; NaN if it is not given
 
 
 def table_tests(folder: Path) -> tuple[TableTest, ...]:
