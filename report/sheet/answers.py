@@ -7,12 +7,13 @@ them. Only functions of Excel 2007 to 2016, no array formulas. The reader reads 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from report.sheet.conditions import literal
 from report.sheet.layout import Layout
-from report.words.units import PRESSURES, Quantity
+from report.words.units import Quantity, Unit
 from solver.model import INCH_M
 from solver.rules.provisions import Neighbor
 
@@ -28,6 +29,8 @@ IN_DISPLACEMENT, IN_SEPARATION = "in the displacement", "in the separation"
 ONE_VALUE, BY_FORMULA = "one value", "the formula"
 """What a rule set prescribes in SDC A, B and C, as written on the sheet Provisions."""
 
+_REFERENCE = re.compile(r"(\w*)\[(#?)(\w+)\]")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FormulaColumn:
@@ -38,8 +41,9 @@ class FormulaColumn:
     name, heading : str
     note : str
         Shown above the heading.
-    write : callable
-        Returns the formula, without its equals sign, from the finished layout.
+    formula : str
+        Without its equals sign: `[field]` is the cell of its row, `table[field]` a whole column,
+        and `table[#field]` a heading. Blank where it gives an error.
     number_format : str
     width : int
     is_helper : bool
@@ -49,19 +53,36 @@ class FormulaColumn:
     name: str
     heading: str
     note: str
-    write: Callable[[Layout], str]
+    formula: str
     number_format: str = "General"
     width: int = 11
     is_helper: bool = False
 
+    def written(self, layout: Layout, section: str) -> str:
+        """Return the formula with the references of a finished layout."""
+
+        def reference(match: re.Match[str]) -> str:
+            table, is_heading, field = match.groups()
+            if not table:
+                return layout.tables[section].this(field)
+            place = layout.tables[table]
+            return place.head(field) if is_heading else place.all(field)
+
+        return _blank_on_error(_REFERENCE.sub(reference, _on_one_line(self.formula)))
+
 
 def table_answers(section: str, *, is_us: bool) -> tuple[FormulaColumn, ...]:
     """Return the answers of a table, in the order of its columns."""
+    side = 0 if is_us else 1
     if section == "arrays":
-        return _of_arrays(is_us)
+        return _of_arrays(Quantity.PRESSURE.value[side])
     if section == "outlines":
         return (_DOUBLE_AREA,)
-    return _of_clearances(is_us) if section == "clearances" else ()
+    return _of_clearances(Quantity.SIZE.value[side]) if section == "clearances" else ()
+
+
+def _on_one_line(formula: str) -> str:
+    return "".join(map(str.strip, formula.splitlines()))
 
 
 def _label(heading: str) -> str:
@@ -72,135 +93,167 @@ def _blank_on_error(formula: str) -> str:
     return f'IFERROR({formula},"")'
 
 
-def _of_arrays(is_us: bool) -> tuple[FormulaColumn, ...]:
-    unit = Quantity.PRESSURE.us if is_us else Quantity.PRESSURE.si
+def _decimals(count: int) -> str:
+    return f"0.{'0' * count}" if count else "0"
+
+
+_SLOPE_DEG = """
+    IF(TRIM([slope_value])="","",
+    IF([slope_unit]="degrees",[slope_value]+0,
+    IF([slope_unit]="percent",DEGREES(ATAN([slope_value]/100)),
+    IF([slope_unit]="in/12",DEGREES(ATAN([slope_value]/12)),""))))
+"""
+_KIND_OF_ARRAY = """
+    IF(TRIM([mu])="","",TRIM([construction])&" | "&([mu]+0)
+    &" | "&IF(TRIM([mu_fast])="",[mu]+0,[mu_fast]+0)
+    &" | "&IF(TRIM([mu_rate_s_per_m])="",0,[mu_rate_s_per_m]+0)
+    &" | "&IF(TRIM([mu_static])="",[mu]+0,[mu_static]+0))
+"""
+_VERTICES = f"COUNTIF(live_outlines,{literal('[id]')})"
+_IS_ITS = "--(TRIM(outlines[name])=TRIM([id]))"
+# An error where a row is below the table.
+_OUTLINED_AREA = f"""
+    ABS(SUMPRODUCT({_IS_ITS},outlines[double_area]))/2*unit_outlines_x_m*unit_outlines_y_m
+    /(SUMPRODUCT({_IS_ITS})={_VERTICES})
+"""
+
+
+def _weight_per_area(unit: Unit) -> str:
+    x, y = (f"([{a}_to_m]*unit_arrays_{a}_to_m-[{a}_from_m]*unit_arrays_{a}_from_m)" for a in "xy")
+    force = f"[weight_n]*unit_arrays_weight_n/{unit.si!r}"
+    return f"""
+        IF(TRIM([weight_n])="","",
+        IF({_VERTICES}>0,{force}/({_OUTLINED_AREA}),
+        IF(OR({x}<=0,{y}<=0),"",{force}/({x}*{y}))))
+    """
+
+
+def _of_arrays(unit: Unit) -> tuple[FormulaColumn, ...]:
     return (
         FormulaColumn(
             name="slope_deg",
             heading="Slope in degrees",
             note="from slope and its unit",
-            write=_slope_deg,
+            formula=_SLOPE_DEG,
             number_format="0.00",
         ),
         FormulaColumn(
             name="weight_per_area",
             heading=f"Weight per area [{unit.symbol}]",
             note="over the rectangle or outline in plan",
-            write=lambda layout: _weight_per_area(layout, unit.symbol),
+            formula=_weight_per_area(unit),
             number_format=_decimals(unit.decimals),
         ),
         FormulaColumn(
             name="kind_of_array",
             heading="Kind of array",
             note="construction | friction: low, high, rate, static",
-            write=_kind_of_array,
+            formula=_KIND_OF_ARRAY,
             width=40,
             is_helper=True,
         ),
     )
 
 
-def _decimals(count: int) -> str:
-    return f"0.{'0' * count}" if count else "0"
-
-
-def _slope_deg(layout: Layout) -> str:
-    this = layout.tables["arrays"].this
-    value, unit = this("slope_value"), this("slope_unit")
-    return _blank_on_error(
-        f'IF(TRIM({value})="","",IF({unit}="degrees",{value}+0,'
-        f'IF({unit}="percent",DEGREES(ATAN({value}/100)),'
-        f'IF({unit}="in/12",DEGREES(ATAN({value}/12)),""))))'
-    )
-
-
-def _weight_per_area(layout: Layout, symbol: str) -> str:
-    this = layout.tables["arrays"].this
-    sides = {
-        axis: "({}*unit_arrays_{}-{}*unit_arrays_{})".format(
-            this(f"{axis}_to_m"), f"{axis}_to_m", this(f"{axis}_from_m"), f"{axis}_from_m"
-        )
-        for axis in "xy"
-    }
-    x, y = sides["x"], sides["y"]
-    weight = this("weight_n")
-    force = f"{weight}*unit_arrays_weight_n/{PRESSURES[symbol]!r}"
-    return _blank_on_error(
-        f'IF(TRIM({weight})="","",IF(COUNTIF(live_outlines,{literal(this("id"))})>0,'
-        f"{force}/({_outlined_area(layout)}),"
-        f'IF(OR({x}<=0,{y}<=0),"",{force}/({x}*{y}))))'
-    )
-
-
-def _outlined_area(layout: Layout) -> str:
-    """Return the area within the outline of an array; an error where a row is below the table."""
-    name, outlines = layout.tables["arrays"].this("id"), layout.tables["outlines"]
-    is_its = f"--(TRIM({outlines.all('name')})=TRIM({name}))"
-    return (
-        f"ABS(SUMPRODUCT({is_its},{outlines.all('double_area')}))/2"
-        "*unit_outlines_x_m*unit_outlines_y_m"
-        f"/(SUMPRODUCT({is_its})=COUNTIF(live_outlines,{literal(name)}))"
-    )
-
-
-def _double_area(layout: Layout) -> str:
-    """Return twice the area of the triangle from the origin to a vertex and the next one."""
-    outlines = layout.tables["outlines"]
-    names, name = outlines.all("name"), outlines.this("name")
-    number = f"(ROW({name})-ROW({outlines.head('name')}))"
-    below = f"INDEX({names},{number}+1):INDEX({names},ROWS({names}))"
-    following = f"MATCH({literal(name)},{below},0)+{number}"
-    first = f"MATCH({literal(name)},{names},0)"
-    after = f"IF({number}=ROWS({names}),{first},IFERROR({following},{first}))"
-    x, y = (f"INDEX({outlines.all(axis)},{after})" for axis in ("x_m", "y_m"))
-    return _blank_on_error(
-        f'IF(TRIM({name})="","",{outlines.this("x_m")}*{y}-{x}*{outlines.this("y_m")})'
-    )
-
-
+_NUMBER = "(ROW([name])-ROW(outlines[#name]))"
+_FIRST = f"MATCH({literal('[name]')},outlines[name],0)"
+_FOLLOWING = (
+    f"MATCH({literal('[name]')},INDEX(outlines[name],{_NUMBER}+1)"
+    f":INDEX(outlines[name],ROWS(outlines[name])),0)+{_NUMBER}"
+)
+_AFTER = f"IF({_NUMBER}=ROWS(outlines[name]),{_FIRST},IFERROR({_FOLLOWING},{_FIRST}))"
 _DOUBLE_AREA = FormulaColumn(
     name="double_area",
     heading="Twice the area",
     note="of the triangle to the next vertex",
-    write=_double_area,
+    formula=f"""
+        IF(TRIM([name])="","",
+        [x_m]*INDEX(outlines[y_m],{_AFTER})-INDEX(outlines[x_m],{_AFTER})*[y_m])
+    """,
     is_helper=True,
 )
 
+_KIND = "INDEX(objects[kind],[object_row])"
+_HEIGHT = "INDEX(objects[height_m],[object_row])*unit_objects_height_m"
+_CENTER = "INDEX(arrays[cg_height_m],[array_row])*unit_arrays_cg_height_m"
+# As `solver.rules.provisions.parapet_qualifies`, in inches.
+_QUALIFIES = f"""
+    AND({_HEIGHT}/{INCH_M!r}>=rule_parapet_height_in*(1-0.000000001),
+    ({_HEIGHT}-{_CENTER})/{INCH_M!r}>=rule_parapet_over_cg_in*(1-0.000000001))
+"""
+_ONE, _OTHER = (
+    {
+        name: f"INDEX(arrays[{name}],[{row}])"
+        for name in ("kind_of_array", "slope_deg", "downslope_deg")
+    }
+    for row in ("array_row", "other_row")
+)
+_TURN = f"{_ONE['downslope_deg']}-{_OTHER['downslope_deg']}"
+_BACK = f"{_OTHER['downslope_deg']}-{_ONE['downslope_deg']}"
+# As `report.assessment.clearances.are_alike`.
+_ARE_ALIKE = f"""
+    AND({_ONE["kind_of_array"]}={_OTHER["kind_of_array"]},
+    ABS(RADIANS({_ONE["slope_deg"]}-{_OTHER["slope_deg"]}))<=0.000001,
+    MIN(MOD({_TURN},360),MOD({_BACK},360))<=1)
+"""
+_NEIGHBOR = f"""
+    IF([array_row]="","",
+    IF([other_row]<>"",IF({_ARE_ALIKE},"{Neighbor.LIKE}","{Neighbor.UNLIKE}"),
+    IF(TRIM({_KIND})="","",
+    IF({_KIND}="edge with parapet",IF({_QUALIFIES},"{Neighbor.PARAPET}","{Neighbor.EDGE}"),
+    IF({_KIND}="edge without parapet","{Neighbor.EDGE}",{_KIND})))))
+"""
+_IMPORTANCE = f"""
+    IF([neighbor]="","",
+    IF(rule_importance="{IN_DISPLACEMENT}",1,
+    IF(LEFT([neighbor],4)="edge",live_i_e,
+    MAX(1,INDEX(arrays[i_p],[array_row]),
+    IF([other_row]="",MAX(1,INDEX(objects[i_p],[object_row])),
+    MAX(1,INDEX(arrays[i_p],[other_row])))))))
+"""
 
-def _kind_of_array(layout: Layout) -> str:
-    this = layout.tables["arrays"].this
-    slow = this("mu")
-    fast, rate, static = (this(name) for name in ("mu_fast", "mu_rate_s_per_m", "mu_static"))
-    return _blank_on_error(
-        f'IF(TRIM({slow})="","",TRIM({this("construction")})&" | "&({slow}+0)'
-        f'&" | "&IF(TRIM({fast})="",{slow}+0,{fast}+0)'
-        f'&" | "&IF(TRIM({rate})="",0,{rate}+0)'
-        f'&" | "&IF(TRIM({static})="",{slow}+0,{static}+0))'
-    )
+
+def _required(unit: Unit) -> str:
+    at = "MATCH([neighbor],live_neighbors,0)"
+    return f"""
+        MAX(INDEX(live_separation_factors,{at})*[importance]*live_prescriptive_in,
+        INDEX(live_separation_minima_in,{at}))*{INCH_M!r}/{unit.si!r}
+    """
 
 
-def _of_clearances(is_us: bool) -> tuple[FormulaColumn, ...]:
-    unit = Quantity.SIZE.us if is_us else Quantity.SIZE.si
+def _demand_capacity(unit: Unit) -> str:
+    """Return required / provided, rounded up like `report.words.units.ratio`.
+
+    So that 1.00 never hides a failure.
+    """
+    ratio = f"[required]*{unit.si!r}/([provided_m]*unit_clearances_provided_m)"
+    return f"""
+        IF(OR([required]="",TRIM([provided_m])=""),"",
+        IF([provided_m]>0,MAX(0,ROUNDUP({ratio}-0.000000001,2)),"∞"))
+    """
+
+
+def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
     return (
         FormulaColumn(
             name="neighbor",
             heading="Neighbor",
             note="as the rule set counts it",
-            write=_neighbor,
+            formula=_NEIGHBOR,
             width=29,
         ),
         FormulaColumn(
             name="importance",
             heading="I",
             note="importance factor in the separation",
-            write=_importance,
+            formula=_IMPORTANCE,
             number_format="0.00",
         ),
         FormulaColumn(
             name="required",
             heading=f"Required, prescriptive [{unit.symbol}]",
             note="separation for the prescriptive displacement",
-            write=lambda layout: _required(layout, unit.si),
+            formula=_required(unit),
             number_format=_decimals(unit.decimals),
             width=13,
         ),
@@ -208,112 +261,24 @@ def _of_clearances(is_us: bool) -> tuple[FormulaColumn, ...]:
             name="demand_capacity",
             heading="D/C, prescriptive",
             note="required / provided, rounded up",
-            write=lambda layout: _demand_capacity(layout, unit.si),
+            formula=_demand_capacity(unit),
             number_format="0.00",
             width=13,
         ),
-        FormulaColumn(
-            name="array_row",
-            heading="Row of array",
-            note="in the table on Arrays",
-            write=lambda layout: _row_of(layout, "array", "arrays"),
-            is_helper=True,
-        ),
-        FormulaColumn(
-            name="other_row",
-            heading="Row of other array",
-            note="in the table on Arrays",
-            write=lambda layout: _row_of(layout, "object", "arrays"),
-            is_helper=True,
-        ),
-        FormulaColumn(
-            name="object_row",
-            heading="Row of object",
-            note="in the table on Objects",
-            write=lambda layout: _row_of(layout, "object", "objects"),
-            is_helper=True,
-        ),
+        _row_of("array_row", "array", "array", "arrays"),
+        _row_of("other_row", "other array", "object", "arrays"),
+        _row_of("object_row", "object", "object", "objects"),
     )
 
 
-def _row_of(layout: Layout, field: str, section: str) -> str:
-    """Return where an id is in another table."""
-    name = literal(layout.tables["clearances"].this(field))
-    return _blank_on_error(f"MATCH({name},{layout.tables[section].all('id')},0)")
-
-
-def _neighbor(layout: Layout) -> str:
-    this = layout.tables["clearances"].this
-    array, other, item = (this(name) for name in ("array_row", "other_row", "object_row"))
-    kind = f"INDEX({layout.tables['objects'].all('kind')},{item})"
-    edge = (
-        f'IF({kind}="edge with parapet",IF({_qualifies(layout, array, item)},'
-        f'"{Neighbor.PARAPET}","{Neighbor.EDGE}"),'
-        f'IF({kind}="edge without parapet","{Neighbor.EDGE}",{kind}))'
-    )
-    return _blank_on_error(
-        f'IF({array}="","",IF({other}<>"",IF({_are_alike(layout, array, other)},'
-        f'"{Neighbor.LIKE}","{Neighbor.UNLIKE}"),IF(TRIM({kind})="","",{edge})))'
-    )
-
-
-def _are_alike(layout: Layout, one: str, other: str) -> str:
-    """Return the rule of `report.assessment.clearances.are_alike`."""
-    arrays = layout.tables["arrays"]
-
-    def of(name: str, row: str) -> str:
-        return f"INDEX({arrays.all(name)},{row})"
-
-    kind = "kind_of_array"
-    turn = f"{of('downslope_deg', one)}-{of('downslope_deg', other)}"
-    back = f"{of('downslope_deg', other)}-{of('downslope_deg', one)}"
-    slopes = f"RADIANS({of('slope_deg', one)}-{of('slope_deg', other)})"
-    return (
-        f"AND({of(kind, one)}={of(kind, other)},ABS({slopes})<=0.000001,"
-        f"MIN(MOD({turn},360),MOD({back},360))<=1)"
-    )
-
-
-def _qualifies(layout: Layout, array: str, item: str) -> str:
-    """Return the rule of `solver.rules.provisions.parapet_qualifies`, in inches."""
-    height = f"INDEX({layout.tables['objects'].all('height_m')},{item})*unit_objects_height_m"
-    center = f"INDEX({layout.tables['arrays'].all('cg_height_m')},{array})*unit_arrays_cg_height_m"
-    equal = "(1-0.000000001)"
-    return (
-        f"AND({height}/{INCH_M!r}>=rule_parapet_height_in*{equal},"
-        f"({height}-{center})/{INCH_M!r}>=rule_parapet_over_cg_in*{equal})"
-    )
-
-
-def _importance(layout: Layout) -> str:
-    this = layout.tables["clearances"].this
-    array, other, item = (this(name) for name in ("array_row", "other_row", "object_row"))
-    ours = layout.tables["arrays"].all("i_p")
-    theirs = layout.tables["objects"].all("i_p")
-    across = f'IF({other}="",MAX(1,INDEX({theirs},{item})),MAX(1,INDEX({ours},{other})))'
-    return _blank_on_error(
-        f'IF({this("neighbor")}="","",IF(rule_importance="{IN_DISPLACEMENT}",1,'
-        f'IF(LEFT({this("neighbor")},4)="edge",live_i_e,MAX(1,INDEX({ours},{array}),{across}))))'
-    )
-
-
-def _required(layout: Layout, unit_m: float) -> str:
-    this = layout.tables["clearances"].this
-    at = f"MATCH({this('neighbor')},live_neighbors,0)"
-    return _blank_on_error(
-        f"MAX(INDEX(live_separation_factors,{at})*{this('importance')}*live_prescriptive_in,"
-        f"INDEX(live_separation_minima_in,{at}))*{INCH_M!r}/{unit_m!r}"
-    )
-
-
-def _demand_capacity(layout: Layout, unit_m: float) -> str:
-    this = layout.tables["clearances"].this
-    provided = this("provided_m")
-    ratio = f"{this('required')}*{unit_m!r}/({provided}*unit_clearances_provided_m)"
-    # Rounded up like `report.words.units.ratio`, so that 1.00 never hides a failure.
-    return _blank_on_error(
-        f'IF(OR({this("required")}="",TRIM({provided})=""),"",'
-        f'IF({provided}>0,MAX(0,ROUNDUP({ratio}-0.000000001,2)),"∞"))'
+def _row_of(name: str, what: str, field: str, section: str) -> FormulaColumn:
+    """Return the column that says where an id is in another table."""
+    return FormulaColumn(
+        name=name,
+        heading=f"Row of {what}",
+        note=f"in the table on {section.capitalize()}",
+        formula=f"MATCH({literal(f'[{field}]')},{section}[id],0)",
+        is_helper=True,
     )
 
 

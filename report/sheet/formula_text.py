@@ -8,52 +8,60 @@ from __future__ import annotations
 
 import re
 
-_TOKEN = re.compile(
-    r"""
-    (?P<text>"(?:[^"]|"")*")
-    | (?P<sheet>'(?:[^']|'')+'(?=!))
-    | (?P<column>\[(?:'.|[^\[\]']|\[(?:'.|[^\[\]'])*\])*\])
-    | (?P<word>[A-Za-z_\\$][\w.\\$]*)
-    | (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)
-    | (?P<space>\s+)
-    | (?P<other>.)
-    """,
-    re.VERBOSE | re.DOTALL,
-)
-_ONE_COLUMN = re.compile(r"\[\[(?:'.|[^\[\]'])*\]\]")
+from openpyxl.formula import Tokenizer
+from openpyxl.formula.tokenizer import Token, TokenizerError
+
+_ONE_COLUMN = re.compile(r"\[(\[(?:'.|[^\[\]'])*\])\]")
 _BETWEEN = re.compile(r"\]\s*,\s*\[")
 _CELL = re.compile(r"(\$?[A-Z]{1,3}\$?)(\d+)")
+_SHEET = re.compile(r"'((?:[^']|'')+)'!")
 _NEWER = "_xlfn."
 
 
 def canonical(formula: str) -> str:
-    """Return a formula in the form that is compared."""
-    return "".join(_written(match) for match in _TOKEN.finditer(formula))
+    """Return a formula in the form that is compared; one that no program reads as it is."""
+    try:
+        tokens = Tokenizer(formula).items
+    except (TokenizerError, IndexError):  # the second of a bracket that closes nothing
+        return formula
+    return "".join(map(_written, tokens))
 
 
 def moved(formula: str, rows: int) -> str:
     """Return a formula with the references to its own sheet moved down, absolute ones as well."""
-    parts, before = [], ""
-    for match in _TOKEN.finditer(formula):
-        cell = _CELL.fullmatch(match[0]) if before != "!" else None
-        before = match[0]
-        parts.append(f"{cell[1]}{int(cell[2]) + rows}" if cell else match[0])
-    return "".join(parts)
+    tokens = Tokenizer(formula)
+    for token in tokens.items:
+        if token.subtype == Token.RANGE and not re.search(r"[!\[]", token.value):
+            cells = token.value.split(":")
+            token.value = ":".join(_moved(cell, rows) for cell in cells)
+    return "=" + "".join(token.value for token in tokens.items)
 
 
-def _written(match: re.Match[str]) -> str:
-    token = match[0]
-    match match.lastgroup:
-        case "text":
-            return token
-        case "sheet":
-            return token[1:-1].replace("''", "'").casefold()
-        case "column":
-            name = _BETWEEN.sub("],[", " ".join(token.split())).casefold()
-            return name[1:-1] if _ONE_COLUMN.fullmatch(name) else name
-        case "number":
-            return f"{float(token):.12g}"
-        case "space":
+def _moved(cell: str, rows: int) -> str:
+    match = _CELL.fullmatch(cell)
+    return f"{match[1]}{int(match[2]) + rows}" if match else cell
+
+
+def _written(token: Token) -> str:
+    text = str(token.value)
+    match token.type, token.subtype:
+        case Token.OPERAND, Token.TEXT:
+            return text
+        case Token.OPERAND, Token.NUMBER:
+            return f"{float(text):.12g}"
+        case Token.OPERAND, Token.RANGE:
+            return _range(text)
+        case Token.WSPACE, _:
             return ""
         case _:
-            return token.replace("$", "").casefold().removeprefix(_NEWER)
+            return text.casefold().removeprefix(_NEWER)
+
+
+def _range(text: str) -> str:
+    """Return cells, a name or a column of a table as they are compared."""
+    if sheet := _SHEET.match(text):
+        text = f"{sheet[1]}!{text[sheet.end() :]}".replace("''", "'")
+    before, bracket, columns = text.partition("[")
+    columns = _BETWEEN.sub("],[", " ".join(f"{bracket}{columns}".split()))
+    one = _ONE_COLUMN.fullmatch(columns)
+    return f"{before.replace('$', '')}{one[1] if one else columns}".casefold()

@@ -310,7 +310,8 @@ def table_formulas(
     """Return formula, without its equals sign, and number format of each column that computes."""
     answers = table_answers(place.section.key, is_us=is_us)
     return {STATUS: (status_name(place.section), STATUS_FORMAT)} | {
-        answer.name: (answer.write(layout), answer.number_format) for answer in answers
+        answer.name: (answer.written(layout, place.section.key), answer.number_format)
+        for answer in answers
     }
 
 
