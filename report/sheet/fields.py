@@ -6,12 +6,15 @@ are defined in `schema`.
 
 from __future__ import annotations
 
+import ast
 import datetime as dt
+import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from enum import StrEnum
 from functools import cache
+from itertools import pairwise
 from typing import Annotated, Any, NamedTuple, get_args
 
 from annotated_types import Ge, Gt, Le, Lt
@@ -101,12 +104,14 @@ class Cell:
 
     Attributes
     ----------
-    label, help : str
-        Heading, and the message shown when the cell is selected.
+    label : str
+        Heading.
     example : str, float, int or date
         A plausible value, in the US unit of `unit` where that is a quantity.
     unit : Quantity or str
         Quantity with a choice of units, or a fixed unit; empty for none.
+    help : str
+        Message shown when the cell is selected; empty for the docstring of the field.
     need : str
         In words, where it is required unless something else is given; empty for all others.
     usual : (float, float)
@@ -119,9 +124,10 @@ class Cell:
     """
 
     label: str
-    help: str
     example: str | float | int | dt.date
     unit: Quantity | str = ""
+    _: KW_ONLY
+    help: str = ""
     need: str = ""
     usual: tuple[float, float] | None = None
     unit_from: tuple[str, Callable[[str], str]] | None = None
@@ -129,7 +135,7 @@ class Cell:
 
 
 class Frozen(BaseModel):
-    """Base of all models: frozen, complete, finite."""
+    """Base of all models: frozen, complete, finite; the docstring of a field is its help."""
 
     model_config = ConfigDict(
         frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
@@ -202,6 +208,8 @@ class Entry:
 
     Attributes
     ----------
+    model : type
+        The model that holds it.
     name : str
     cell : Cell
     kind : type
@@ -214,6 +222,7 @@ class Entry:
         Of a text.
     """
 
+    model: type[Frozen]
     name: str
     cell: Cell
     kind: type[Any]
@@ -226,6 +235,11 @@ class Entry:
     def quantity(self) -> Quantity | None:
         """The quantity of the number, if its unit can be chosen."""
         return self.cell.unit if isinstance(self.cell.unit, Quantity) else None
+
+    @property
+    def help(self) -> str:
+        """The message shown when the cell is selected."""
+        return self.cell.help or _docstrings(self.model)[self.name]
 
     @property
     def need(self) -> str:
@@ -264,16 +278,33 @@ class Entry:
 def entries(model: type[Frozen]) -> tuple[Entry, ...]:
     """Return the fields of a model in order, omitting those without a `Cell`."""
     fields = model.model_fields.items()
-    return tuple(_entry(name, info) for name, info in fields if _cells(info))
+    return tuple(_entry(model, name, info) for name, info in fields if _cells(info))
+
+
+@cache
+def _docstrings(model: type[Frozen]) -> Mapping[str, str]:
+    """Return the text below each field of a model.
+
+    As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.
+    """
+    (definition,) = ast.parse(inspect.getsource(model)).body
+    assert isinstance(definition, ast.ClassDef)
+    found = {}
+    for field, text in pairwise(definition.body):
+        match field, text:
+            case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=said)):
+                found[name] = " ".join(str(said).split())
+    return found
 
 
 def _cells(info: FieldInfo) -> list[Cell]:
     return [item for item in info.metadata if isinstance(item, Cell)]
 
 
-def _entry(name: str, info: FieldInfo) -> Entry:
+def _entry(model: type[Frozen], name: str, info: FieldInfo) -> Entry:
     kind, constraints = _taken_apart(info)
     return Entry(
+        model=model,
         name=name,
         cell=_cells(info)[0],
         kind=kind,

@@ -102,7 +102,7 @@ def _write_block_row(
     sheet, needed = book[section.sheet], entry.is_required
     style.put(sheet, row, 1, f"{entry.cell.label}{' *' if needed else ''}", bold=needed)
     # Bounds of quantities are 0 or open, so they are valid in any unit.
-    texts = (_allowed(entry, unit), _example(entry, unit), entry.cell.help)
+    texts = (_allowed(entry, unit), _example(entry, unit), entry.help)
     for column, text in enumerate(texts, start=5):
         style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
     sheet.row_dimensions[row].height = 6 + 13 * _lines(texts, BLOCK_WIDTHS[4:])
@@ -276,7 +276,7 @@ def _write_heading(sheet: Worksheet, row: int, number: int, column: Column) -> N
 def _write_help(sheet: Worksheet, place: TablePlace, entry: Entry, unit: Unit | None) -> None:
     source = _source(place.section, entry)
     if source:
-        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.cell.help)
+        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
     else:
         style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
 

@@ -165,7 +165,7 @@ def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None
 
 def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
     """Add the dropdown or the range check of a field to cells, with its messages."""
-    label, message = entry.cell.label, entry.cell.help
+    label, message = entry.cell.label, entry.help
     if entry.choices:
         offer(sheet, cells, entry.choices, label, message)
     elif entry.kind in (int, float):
@@ -211,7 +211,7 @@ def _add(
 
 def _message(entry: Entry, si: float) -> str:
     allowed = entry.bounds.words(si)
-    return f"{entry.cell.help} Allowed: {allowed}." if allowed else entry.cell.help
+    return f"{entry.help} Allowed: {allowed}." if allowed else entry.help
 
 
 def _number_rule(entry: Entry, si: float) -> DataValidation:

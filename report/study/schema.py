@@ -100,228 +100,144 @@ Dispersion = Annotated[float, Field(gt=0, le=2)]
 class Study(Frozen):
     """What is studied."""
 
-    title: Annotated[RequiredText, Cell("Title", "Printed on the first page.", "Mats of product X")]
-    prepared_by: Annotated[Text, Cell("Prepared by", "Printed on the first page.", "RG")] = ""
-    date: Annotated[dt.date, Cell("Date", "Printed on every page.", dt.date(2026, 3, 1))]
-    units_first: Annotated[UnitsFirst, Cell("Primary units", "Units printed first.", "US")] = (
-        UnitsFirst.US
-    )
-    slopes_deg: Annotated[
-        RequiredText,
-        Cell(
-            "Slopes",
-            "Increasing, 0 or more: a list with a blank after each comma, or from, to and step.",
-            "0 to 7 by 1",
-            "deg",
-        ),
-    ]
-    mus: Annotated[
-        Text,
-        Cell(
-            "Friction coefficients",
-            "Increasing, above 0, in addition to those of the mats. Required without mats.",
-            "0.3 to 0.8 by 0.05",
-        ),
-    ] = ""
-    intensity: Annotated[
-        Intensity,
-        Cell(
-            "Intensity measure",
-            "The motions are scaled to each intensity: PPA and PPV are peaks of the horizontal"
-            " record at the roof, PGA of a ground motion; S_DS scales from the S_DS below.",
-            "PPA [g]",
-        ),
-    ] = Intensity.PPA
-    intensities: Annotated[
-        RequiredText,
-        Cell("Intensities", "Increasing, above 0, given like the slopes.", "0.1 to 2 by 0.1"),
-    ]
+    title: Annotated[RequiredText, Cell("Title", "Mats of product X")]
+    """Printed on the first page."""
+    prepared_by: Annotated[Text, Cell("Prepared by", "RG")] = ""
+    """Printed on the first page."""
+    date: Annotated[dt.date, Cell("Date", dt.date(2026, 3, 1))]
+    """Printed on every page."""
+    units_first: Annotated[UnitsFirst, Cell("Primary units", "US")] = UnitsFirst.US
+    """Units printed first."""
+    slopes_deg: Annotated[RequiredText, Cell("Slopes", "0 to 7 by 1", "deg")]
+    """Increasing, 0 or more: a list with a blank after each comma, or from, to and step."""
+    mus: Annotated[Text, Cell("Friction coefficients", "0.3 to 0.8 by 0.05")] = ""
+    """Increasing, above 0, in addition to those of the mats. Required without mats."""
+    intensity: Annotated[Intensity, Cell("Intensity measure", "PPA [g]")] = Intensity.PPA
+    """The motions are scaled to each intensity: PPA and PPV are peaks of the horizontal record at
+    the roof, PGA of a ground motion; S_DS scales from the S_DS below."""
+    intensities: Annotated[RequiredText, Cell("Intensities", "0.1 to 2 by 0.1")]
+    """Increasing, above 0, given like the slopes."""
     s_ds_g: Annotated[
-        Annotated[float, Field(gt=0, le=5)] | None,
-        Cell(
-            "S_DS of the motions", "S_DS that the records represent. Required with S_DS.", 1.0, "g"
-        ),
+        Annotated[float, Field(gt=0, le=5)] | None, Cell("S_DS of the motions", 1.0, "g")
     ] = None
-    rule_set: Annotated[
-        RuleSetName,
-        Cell("Rule set", "For the prescriptive displacement beside the curves.", "SEAOC PV1-2012"),
-    ] = RuleSetName("SEAOC PV1-2012")
-    allowed_m: Annotated[
-        Positive | None,
-        Cell(
-            "Allowed displacement",
-            "Gives the least friction and the largest slope. Blank for none.",
-            24.0,
-            Quantity.SIZE,
-        ),
-    ] = None
-    folder: Annotated[
-        Text,
-        Cell(
-            "Folder of motions",
-            "Every record in it is a motion; files that differ only in an ending -x, -y or -z are"
-            " the components of one. Blank if the sheet Motions lists them.",
-            "records",
-        ),
-    ] = ""
-    units: Annotated[
-        AccelUnit, Cell("Record units", "If the files do not state them.", "from file")
-    ] = AccelUnit.FROM_FILE
-    dt_s: Annotated[
-        Annotated[float, Field(gt=0, le=1)] | None,
-        Cell("Time step", "If the files do not state it.", 0.01, "s"),
-    ] = None
-    polarity: Annotated[
-        Polarity, Cell("Polarity", "Signs in which each horizontal record is run.", "both")
-    ] = Polarity.BOTH
-    recorded_at: Annotated[
-        RecordedAt,
-        Cell("Recorded at", "Ground motions are carried through each building.", "roof"),
-    ] = RecordedAt.ROOF
-    no_value: Annotated[
-        NoValue,
-        Cell(
-            "Run without a value",
-            "Uplift, or sliding at the end of the record: counted in a fragility as an exceedance,"
-            " or censored at that intensity.",
-            "exceedance",
-        ),
-    ] = NoValue.EXCEEDANCE
+    """S_DS that the records represent. Required with S_DS."""
+    rule_set: Annotated[RuleSetName, Cell("Rule set", "SEAOC PV1-2012")] = RuleSetName(
+        "SEAOC PV1-2012"
+    )
+    """For the prescriptive displacement beside the curves."""
+    allowed_m: Annotated[Positive | None, Cell("Allowed displacement", 24.0, Quantity.SIZE)] = None
+    """Gives the least friction and the largest slope. Blank for none."""
+    folder: Annotated[Text, Cell("Folder of motions", "records")] = ""
+    """Every record in it is a motion; files that differ only in an ending -x, -y or -z are the
+    components of one. Blank if the sheet Motions lists them."""
+    units: Annotated[AccelUnit, Cell("Record units", "from file")] = AccelUnit.FROM_FILE
+    """If the files do not state them."""
+    dt_s: Annotated[Annotated[float, Field(gt=0, le=1)] | None, Cell("Time step", 0.01, "s")] = None
+    """If the files do not state it."""
+    polarity: Annotated[Polarity, Cell("Polarity", "both")] = Polarity.BOTH
+    """Signs in which each horizontal record is run."""
+    recorded_at: Annotated[RecordedAt, Cell("Recorded at", "roof")] = RecordedAt.ROOF
+    """Ground motions are carried through each building."""
+    no_value: Annotated[NoValue, Cell("Run without a value", "exceedance")] = NoValue.EXCEEDANCE
+    """Uplift, or sliding at the end of the record: counted in a fragility as an exceedance, or
+    censored at that intensity."""
     site_intensity: Annotated[
         Positive | None,
         Cell(
             "Intensity at the site",
-            "Median; gives the chance that a clearance is exceeded. Blank for none.",
             1.0,
             unit_from=("intensity", lambda text: Intensity(text).unit if text else ""),
         ),
     ] = None
+    """Median; gives the chance that a clearance is exceeded. Blank for none."""
     intensity_beta: Annotated[
-        Annotated[float, Field(ge=0, le=2)],
-        Cell("Dispersion of intensity", "Standard deviation of its logarithm.", 0.2),
+        Annotated[float, Field(ge=0, le=2)], Cell("Dispersion of intensity", 0.2)
     ] = 0.0
+    """Standard deviation of its logarithm."""
     slope_tolerance_deg: Annotated[
-        Annotated[float, Field(ge=0, le=5)],
-        Cell("Tolerance of slope", "Half the width of a uniform distribution.", 0.25, "deg"),
+        Annotated[float, Field(ge=0, le=5)], Cell("Tolerance of slope", 0.25, "deg")
     ] = 0.0
-    sampling: Annotated[
-        Sampling,
-        Cell(
-            "Sampling",
-            "Latin hypercube of friction, slope and intensity; or every tested friction with the"
-            " slope at its tolerances and middle, and the median intensity.",
-            "Latin hypercube",
-        ),
-    ] = Sampling.LATIN_HYPERCUBE
-    samples: Annotated[
-        Annotated[int, Field(ge=10, le=5000)],
-        Cell("Samples", "Of the Latin hypercube, each under every motion.", 200),
-    ] = 200
-    seed: Annotated[
-        Annotated[int, Field(ge=0, le=2**31)],
-        Cell("Seed", "The same seed gives the same samples.", 1),
-    ] = 1
-    record_beta: Annotated[
-        Dispersion | None,
-        Cell(
-            "Record-to-record dispersion",
-            "Of the exported fragilities, in place of that of the motions. Required for motions"
-            " matched to one spectrum. Blank: that of the motions.",
-            0.4,
-        ),
-    ] = None
-    record_source: Annotated[
-        Text,
-        Cell("Record-to-record source", "Required with the value.", "Hazard analysis, 2026"),
-    ] = ""
-    modeling_beta: Annotated[
-        Dispersion | None,
-        Cell(
-            "Modeling dispersion",
-            "Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included.",
-            0.25,
-        ),
-    ] = None
-    quality_beta: Annotated[
-        Dispersion | None,
-        Cell(
-            "Quality of data dispersion",
-            "Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included.",
-            0.25,
-        ),
-    ] = None
+    """Half the width of a uniform distribution."""
+    sampling: Annotated[Sampling, Cell("Sampling", "Latin hypercube")] = Sampling.LATIN_HYPERCUBE
+    """Latin hypercube of friction, slope and intensity; or every tested friction with the slope at
+    its tolerances and middle, and the median intensity."""
+    samples: Annotated[Annotated[int, Field(ge=10, le=5000)], Cell("Samples", 200)] = 200
+    """Of the Latin hypercube, each under every motion."""
+    seed: Annotated[Annotated[int, Field(ge=0, le=2**31)], Cell("Seed", 1)] = 1
+    """The same seed gives the same samples."""
+    record_beta: Annotated[Dispersion | None, Cell("Record-to-record dispersion", 0.4)] = None
+    """Of the exported fragilities, in place of that of the motions. Required for motions matched to
+    one spectrum. Blank: that of the motions."""
+    record_source: Annotated[Text, Cell("Record-to-record source", "Hazard analysis, 2026")] = ""
+    """Required with the value."""
+    modeling_beta: Annotated[Dispersion | None, Cell("Modeling dispersion", 0.25)] = None
+    """Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included."""
+    quality_beta: Annotated[Dispersion | None, Cell("Quality of data dispersion", 0.25)] = None
+    """Of the exported fragilities. FEMA P-58 has about 0.1 to 0.5. Blank: not included."""
 
 
 class Mat(Frozen):
     """A mat: its friction coefficient, or tested values."""
 
-    id: Annotated[Id, Cell("ID", "Short and unique.", "EPDM pad")]
-    mu: Annotated[
-        Annotated[float, Field(gt=0, le=2)] | None,
-        Cell("Friction coefficient", "Blank: the geometric mean of the tested values.", 0.5),
-    ] = None
-    tested: Annotated[
-        Text,
-        Cell("Tested values", "Three or more, in any order; blank for none.", "0.47, 0.50, 0.53"),
-    ] = ""
-    report: Annotated[Text, Cell("Report", "Printed.", "Lab 12")] = ""
+    id: Annotated[Id, Cell("ID", "EPDM pad")]
+    """Short and unique."""
+    mu: Annotated[Annotated[float, Field(gt=0, le=2)] | None, Cell("Friction coefficient", 0.5)] = (
+        None
+    )
+    """Blank: the geometric mean of the tested values."""
+    tested: Annotated[Text, Cell("Tested values", "0.47, 0.50, 0.53")] = ""
+    """Three or more, in any order; blank for none."""
+    report: Annotated[Text, Cell("Report", "Lab 12")] = ""
+    """Printed."""
 
 
 class StudyArray(Frozen):
     """An array for which fragilities are made."""
 
-    id: Annotated[Id, Cell("ID", "Short and unique.", "A1")]
-    mat: Annotated[Id, Cell("Mat", "ID on the sheet Mats.", "EPDM pad")]
-    slope_deg: Annotated[
-        Annotated[float, Field(ge=0, le=45)], Cell("Slope", "Of the roof.", 2.0, "deg")
-    ]
-    clearance_m: Annotated[
-        Positive, Cell("Clearance", "To the nearest object or edge.", 24.0, Quantity.SIZE)
-    ]
-    reaches: Annotated[
-        Text, Cell("Object", "What it strikes, or the edge it reaches.", "RTU-1")
-    ] = ""
+    id: Annotated[Id, Cell("ID", "A1")]
+    """Short and unique."""
+    mat: Annotated[Id, Cell("Mat", "EPDM pad")]
+    """ID on the sheet Mats."""
+    slope_deg: Annotated[Annotated[float, Field(ge=0, le=45)], Cell("Slope", 2.0, "deg")]
+    """Of the roof."""
+    clearance_m: Annotated[Positive, Cell("Clearance", 24.0, Quantity.SIZE)]
+    """To the nearest object or edge."""
+    reaches: Annotated[Text, Cell("Object", "RTU-1")] = ""
+    """What it strikes, or the edge it reaches."""
 
 
 class StudyMotion(Frozen):
     """A motion of a study."""
 
-    id: Annotated[Id, Cell("ID", "Short and unique.", "M1")]
-    record: Annotated[
-        RequiredText,
-        Cell(
-            "Horizontal record",
-            "A file beside this workbook, or file | channel.",
-            "records/m1-x.csv",
-        ),
-    ]
-    transverse: Annotated[
-        RequiredText | None,
-        Cell("Transverse record", "Second horizontal component.", "records/m1-y.csv"),
-    ] = None
-    vertical: Annotated[
-        RequiredText | None, Cell("Vertical record", "Positive upward.", "records/m1-z.csv")
-    ] = None
-    source: Annotated[Text, Cell("Source", "Event and station.", "Kobe 1995, JMA")] = ""
+    id: Annotated[Id, Cell("ID", "M1")]
+    """Short and unique."""
+    record: Annotated[RequiredText, Cell("Horizontal record", "records/m1-x.csv")]
+    """A file beside this workbook, or file | channel."""
+    transverse: Annotated[RequiredText | None, Cell("Transverse record", "records/m1-y.csv")] = None
+    """Second horizontal component."""
+    vertical: Annotated[RequiredText | None, Cell("Vertical record", "records/m1-z.csv")] = None
+    """Positive upward."""
+    source: Annotated[Text, Cell("Source", "Kobe 1995, JMA")] = ""
+    """Event and station."""
 
 
 class StudyBuilding(Frozen):
     """A building of the family through which ground motions reach the roof."""
 
-    id: Annotated[Id, Cell("ID", "Short and unique.", "T 0.3 s")]
-    period_s: Annotated[
-        Annotated[float, Field(gt=0, le=10)], Cell("Period T1", "First mode.", 0.3, "s")
-    ]
-    damping_percent: Annotated[
-        Annotated[float, Field(ge=1, le=50)], Cell("Damping", "Of all modes.", 5.0, "%")
-    ] = 5.0
+    id: Annotated[Id, Cell("ID", "T 0.3 s")]
+    """Short and unique."""
+    period_s: Annotated[Annotated[float, Field(gt=0, le=10)], Cell("Period T1", 0.3, "s")]
+    """First mode."""
+    damping_percent: Annotated[Annotated[float, Field(ge=1, le=50)], Cell("Damping", 5.0, "%")] = (
+        5.0
+    )
+    """Of all modes."""
     stiffness_ratio: Annotated[
-        Annotated[float, Field(ge=0, le=1000)] | None,
-        Cell("Lateral stiffness ratio", "H sqrt(GA/EI). Blank: shear deformation only.", 4.0),
+        Annotated[float, Field(ge=0, le=1000)] | None, Cell("Lateral stiffness ratio", 4.0)
     ] = None
-    stories: Annotated[
-        Annotated[int, Field(ge=1, le=200)], Cell("Stories", "Of equal height.", 1)
-    ] = 1
+    """H sqrt(GA/EI). Blank: shear deformation only."""
+    stories: Annotated[Annotated[int, Field(ge=1, le=200)], Cell("Stories", 1)] = 1
+    """Of equal height."""
 
 
 def _section(

@@ -41,13 +41,7 @@ from report.sheet.schema.choices import (
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
-from report.sheet.schema.project import (
-    Project,
-    Revision,
-    Site,
-    edition_of,
-    site_class_or_default,
-)
+from report.sheet.schema.project import Project, Revision, Site, edition_of, site_class_or_default
 from report.sheet.schema.roof import Roof
 from report.sheet.schema.scene import (
     ROOF,
@@ -164,76 +158,38 @@ class Options(Frozen):
         Statistic,
         Cell(
             "Design value statistic",
-            "Rule set: the statistic that the rule set requires for this number of motions. Mean:"
-            f" {MEAN_WITHOUT_FACTOR_MOTIONS} motions or more.",
             "rule set",
+            help="Rule set: the statistic that the rule set requires for this number of motions."
+            f" Mean: {MEAN_WITHOUT_FACTOR_MOTIONS} motions or more.",
         ),
     ] = Statistic.RULE_SET
-    peer_reviewed: Annotated[
-        bool,
-        Cell("Peer review", "Yes removes the lower limit on the displacement from analysis.", "No"),
-    ] = False
-    peer_reviewer: Annotated[
-        Text, Cell("Peer reviewer", "Required with peer review.", "Reviewer of record")
-    ] = ""
-    peer_license: Annotated[
-        Text, Cell("Reviewer's license", "State and number. Required with peer review.", "CA S0000")
-    ] = ""
-    peer_date: Annotated[
-        dt.date | None,
-        Cell("Date of review", "Required with peer review.", dt.date(2026, 3, 1)),
-    ] = None
-    directional: Annotated[
-        bool,
-        Cell(
-            "Displacement by direction",
-            "No: a clearance takes the full design displacement in every direction, as the rule"
-            " sets do. Yes: the displacement toward it, a departure that the package prints.",
-            "No",
-        ),
-    ] = False
+    peer_reviewed: Annotated[bool, Cell("Peer review", "No")] = False
+    """Yes removes the lower limit on the displacement from analysis."""
+    peer_reviewer: Annotated[Text, Cell("Peer reviewer", "Reviewer of record")] = ""
+    """Required with peer review."""
+    peer_license: Annotated[Text, Cell("Reviewer's license", "CA S0000")] = ""
+    """State and number. Required with peer review."""
+    peer_date: Annotated[dt.date | None, Cell("Date of review", dt.date(2026, 3, 1))] = None
+    """Required with peer review."""
+    directional: Annotated[bool, Cell("Displacement by direction", "No")] = False
+    """No: a clearance takes the full design displacement in every direction, as the rule sets do.
+    Yes: the displacement toward it, a departure that the package prints."""
     directional_reason: Annotated[
-        Text,
-        Cell(
-            "Reason for direction",
-            "Required with displacement by direction.",
-            "Agreed with the building department",
-        ),
+        Text, Cell("Reason for direction", "Agreed with the building department")
     ] = ""
-    directional_reviewer: Annotated[
-        Text,
-        Cell(
-            "Reviewer of direction",
-            "Required with displacement by direction.",
-            "Reviewer of record",
-        ),
-    ] = ""
-    directional_license: Annotated[
-        Text,
-        Cell(
-            "License for direction",
-            "State and number. Required with displacement by direction.",
-            "CA S0000",
-        ),
-    ] = ""
-    directional_date: Annotated[
-        dt.date | None,
-        Cell(
-            "Date for direction",
-            "Required with displacement by direction.",
-            dt.date(2026, 3, 1),
-        ),
-    ] = None
-    smaller_events: Annotated[
-        Text,
-        Cell(
-            "Smaller events",
-            "Up to 20 factors on the motions, each above 0.0 and up to 1.0, separated by commas: "
-            "the package adds the displacement of these events to that of the design event, for "
-            "information. Blank: none.",
-            "0.50, 0.50",
-        ),
-    ] = ""
+    """Required with displacement by direction."""
+    directional_reviewer: Annotated[Text, Cell("Reviewer of direction", "Reviewer of record")] = ""
+    """Required with displacement by direction."""
+    directional_license: Annotated[Text, Cell("License for direction", "CA S0000")] = ""
+    """State and number. Required with displacement by direction."""
+    directional_date: Annotated[dt.date | None, Cell("Date for direction", dt.date(2026, 3, 1))] = (
+        None
+    )
+    """Required with displacement by direction."""
+    smaller_events: Annotated[Text, Cell("Smaller events", "0.50, 0.50")] = ""
+    """Up to 20 factors on the motions, each above 0.0 and up to 1.0, separated by commas: the
+    package adds the displacement of these events to that of the design event, for information.
+    Blank: none."""
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:
@@ -247,40 +203,24 @@ class Override(Frozen):
     provision: Annotated[
         RequiredText,
         AfterValidator(_provision_key),
-        Cell(
-            "Provision",
-            "The number to replace, from the list; the sheet Provisions has its value and clause.",
-            provision_name("parapet_height_in"),
-        ),
+        Cell("Provision", provision_name("parapet_height_in")),
     ]
-    value: Annotated[
-        float,
-        Cell(
-            "Value",
-            "In the unit stated on the sheet Provisions.",
-            18.0,
-            unit_from=("provision", _unit_of_named),
-        ),
-    ]
+    """The number to replace, from the list; the sheet Provisions has its value and clause."""
+    value: Annotated[float, Cell("Value", 18.0, unit_from=("provision", _unit_of_named))]
+    """In the unit stated on the sheet Provisions."""
     reason: Annotated[
-        RequiredText,
-        Cell(
-            "Reason", "Printed in the package.", "Agreed with the building department, 2026-02-10"
-        ),
+        RequiredText, Cell("Reason", "Agreed with the building department, 2026-02-10")
     ]
+    """Printed in the package."""
 
 
 class Acknowledgment(Frozen):
     """A warning that is intended as it is, with the reason that the package prints."""
 
-    warning: Annotated[
-        RequiredText,
-        Cell("Warning", "As in the brackets that `roofslip check` prints.", "weight A1"),
-    ]
-    reason: Annotated[
-        RequiredText,
-        Cell("Reason", "Printed in the package.", "Weight of the frames alone; ballast by others"),
-    ]
+    warning: Annotated[RequiredText, Cell("Warning", "weight A1")]
+    """As in the brackets that `roofslip check` prints."""
+    reason: Annotated[RequiredText, Cell("Reason", "Weight of the frames alone; ballast by others")]
+    """Printed in the package."""
 
 
 class ProjectInput(Frozen):

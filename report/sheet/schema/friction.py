@@ -22,58 +22,37 @@ Mu = Annotated[float, Field(ge=0.0, le=MOST_MU)]
 class FrictionTests(Frozen):
     """What the report on the friction tests states."""
 
-    laboratory: Annotated[
-        Text, Cell("Laboratory", "Laboratory that performed the tests.", "Example Laboratories")
-    ] = ""
-    accreditation: Annotated[
-        Text,
-        Cell("Accreditation", "Accreditation of the laboratory.", "ISO/IEC 17025, no. 1234.01"),
-    ] = ""
-    standard: Annotated[Text, Cell("Standard", "Test standard.", "ASTM G115-10")] = ""
-    report: Annotated[Text, Cell("Report number", "Number of the report.", "FT-2025-118")] = ""
-    date: Annotated[
-        dt.date | None, Cell("Report date", "Date of the report.", dt.date(2025, 6, 12))
-    ] = None
-    membrane: Annotated[
-        Text, Cell("Membrane", "Roof surface as tested: product and thickness.", "TPO, 60 mil")
-    ] = ""
-    support: Annotated[
-        Text,
-        Cell("Support material", "Surface of the array's supports as tested.", "EPDM pad"),
-    ] = ""
+    laboratory: Annotated[Text, Cell("Laboratory", "Example Laboratories")] = ""
+    """Laboratory that performed the tests."""
+    accreditation: Annotated[Text, Cell("Accreditation", "ISO/IEC 17025, no. 1234.01")] = ""
+    """Accreditation of the laboratory."""
+    standard: Annotated[Text, Cell("Standard", "ASTM G115-10")] = ""
+    """Test standard."""
+    report: Annotated[Text, Cell("Report number", "FT-2025-118")] = ""
+    """Number of the report."""
+    date: Annotated[dt.date | None, Cell("Report date", dt.date(2025, 6, 12))] = None
+    """Date of the report."""
+    membrane: Annotated[Text, Cell("Membrane", "TPO, 60 mil")] = ""
+    """Roof surface as tested: product and thickness."""
+    support: Annotated[Text, Cell("Support material", "EPDM pad")] = ""
+    """Surface of the array's supports as tested."""
 
 
 class FrictionTestRow(Frozen):
     """One run of a friction test."""
 
-    surface: Annotated[Surface, Cell("Surface", "Condition of the roof surface.", "wet")]
-    number: Annotated[Annotated[int, Field(ge=1, le=1000)], Cell("Run", "Number of the run.", 1)]
-    mu: Annotated[
-        Mu,
-        Cell(
-            "Kinetic coefficient",
-            "Mean friction coefficient while sliding.",
-            0.46,
-            usual=(0.3, 0.8),
-        ),
-    ]
-    velocity_mps: Annotated[
-        NotNegative | None,
-        Cell("Velocity", "Sliding velocity. Blank: not reported.", 1.0, Quantity.VELOCITY),
-    ] = None
-    mu_static: Annotated[
-        Mu | None,
-        Cell("Static coefficient", "At breakaway. Blank: not reported.", 0.52, usual=(0.3, 1.0)),
-    ] = None
-    report: Annotated[
-        Id | None,
-        Cell(
-            "Report",
-            "Only with runs of several reports. Blank: the report above.",
-            "FT-2025-118",
-            is_rare=True,
-        ),
-    ] = None
+    surface: Annotated[Surface, Cell("Surface", "wet")]
+    """Condition of the roof surface."""
+    number: Annotated[Annotated[int, Field(ge=1, le=1000)], Cell("Run", 1)]
+    """Number of the run."""
+    mu: Annotated[Mu, Cell("Kinetic coefficient", 0.46, usual=(0.3, 0.8))]
+    """Mean friction coefficient while sliding."""
+    velocity_mps: Annotated[NotNegative | None, Cell("Velocity", 1.0, Quantity.VELOCITY)] = None
+    """Sliding velocity. Blank: not reported."""
+    mu_static: Annotated[Mu | None, Cell("Static coefficient", 0.52, usual=(0.3, 1.0))] = None
+    """At breakaway. Blank: not reported."""
+    report: Annotated[Id | None, Cell("Report", "FT-2025-118", is_rare=True)] = None
+    """Only with runs of several reports. Blank: the report above."""
 
     def run(self, report: str) -> FrictionRun:
         """Return the run, of a given report unless the row names another."""

@@ -29,30 +29,17 @@ def coefficients(text: str) -> tuple[float, ...]:
 class Links(Frozen):
     """An array as a row of linked blocks of equal weight along the slope."""
 
-    array: Annotated[Id, Cell("Array", "ID of the array. One row for each.", "A1")]
+    array: Annotated[Id, Cell("Array", "A1")]
+    """ID of the array. One row for each."""
     friction: Annotated[
-        str,
-        Field(min_length=1, max_length=200),
-        Cell(
-            "Block friction",
-            "2 to 20 friction coefficients separated by commas, from the upslope block to the "
-            "downslope block. Their range must include the array's coefficient.",
-            "0.40, 0.45, 0.50",
-        ),
+        str, Field(min_length=1, max_length=200), Cell("Block friction", "0.40, 0.45, 0.50")
     ]
-    stiffness_n_per_m: Annotated[
-        Positive,
-        Cell(
-            "Link stiffness",
-            "Axial force per unit elongation or shortening of a link.",
-            5000.0,
-            Quantity.STIFFNESS,
-        ),
-    ]
-    damping_ratio: Annotated[
-        Annotated[float, Field(ge=0, le=1)],
-        Cell("Link damping", "Damping ratio of one block on one link. Blank: none.", 0.02),
-    ] = 0.0
+    """2 to 20 friction coefficients separated by commas, from the upslope block to the downslope
+    block. Their range must include the array's coefficient."""
+    stiffness_n_per_m: Annotated[Positive, Cell("Link stiffness", 5000.0, Quantity.STIFFNESS)]
+    """Axial force per unit elongation or shortening of a link."""
+    damping_ratio: Annotated[Annotated[float, Field(ge=0, le=1)], Cell("Link damping", 0.02)] = 0.0
+    """Damping ratio of one block on one link. Blank: none."""
 
     @model_validator(mode="after")
     def _is_row(self) -> Links:

@@ -45,16 +45,15 @@ def slope_rad(value: float, unit: SlopeUnit) -> float:
     return math.atan(value / (100.0 if unit is SlopeUnit.PERCENT else 12.0))
 
 
+_EXAMPLES = {"x from": 20.0, "x to": 100.0, "y from": 15.0, "y to": 75.0}
+_HELP = (
+    "Rectangle in roof plan, from any fixed corner of the roof. Another shape: leave all four blank"
+    " and give its outline on the sheet Outlines."
+)
+
+
 def _plan(edge: str, need: str = "") -> Cell:
-    examples = {"x from": 20.0, "x to": 100.0, "y from": 15.0, "y to": 75.0}
-    return Cell(
-        edge,
-        "Rectangle in roof plan, from any fixed corner of the roof. Another shape: leave all four"
-        " blank and give its outline on the sheet Outlines.",
-        examples[edge],
-        Quantity.PLAN,
-        need,
-    )
+    return Cell(edge, _EXAMPLES[edge], Quantity.PLAN, need=need, help=_HELP)
 
 
 class Placed(Frozen):
@@ -89,175 +88,74 @@ SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
 class Array(Placed):
     """A ballasted array that moves as one block."""
 
-    id: Annotated[Id, Cell("ID", "Short and unique, such as A1.", "A1")]
-    slope_value: Annotated[
-        NotNegative,
-        Cell(
-            "Slope",
-            "Slope of the roof under the array, 0 to less than 45 deg.",
-            2.0,
-            unit_from=("slope_unit", str),
-        ),
-    ]
-    slope_unit: Annotated[SlopeUnit, Cell("Slope unit", "Unit of the slope.", "degrees")]
+    id: Annotated[Id, Cell("ID", "A1")]
+    """Short and unique, such as A1."""
+    slope_value: Annotated[NotNegative, Cell("Slope", 2.0, unit_from=("slope_unit", str))]
+    """Slope of the roof under the array, 0 to less than 45 deg."""
+    slope_unit: Annotated[SlopeUnit, Cell("Slope unit", "degrees")]
+    """Unit of the slope."""
     mu: Annotated[
-        float,
-        Field(ge=0.0, le=MOST_MU),
-        Cell(
-            "Friction coefficient",
-            "Kinetic, from tests; the smaller of wet and dry.",
-            0.45,
-            usual=(0.3, 0.8),
-        ),
+        float, Field(ge=0.0, le=MOST_MU), Cell("Friction coefficient", 0.45, usual=(0.3, 0.8))
     ]
-    mu_report: Annotated[
-        Text,
-        Cell(
-            "Friction test report",
-            "Laboratory, number and date of the friction test.",
-            "ASTM G115, Lab 1234, 2025-06-12",
-        ),
-    ] = ""
-    construction: Annotated[
-        RequiredText,
-        Cell(
-            "Construction",
-            "Product and layout. Arrays of the same text, slope, friction and downslope"
-            " direction are like arrays.",
-            "Tray 10 deg, landscape",
-        ),
-    ]
-    weight_n: Annotated[
-        Positive,
-        Cell(
-            "Weight",
-            "Modules, racking and ballast.",
-            42000.0,
-            Quantity.WEIGHT,
-            usual=(500.0, 500000.0),
-        ),
-    ]
-    cg_height_m: Annotated[
-        Positive,
-        Cell(
-            "CG height",
-            "Center of gravity above the roof surface.",
-            9.0,
-            Quantity.SIZE,
-            usual=(4.0, 36.0),
-        ),
-    ]
+    """Kinetic, from tests; the smaller of wet and dry."""
+    mu_report: Annotated[Text, Cell("Friction test report", "ASTM G115, Lab 1234, 2025-06-12")] = ""
+    """Laboratory, number and date of the friction test."""
+    construction: Annotated[RequiredText, Cell("Construction", "Tray 10 deg, landscape")]
+    """Product and layout. Arrays of the same text, slope, friction and downslope direction are like
+    arrays."""
+    weight_n: Annotated[Positive, Cell("Weight", 42000.0, Quantity.WEIGHT, usual=(500.0, 500000.0))]
+    """Modules, racking and ballast."""
+    cg_height_m: Annotated[Positive, Cell("CG height", 9.0, Quantity.SIZE, usual=(4.0, 36.0))]
+    """Center of gravity above the roof surface."""
     support_spacing_m: Annotated[
-        Positive,
-        Cell(
-            "Support spacing",
-            "Smallest spacing of the supports on the roof, in either plan direction.",
-            40.0,
-            Quantity.SIZE,
-            usual=(12.0, 120.0),
-        ),
+        Positive, Cell("Support spacing", 40.0, Quantity.SIZE, usual=(12.0, 120.0))
     ]
+    """Smallest spacing of the supports on the roof, in either plan direction."""
     x_from_m: Annotated[float | None, _plan("x from", OR_OUTLINE)] = None
     x_to_m: Annotated[float | None, _plan("x to", OR_OUTLINE)] = None
     y_from_m: Annotated[float | None, _plan("y from", OR_OUTLINE)] = None
     y_to_m: Annotated[float | None, _plan("y to", OR_OUTLINE)] = None
     downslope_deg: Annotated[
-        float,
-        Field(ge=0.0, le=360.0),
-        Cell(
-            "Downslope direction",
-            "In plan, counterclockwise from +x: 0 is +x, 90 is +y.",
-            270.0,
-            "deg",
-        ),
+        float, Field(ge=0.0, le=360.0), Cell("Downslope direction", 270.0, "deg")
     ]
+    """In plan, counterclockwise from +x: 0 is +x, 90 is +y."""
 
     mu_fast: Annotated[
-        MuCell | None,
-        Cell(
-            "High-velocity friction",
-            "Only if tests give velocity-dependent friction: the coefficient at high velocity. The "
-            "friction coefficient is then the low-velocity value.",
-            0.5,
-            usual=(0.3, 0.9),
-            is_rare=True,
-        ),
+        MuCell | None, Cell("High-velocity friction", 0.5, usual=(0.3, 0.9), is_rare=True)
     ] = None
+    """Only if tests give velocity-dependent friction: the coefficient at high velocity. The
+    friction coefficient is then the low-velocity value."""
     mu_rate_s_per_m: Annotated[
-        RateCell | None,
-        Cell(
-            "Friction rate",
-            "Rate of transition from low to high velocity: fast - (fast - slow) exp(-rate x "
-            "velocity). Required with high-velocity friction.",
-            30.0,
-            "s/m",
-            usual=(1.0, 200.0),
-            is_rare=True,
-        ),
+        RateCell | None, Cell("Friction rate", 30.0, "s/m", usual=(1.0, 200.0), is_rare=True)
     ] = None
+    """Rate of transition from low to high velocity: fast - (fast - slow) exp(-rate x velocity).
+    Required with high-velocity friction."""
     mu_static: Annotated[
-        MuCell | None,
-        Cell(
-            "Static friction",
-            "Only if tests give it: the coefficient at which slip starts. Blank: the friction "
-            "coefficient.",
-            0.55,
-            usual=(0.3, 1.0),
-            is_rare=True,
-        ),
+        MuCell | None, Cell("Static friction", 0.55, usual=(0.3, 1.0), is_rare=True)
     ] = None
-    model: Annotated[
-        ModelChoice,
-        Cell(
-            "Model",
-            "Choose: the simplest adequate model for each motion. Any other model is run as "
-            "requested, and the package states what the automatic choice would give.",
-            "choose",
-            is_rare=True,
-        ),
-    ] = ModelChoice.CHOOSE
+    """Only if tests give it: the coefficient at which slip starts. Blank: the friction
+    coefficient."""
+    model: Annotated[ModelChoice, Cell("Model", "choose", is_rare=True)] = ModelChoice.CHOOSE
+    """Choose: the simplest adequate model for each motion. Any other model is run as requested, and
+    the package states what the automatic choice would give."""
 
-    i_p: Annotated[
-        ImportanceCell,
-        Cell(
-            "Importance factor I_p",
-            "Of the component. Separations of PV1-2012 take the larger I_p of array and neighbor.",
-            1.0,
-            is_rare=True,
-        ),
-    ] = 1.0
+    i_p: Annotated[ImportanceCell, Cell("Importance factor I_p", 1.0, is_rare=True)] = 1.0
+    """Of the component. Separations of PV1-2012 take the larger I_p of array and neighbor."""
     base_m: Annotated[
         Positive | None,
-        Cell(
-            "Base dimension",
-            "Least plan dimension of the supporting base, for the low-profile limit of PV1-2012."
-            " Blank: the support spacing, which is on the safe side.",
-            60.0,
-            Quantity.SIZE,
-            usual=(12.0, 240.0),
-            is_rare=True,
-        ),
+        Cell("Base dimension", 60.0, Quantity.SIZE, usual=(12.0, 240.0), is_rare=True),
     ] = None
+    """Least plan dimension of the supporting base, for the low-profile limit of PV1-2012. Blank:
+    the support spacing, which is on the safe side."""
     interconnection_n: Annotated[
-        Positive | None,
-        Cell(
-            "Interconnection strength",
-            "Least strength provided between the parts of the array; compared with the strength"
-            " that the rule set requires.",
-            4000.0,
-            Quantity.WEIGHT,
-        ),
+        Positive | None, Cell("Interconnection strength", 4000.0, Quantity.WEIGHT)
     ] = None
+    """Least strength provided between the parts of the array; compared with the strength that the
+    rule set requires."""
     slack_m: Annotated[
-        NotNegative | None,
-        Cell(
-            "Electrical slack",
-            "Slack of the wiring that leaves the array; compared with the design displacement.",
-            48.0,
-            Quantity.SIZE,
-            usual=(6.0, 240.0),
-        ),
+        NotNegative | None, Cell("Electrical slack", 48.0, Quantity.SIZE, usual=(6.0, 240.0))
     ] = None
+    """Slack of the wiring that leaves the array; compared with the design displacement."""
 
     @property
     def slope_rad(self) -> float:
@@ -295,82 +193,52 @@ class Array(Placed):
 class RoofObject(Placed):
     """An object on the roof, or a roof edge."""
 
-    id: Annotated[Id, Cell("ID", "Short and unique, such as RTU-1.", "RTU-1")]
-    kind: Annotated[
-        ObjectKind,
-        Cell(
-            "Kind",
-            "An unlike array has a different construction and is not listed in Arrays.",
-            "fixed object",
-        ),
-    ]
+    id: Annotated[Id, Cell("ID", "RTU-1")]
+    """Short and unique, such as RTU-1."""
+    kind: Annotated[ObjectKind, Cell("Kind", "fixed object")]
+    """An unlike array has a different construction and is not listed in Arrays."""
     height_m: Annotated[
-        NotNegative | None,
-        Cell(
-            "Height",
-            "Of the object or parapet above the roof; required for an edge with parapet.",
-            42.0,
-            Quantity.SIZE,
-            usual=(4.0, 240.0),
-        ),
+        NotNegative | None, Cell("Height", 42.0, Quantity.SIZE, usual=(4.0, 240.0))
     ] = None
+    """Of the object or parapet above the roof; required for an edge with parapet."""
     x_from_m: Annotated[float | None, _plan("x from")] = None
     x_to_m: Annotated[float | None, _plan("x to")] = None
     y_from_m: Annotated[float | None, _plan("y from")] = None
     y_to_m: Annotated[float | None, _plan("y to")] = None
-    i_p: Annotated[
-        ImportanceCell,
-        Cell(
-            "Importance factor I_p",
-            "Of an object or unlike array; not used for edges.",
-            1.0,
-            is_rare=True,
-        ),
-    ] = 1.0
+    i_p: Annotated[ImportanceCell, Cell("Importance factor I_p", 1.0, is_rare=True)] = 1.0
+    """Of an object or unlike array; not used for edges."""
 
 
 class Vertex(Frozen):
     """A vertex of the outline of an array, an object or the roof."""
 
-    name: Annotated[
-        Id,
-        Cell("Outline of", f"ID of an array or an object, or {ROOF} for the roof.", "A1"),
-    ]
-    x_m: Annotated[
-        float,
-        Cell("x", "Vertices in order around the outline, one to a row.", 20.0, Quantity.PLAN),
-    ]
-    y_m: Annotated[float, Cell("y", "In the coordinates of the arrays.", 15.0, Quantity.PLAN)]
+    name: Annotated[Id, Cell("Outline of", "A1")]
+    """ID of an array or an object, or roof for the roof."""
+    x_m: Annotated[float, Cell("x", 20.0, Quantity.PLAN)]
+    """Vertices in order around the outline, one to a row."""
+    y_m: Annotated[float, Cell("y", 15.0, Quantity.PLAN)]
+    """In the coordinates of the arrays."""
 
 
 class DrawingLayer(Frozen):
     """A layer of a roof drawing, and what is drawn on it."""
 
-    layer: Annotated[
-        RequiredText, Cell("Layer", "Name of a layer of the roof drawing.", "A-ROOF-PV")
-    ]
-    kind: Annotated[
-        LayerKind,
-        Cell("Drawn on it", "What the closed polylines on the layer are.", "array"),
-    ]
+    layer: Annotated[RequiredText, Cell("Layer", "A-ROOF-PV")]
+    """Name of a layer of the roof drawing."""
+    kind: Annotated[LayerKind, Cell("Drawn on it", "array")]
+    """What the closed polylines on the layer are."""
 
 
 class Clearance(Frozen):
     """The clearance from an array to an object or another array."""
 
-    array: Annotated[Id, Cell("Array", "ID of the array that moves.", "A1")]
-    object: Annotated[Id, Cell("Object", "ID of an object, or of another array.", "RTU-1")]
-    direction: Annotated[
-        Direction,
-        Cell("Direction", "From the array: downslope, upslope, cross-slope, or any.", "any"),
-    ]
+    array: Annotated[Id, Cell("Array", "A1")]
+    """ID of the array that moves."""
+    object: Annotated[Id, Cell("Object", "RTU-1")]
+    """ID of an object, or of another array."""
+    direction: Annotated[Direction, Cell("Direction", "any")]
+    """From the array: downslope, upslope, cross-slope, or any."""
     provided_m: Annotated[
-        NotNegative,
-        Cell(
-            "Provided clearance",
-            "Clear distance in roof plan.",
-            96.0,
-            Quantity.SIZE,
-            usual=(6.0, 600.0),
-        ),
+        NotNegative, Cell("Provided clearance", 96.0, Quantity.SIZE, usual=(6.0, 600.0))
     ]
+    """Clear distance in roof plan."""

@@ -53,7 +53,7 @@ def test_labels_within_a_section_differ_so_that_headings_find_their_field():
 def test_input_messages_fit_into_excel():
     for section in SECTIONS:
         for item in entries(section.model):
-            assert len(item.cell.help) <= 200
+            assert len(item.help) <= 200
             assert len(",".join(item.choices)) <= 255
             assert not any("," in choice for choice in item.choices)
 
