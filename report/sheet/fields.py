@@ -142,6 +142,15 @@ class Frozen(BaseModel):
     )
 
 
+@dataclass(frozen=True, slots=True)
+class OnSheet:
+    """Where the workbook has a field of the whole input: see `SheetSection`."""
+
+    sheet: str
+    title: str
+    may_be_absent: bool = False
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SheetSection:
     """A part of the workbook: a block of single cells, or a table.
@@ -150,21 +159,31 @@ class SheetSection:
     ----------
     key : str
         Its attribute of `ProjectInput`, and the prefix of its names in the workbook.
-    sheet, title, hint : str
-        Its sheet, its heading, and one line of instruction.
+    sheet, title : str
+        Its sheet, and its heading.
     model : type
         Model of the block or of one row.
     is_table, may_be_absent : bool
         Whether a workbook may lack it, as workbooks of earlier versions do.
+    hint : str
+        One line of instruction; empty for the docstring of its field.
+    whole : type
+        The model of the whole workbook, of which it is a field.
     """
 
     key: str
     sheet: str
     title: str
-    hint: str
     model: type[Frozen]
     is_table: bool
     may_be_absent: bool
+    hint: str = ""
+    whole: type[BaseModel] = BaseModel
+
+    @property
+    def instruction(self) -> str:
+        """The line of instruction."""
+        return self.hint or _docstrings(self.whole)[self.key]
 
     @property
     def table_name(self) -> str:
@@ -282,7 +301,7 @@ def entries(model: type[Frozen]) -> tuple[Entry, ...]:
 
 
 @cache
-def _docstrings(model: type[Frozen]) -> Mapping[str, str]:
+def _docstrings(model: type[BaseModel]) -> Mapping[str, str]:
     """Return the text below each field of a model.
 
     As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.

@@ -50,11 +50,11 @@ DATA_LINES = 2
 def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bool]:
     """Write heading and hint of a section; return the next free row and whether it is the first."""
     if sheet.max_row == 1:
-        style.put_title(sheet, section.title, section.hint)
+        style.put_title(sheet, section.title, section.instruction)
         return 4, True
     row = sheet.max_row + 3
     style.put(sheet, row, 1, section.title, bold=True, size=13, wrap=False)
-    style.put(sheet, row + 1, 1, section.hint, color=style.GRAY, wrap=False)
+    style.put(sheet, row + 1, 1, section.instruction, color=style.GRAY, wrap=False)
     sheet.row_dimensions[row].height = 28
     return row + 3, False
 

@@ -48,13 +48,12 @@ class TablePlace:
         """Return the reference to a column in the row of the formula."""
         return f"{self.section.table_name}[[#This Row],{self._column(name)}]"
 
-    def here(self, first: str, last: str = "") -> str:
-        """Return the reference to columns in the row of the cell that asks for a defined name.
+    def here(self, name: str) -> str:
+        """Return the reference to a column in the row of the cell that asks for a defined name.
 
         References of a name that are not fixed are those of a cell of the first row.
         """
-        cells = f"${self.letters[first]}1" + (f":${self.letters[last]}1" if last else "")
-        return f"{quote_sheetname(self.sheet)}!{cells}"
+        return f"{quote_sheetname(self.sheet)}!${self.letters[name]}1"
 
     def head(self, name: str) -> str:
         """Return the reference to a heading."""

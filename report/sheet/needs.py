@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from itertools import groupby
 
 from report.sheet.conditions import (
     MAX_SLOPE_DEG,
@@ -43,23 +42,28 @@ def row_status(place: TablePlace, layout: Layout) -> str:
     Negative where a cell is wrong: see `WRONG`. For the defined name of the table: the row is that
     of the cell that asks for it.
     """
-    fields = entries(place.section.model)
-    lacking = [_count(place, run, '=""') for run in _runs(place, _required(fields))]
-    for entry in fields:
-        needed = condition(place.section.key, entry, place.this)
-        if needed:
-            lacking.append(f'IF(AND({needed},TRIM({place.here(entry.name)})=""),1,0)')
-    begun = "+".join(_count(place, run, '<>""') for run in _runs(place, [e.name for e in fields]))
+    cells = [place.here(entry.name) for entry in entries(place.section.model)]
+    lacking = "+".join(_lacking(place.section, place.here)) or "0"
     tests = "+".join(f"({test})" for test in _wrong_in_row(place, layout))
     wrong = f"-{WRONG}*({tests})" if tests else ""
-    return f'IF({begun}=0,"",{"+".join(lacking)}{wrong})'
+    return f'IF(TRIM({"&".join(cells)})="","",{lacking}{wrong})'
+
+
+def _lacking(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:
+    """Yield 1 for each cell that is required and blank, else 0."""
+    for entry in entries(section.model):
+        blank = f'TRIM({refer(entry.name)})=""'
+        needed = condition(section.key, entry, refer)
+        if entry.is_required:
+            yield f"IF({blank},1,0)"
+        elif needed:
+            yield f"IF(AND({needed},{blank}),1,0)"
 
 
 def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
     """Yield what makes a cell of a row wrong."""
     section = place.section.key
-    for entry in entries(place.section.model):
-        yield from is_wrong(place.here(entry.name), entry, f"unit_{section}_{entry.name}")
+    yield from _refused(place.section, place.here)
     for alike in UNIQUE:
         if section in alike:
             yield is_twice(place.here("id"), alike, layout)
@@ -75,6 +79,12 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
     if "slope_deg" in place.letters:
         slope = place.here("slope_deg")
         yield f"AND(ISNUMBER({slope}),{slope}>={MAX_SLOPE_DEG:g})"
+
+
+def _refused(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:
+    """Yield whether each cell has what its field does not accept."""
+    for entry in entries(section.model):
+        yield from is_wrong(refer(entry.name), entry, f"unit_{section.key}_{entry.name}")
 
 
 def is_wrong(cell: str, entry: Entry, unit: str) -> Iterator[str]:
@@ -118,23 +128,6 @@ def is_nowhere(cell: str, tables: Sequence[str], other: str, layout: Layout) -> 
     return f'AND(TRIM({cell})<>"",{count}=0)'
 
 
-def _required(fields: Sequence[Entry]) -> list[str]:
-    return [entry.name for entry in fields if entry.is_required]
-
-
-def _count(place: TablePlace, run: tuple[str, str], test: str) -> str:
-    return f"SUMPRODUCT(--(TRIM({place.here(*run)}){test}))"
-
-
-def _runs(place: TablePlace, names: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Yield first and last of the columns that stand side by side."""
-    order = {name: count for count, name in enumerate(place.letters)}
-    ranked = sorted(names, key=order.__getitem__)
-    for _, group in groupby(enumerate(ranked), lambda item: order[item[1]] - item[0]):
-        run = [name for _, name in group]
-        yield run[0], run[-1]
-
-
 def table_lacks(place: TablePlace) -> str:
     """Return the number of cells that the rows of a table lack or have wrong."""
     total = f"SUM({place.all('status')})"
@@ -143,30 +136,16 @@ def table_lacks(place: TablePlace) -> str:
 
 def block_lacks(place: BlockPlace) -> str:
     """Return the number of cells that a block lacks; empty if it requires none."""
-    parts = []
-    for entry in entries(place.section.model):
-        name = place.section.cell_name(entry.name)
-        blank = f'TRIM({name})=""'
-        needed = condition(place.section.key, entry, place.section.cell_name)
-        if entry.is_required:
-            parts.append(f"IF({blank},1,0)")
-        elif needed:
-            parts.append(f"IF(AND({needed},{blank}),1,0)")
-    return "+".join(parts)
+    return "+".join(_lacking(place.section, place.section.cell_name))
 
 
 def block_wrong(place: BlockPlace) -> str:
     """Return the number of cells of a block that are wrong."""
-    name = place.section.cell_name
-    tests = [
-        test
-        for entry in entries(place.section.model)
-        for test in is_wrong(name(entry.name), entry, f"unit_{place.section.key}_{entry.name}")
-    ]
+    tests = _refused(place.section, place.section.cell_name)
     return "+".join(f"IF({test},1,0)" for test in tests)
 
 
 def block_begun(place: BlockPlace) -> str:
     """Return whether any required cell of a block is filled; empty if it requires none."""
-    names = _required(entries(place.section.model))
-    return f'TRIM({"&".join(place.cell(name) for name in names)})<>""' if names else ""
+    cells = [place.cell(entry.name) for entry in entries(place.section.model) if entry.is_required]
+    return f'TRIM({"&".join(cells)})<>""' if cells else ""

@@ -7,12 +7,12 @@ than one cell are in `checks`. Read `report.sheet.read` next.
 from __future__ import annotations
 
 import datetime as dt
-from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import AfterValidator, model_validator
+from pydantic.fields import FieldInfo
 
-from report.sheet.fields import Cell, Frozen, SheetSection, YesNo
+from report.sheet.fields import Cell, Frozen, OnSheet, SheetSection, YesNo
 from report.sheet.legacy_labels import PROVISIONS
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
@@ -226,25 +226,77 @@ class Acknowledgment(Frozen):
 class ProjectInput(Frozen):
     """The complete input of a workbook."""
 
-    project: Project
-    revisions: tuple[Revision, ...] = ()
-    site: Site
-    roof: Roof = Roof()
-    arrays: tuple[Array, ...]
-    friction_tests: FrictionTests = FrictionTests()
-    friction_runs: tuple[FrictionTestRow, ...] = ()
-    objects: tuple[RoofObject, ...] = ()
-    clearances: tuple[Clearance, ...] = ()
-    motions: tuple[MotionInput, ...]
-    building: BuildingInput = BuildingInput()
-    spectrum: tuple[SpectrumPoint, ...] = ()
-    links: tuple[Links, ...] = ()
-    options: Options = Options()
-    target: TargetInput = TargetInput()
-    overrides: tuple[Override, ...] = ()
-    outlines: tuple[Vertex, ...] = ()
-    layers: tuple[DrawingLayer, ...] = ()
-    acknowledged: tuple[Acknowledgment, ...] = ()
+    project: Annotated[Project, OnSheet("Project", "Project")]
+    """Printed on the cover and on every page."""
+    revisions: Annotated[tuple[Revision, ...], OnSheet("Project", "Revisions")] = ()
+    """One row for each issue."""
+    site: Annotated[Site, OnSheet("Site", "Site and building")]
+    """Give S_DS, S_MS, or S_S and F_a."""
+    roof: Annotated[Roof, OnSheet("Site", "Roof outline and north", may_be_absent=True)] = Roof()
+    """Optional. The plan draws the outline, and every roof edge near an array must then be an
+    object."""
+    arrays: Annotated[tuple[Array, ...], OnSheet("Arrays", "Arrays")]
+    """One row for each array that moves as a unit. Columns to the right of Downslope direction are
+    optional."""
+    friction_tests: Annotated[
+        FrictionTests, OnSheet("Friction tests", "Friction tests", may_be_absent=True)
+    ] = FrictionTests()
+    """Optional: the report on the friction tests. Leave blank what the report does not state."""
+    friction_runs: Annotated[
+        tuple[FrictionTestRow, ...],
+        OnSheet("Friction tests", "Runs of the friction tests", may_be_absent=True),
+    ] = ()
+    """Optional: one row for each run, wet and dry. The package compares the friction coefficients
+    of the arrays with the kinetic means."""
+    objects: Annotated[tuple[RoofObject, ...], OnSheet("Objects", "Objects and roof edges")] = ()
+    """One row for each object that an array could strike and each edge it could fall from. The plan
+    rectangle is optional; enter an edge as a strip outside the roof."""
+    clearances: Annotated[tuple[Clearance, ...], OnSheet("Clearances", "Clearances")] = ()
+    """One row for each clearance to check; the object may be another array."""
+    motions: Annotated[tuple[MotionInput, ...], OnSheet("Motions", "Roof motions")]
+    """One row for each motion. Records are files beside this workbook (file, or file | channel) or
+    columns pasted into a sheet (Sheet!Header). Columns to the right of Source are optional."""
+    building: Annotated[
+        BuildingInput, OnSheet("Building", "Building between ground and roof", may_be_absent=True)
+    ] = BuildingInput()
+    """Required only for ground motions: give period T1 or a structure type."""
+    spectrum: Annotated[
+        tuple[SpectrumPoint, ...],
+        OnSheet("Spectrum", "Project-specific target spectrum", may_be_absent=True),
+    ] = ()
+    """Optional. Replaces the AC156 spectrum for roof motions, or the design spectrum for ground
+    motions. 5 % damping, at least two rows."""
+    links: Annotated[
+        tuple[Links, ...], OnSheet("Links", "Rows of linked blocks", may_be_absent=True)
+    ] = ()
+    """Optional: one row for each array for which the package checks whether one rigid block is
+    adequate. The blocks have equal weights and lie in a row along the slope."""
+    options: Annotated[Options, OnSheet("Options", "Options")] = Options()
+    """The defaults suit most projects."""
+    target: Annotated[
+        TargetInput, OnSheet("Options", "Target spectrum and scaling", may_be_absent=True)
+    ] = TargetInput()
+    """The default target is the AC156 spectrum for roof motions and the ASCE 7 design spectrum for
+    ground motions."""
+    overrides: Annotated[tuple[Override, ...], OnSheet("Options", "Overrides of provisions")] = ()
+    """Each is printed in the package with its reason."""
+    outlines: Annotated[
+        tuple[Vertex, ...], OnSheet("Outlines", "Outlines", may_be_absent=True)
+    ] = ()
+    """Optional: arrays, objects and the roof that are no rectangles. One row for each vertex, in
+    order around the outline; leave the four sides of the rectangle blank."""
+    layers: Annotated[
+        tuple[DrawingLayer, ...],
+        OnSheet("Layers", "Layers of the roof drawing", may_be_absent=True),
+    ] = ()
+    """Optional, for roofslip plan read: what is drawn on each layer. The layers of plan.dxf are
+    known without a row."""
+    acknowledged: Annotated[
+        tuple[Acknowledgment, ...],
+        OnSheet("Acknowledged", "Acknowledged warnings", may_be_absent=True),
+    ] = ()
+    """Optional: one row for each warning of `roofslip check` that is intended as it is. It is then
+    printed with the reason."""
 
     @model_validator(mode="after")
     def _spell_ids_alike(self) -> ProjectInput:
@@ -284,157 +336,21 @@ class ProjectInput(Frozen):
         return self
 
 
-def _block(
-    key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, may_be_absent: bool = False
-) -> SheetSection:
+def _section(key: str, field: FieldInfo) -> SheetSection:
+    """Return a part of the workbook: of rows, a table."""
+    (part,) = (item for item in field.metadata if isinstance(item, OnSheet))
+    is_table = get_origin(field.annotation) is tuple
+    model: Any = get_args(field.annotation)[0] if is_table else field.annotation
     return SheetSection(
         key=key,
-        sheet=sheet,
-        title=title,
-        hint=hint,
+        sheet=part.sheet,
+        title=part.title,
+        whole=ProjectInput,
         model=model,
-        is_table=False,
-        may_be_absent=may_be_absent,
+        is_table=is_table,
+        may_be_absent=part.may_be_absent,
     )
 
 
-def _table(
-    key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, may_be_absent: bool = False
-) -> SheetSection:
-    block = _block(key, sheet, title, hint, model, may_be_absent=may_be_absent)
-    return replace(block, is_table=True)
-
-
-SECTIONS = (
-    _block("project", "Project", "Project", "Printed on the cover and on every page.", Project),
-    _table("revisions", "Project", "Revisions", "One row for each issue.", Revision),
-    _block("site", "Site", "Site and building", "Give S_DS, S_MS, or S_S and F_a.", Site),
-    _block(
-        "roof",
-        "Site",
-        "Roof outline and north",
-        "Optional. The plan draws the outline, and every roof edge near an array must then be an"
-        " object.",
-        Roof,
-        may_be_absent=True,
-    ),
-    _table(
-        "arrays",
-        "Arrays",
-        "Arrays",
-        "One row for each array that moves as a unit. Columns to the right of Downslope direction"
-        " are optional.",
-        Array,
-    ),
-    _block(
-        "friction_tests",
-        "Friction tests",
-        "Friction tests",
-        "Optional: the report on the friction tests. Leave blank what the report does not state.",
-        FrictionTests,
-        may_be_absent=True,
-    ),
-    _table(
-        "friction_runs",
-        "Friction tests",
-        "Runs of the friction tests",
-        "Optional: one row for each run, wet and dry. The package compares the friction"
-        " coefficients of the arrays with the kinetic means.",
-        FrictionTestRow,
-        may_be_absent=True,
-    ),
-    _table(
-        "objects",
-        "Objects",
-        "Objects and roof edges",
-        "One row for each object that an array could strike and each edge it could fall from. The"
-        " plan rectangle is optional; enter an edge as a strip outside the roof.",
-        RoofObject,
-    ),
-    _table(
-        "clearances",
-        "Clearances",
-        "Clearances",
-        "One row for each clearance to check; the object may be another array.",
-        Clearance,
-    ),
-    _table(
-        "motions",
-        "Motions",
-        "Roof motions",
-        "One row for each motion. Records are files beside this workbook (file, or file |"
-        " channel) or columns pasted into a sheet (Sheet!Header). Columns to the right of Source"
-        " are optional.",
-        MotionInput,
-    ),
-    _block(
-        "building",
-        "Building",
-        "Building between ground and roof",
-        "Required only for ground motions: give period T1 or a structure type.",
-        BuildingInput,
-        may_be_absent=True,
-    ),
-    _table(
-        "spectrum",
-        "Spectrum",
-        "Project-specific target spectrum",
-        "Optional. Replaces the AC156 spectrum for roof motions, or the design spectrum for ground"
-        " motions. 5 % damping, at least two rows.",
-        SpectrumPoint,
-        may_be_absent=True,
-    ),
-    _table(
-        "links",
-        "Links",
-        "Rows of linked blocks",
-        "Optional: one row for each array for which the package checks whether one rigid block is"
-        " adequate. The blocks have equal weights and lie in a row along the slope.",
-        Links,
-        may_be_absent=True,
-    ),
-    _block("options", "Options", "Options", "The defaults suit most projects.", Options),
-    _block(
-        "target",
-        "Options",
-        "Target spectrum and scaling",
-        "The default target is the AC156 spectrum for roof motions and the ASCE 7 design"
-        " spectrum for ground motions.",
-        TargetInput,
-        may_be_absent=True,
-    ),
-    _table(
-        "overrides",
-        "Options",
-        "Overrides of provisions",
-        "Each is printed in the package with its reason.",
-        Override,
-    ),
-    _table(
-        "outlines",
-        "Outlines",
-        "Outlines",
-        "Optional: arrays, objects and the roof that are no rectangles. One row for each vertex, in"
-        " order around the outline; leave the four sides of the rectangle blank.",
-        Vertex,
-        may_be_absent=True,
-    ),
-    _table(
-        "layers",
-        "Layers",
-        "Layers of the roof drawing",
-        "Optional, for roofslip plan read: what is drawn on each layer. The layers of plan.dxf are"
-        " known without a row.",
-        DrawingLayer,
-        may_be_absent=True,
-    ),
-    _table(
-        "acknowledged",
-        "Acknowledged",
-        "Acknowledged warnings",
-        "Optional: one row for each warning of `roofslip check` that is intended as it is. It is"
-        " then printed with the reason.",
-        Acknowledgment,
-        may_be_absent=True,
-    ),
-)
+SECTIONS = tuple(_section(key, field) for key, field in ProjectInput.model_fields.items())
+"""Parts of the workbook, in its order."""
