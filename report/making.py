@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from report.assessment.changes import Changes
     from report.assessment.evidence import Evidence
     from report.assessment.project import Assessment
+    from report.assessment.spectra import Spectra
     from report.entities.results import Compared
     from report.motions.prepare import Shaking
     from report.package.html import PendingPictures
@@ -166,16 +167,22 @@ def lay_out(
     from report.drawing.plan import plan_drawing
     from report.provenance.files import attachments, fingerprint
     from report.results.json import results_json
-    from report.results.xlsx import results_xlsx
     from report.typeset.pdf import draw_ahead, lay_out, pictures
 
     drawn = worker.submit(draw_ahead, pictures(html))
     results = worker.submit(results_json, assessment, evidence)
     plan = worker.submit(write_dxf, plan_drawing(assessment))
-    table = worker.submit(results_xlsx, assessment, evidence.spectra)
+    table = worker.submit(_table, assessment, evidence.spectra)
     short = fingerprint(assessment.sheet, assessment.shaking)
     pdf = lay_out(html, drawn, lambda: attachments(found, results.result(), short))
     return dict(zip(OUTPUTS, (pdf, plan.result(), table.result(), results.result()), strict=True))
+
+
+def _table(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
+    """Return results.xlsx: only the worker loads what writes it."""
+    from report.results.xlsx import results_xlsx
+
+    return results_xlsx(assessment, spectra)
 
 
 def load() -> None:
