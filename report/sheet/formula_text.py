@@ -7,6 +7,7 @@ numbers with an exponent, and one column in single brackets. Read `canonical`.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from openpyxl.formula import Tokenizer
 from openpyxl.formula.tokenizer import Token, TokenizerError
@@ -20,21 +21,30 @@ _NEWER = "_xlfn."
 
 def canonical(formula: str) -> str:
     """Return a formula in the form that is compared; one that no program reads as it is."""
+    return "".join(map(_written, tokens)) if (tokens := _tokens(formula)) else formula
+
+
+def _tokens(formula: str) -> Sequence[Token]:
+    """Return the tokens of a formula; none of one that no program reads."""
     try:
-        tokens = Tokenizer(formula).items
+        tokens: Sequence[Token] = Tokenizer(formula).items
     except (TokenizerError, IndexError):  # the second of a bracket that closes nothing
-        return formula
-    return "".join(map(_written, tokens))
+        return ()
+    return tokens
 
 
 def moved(formula: str, rows: int) -> str:
-    """Return a formula with the references to its own sheet moved down, absolute ones as well."""
-    tokens = Tokenizer(formula)
-    for token in tokens.items:
+    """Return a formula with the references to its own sheet moved down, absolute ones as well.
+
+    One that no program reads stays as it is.
+    """
+    if not (tokens := _tokens(formula)):
+        return formula
+    for token in tokens:
         if token.subtype == Token.RANGE and not re.search(r"[!\[]", token.value):
             cells = token.value.split(":")
             token.value = ":".join(_moved(cell, rows) for cell in cells)
-    return "=" + "".join(token.value for token in tokens.items)
+    return "=" + "".join(token.value for token in tokens)
 
 
 def _moved(cell: str, rows: int) -> str:

@@ -136,6 +136,11 @@ def test_a_formula_that_is_moved_refers_to_the_rows_where_it_is():
     assert moved(after, -4) == formula
 
 
+@pytest.mark.parametrize("formula", ["='Outlines'!$#REF!$0", "=}})", "=A1[", '="a', "="])
+def test_a_formula_that_no_program_reads_stays_as_it_is(formula):
+    assert canonical(formula) == moved(formula, 4) == formula
+
+
 def test_a_formula_that_refers_to_a_deleted_column_is_named_and_not_repaired(tmp_path):
     def delete(book):
         for found in formula_cells(book):
