@@ -120,11 +120,13 @@ def shift(book, title, rows):
     sheet.insert_rows(1, rows)
     for table in sheet.tables.values():
         move(table, rows=rows)
+    fixed = re.compile(rf"'?{re.escape(title)}'?!\$[A-Z]+\$\d+(:\$[A-Z]+\$\d+)?")
+
+    def moved(cells):
+        return re.sub(r"(?<=\$)\d+", lambda row: str(int(row[0]) + rows), cells[0])
+
     for name in book.defined_names.values():
-        sheet_name, cell = name.attr_text.split("!")
-        if sheet_name.strip("'") == title:
-            moved = re.sub(r"(?<=\$)\d+", lambda row: str(int(row[0]) + rows), cell)
-            name.attr_text = f"{sheet_name}!{moved}"
+        name.attr_text = fixed.sub(moved, name.attr_text)
 
 
 def rename(book, old, new):
