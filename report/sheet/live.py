@@ -24,6 +24,7 @@ from report.sheet.grids import GridColumn, columns_of, table_formulas
 from report.sheet.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.locate_tables import TableArea, table_area
 from report.sheet.lookups import write_lookups
+from report.sheet.needs import status_in
 from report.sheet.positions import (
     FRESH,
     CellPosition,
@@ -73,7 +74,7 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the cells that have lost their live formula, by sheet, column and row.
 
     A workbook without live formulas, as of 0.1, has none. Not watched: a part of a sheet in which
-    rows were inserted or deleted, unless it is a table; the status of rows in a workbook of 0.2.
+    rows were inserted or deleted, unless it is a table.
     """
     lost = [
         Overwritten(position=position, found=found, title=_title(book, position), formula=formula)
@@ -210,11 +211,11 @@ def _in_tables(
         place = layout.tables[key]
         for name, (formula, _) in table_formulas(layout, place, is_us=is_us).items():
             heading = area.headings.get(label_key(place.headings[name]))
-            # A workbook of 0.2 has no name for the status of a row, and keeps its long formula.
-            is_known = name != STATUS or formula in book.book.defined_names
-            if heading is not None and is_known:
+            is_long = name == STATUS and formula not in book.book.defined_names
+            if heading is not None:
                 for row in range(area.header + 1, area.last + 1):
-                    yield CellPosition(area.sheet, row, heading.column), f"={formula}"
+                    text = status_in(row, place, layout) if is_long else formula
+                    yield CellPosition(area.sheet, row, heading.column), f"={text}"
 
 
 def _written(layout: Layout, *, is_us: bool) -> Workbook:

@@ -8,6 +8,7 @@ too. Read `row_status`.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
 
 from report.sheet.conditions import (
@@ -47,6 +48,11 @@ def row_status(place: TablePlace, layout: Layout) -> str:
     tests = "+".join(f"({test})" for test in _wrong_in_row(place, layout))
     wrong = f"-{WRONG}*({tests})" if tests else ""
     return f'IF(TRIM({"&".join(cells)})="","",{lacking}{wrong})'
+
+
+def status_in(row: int, place: TablePlace, layout: Layout) -> str:
+    """Return the status of a row for a workbook of 0.2, which has no name for it."""
+    return re.sub(r"(!\$[A-Z]+)1\b", rf"\g<1>{row}", row_status(place, layout))
 
 
 def _lacking(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:
