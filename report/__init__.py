@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from report.assessment.project import Assessment
 
 # openpyxl asks once, as it is loaded. Through lxml, where that is installed, it would write other
-# workbooks. Through defusedxml it reads them in half as much time again; `report.sheet.scan` has
-# refused by then what that refuses.
+# workbooks. Through defusedxml it reads them in half as much time again; by then
+# `report.sheet.reading.scan` has refused what that refuses.
 os.environ |= {"OPENPYXL_LXML": "False", "OPENPYXL_DEFUSEDXML": "False"}
 
 
@@ -30,7 +30,7 @@ def assess_project(source: str | Path) -> Assessment:
     """
     from report.assessment.project import assess
     from report.motions.prepare import prepare
-    from report.sheet.read import read
+    from report.sheet.reading.read import read
 
     sheet = read(Path(source))
     return assess(sheet, prepare(sheet))

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from report.motions.prepare import Shaking
     from report.package.html import PendingPictures
     from report.provenance.files import SourceFile
-    from report.sheet.read import Sheet
+    from report.sheet.reading.read import Sheet
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 
@@ -97,7 +97,7 @@ def read(source: Path, out: Path | None, since: Path | None) -> Request:
     """Read a workbook and former results, and check that the package can be written."""
     from report.results.publish import check_apart, check_writable
     from report.results.since import read_former
-    from report.sheet.read import read
+    from report.sheet.reading.read import read
     from report.typeset.letters import check_letters
 
     former = tuple(read_former(path) for path in (since,) if path)

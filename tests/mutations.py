@@ -19,12 +19,12 @@ import numpy as np
 
 from places import SAMPLES
 from report.cli.check import checked
-from report.sheet.cells import LARGEST, Found, read_cell
-from report.sheet.fields import entries
-from report.sheet.parts import changed
-from report.sheet.positions import CellPosition
-from report.sheet.read import read
+from report.sheet.reading.cells import LARGEST, Found, read_cell
+from report.sheet.reading.parts import changed
+from report.sheet.reading.positions import CellPosition
+from report.sheet.reading.read import read
 from report.sheet.schema import SECTIONS
+from report.sheet.schema.fields import entries
 from sheets import make
 from solver import InputError, slide
 from solver.formats import read_motion_file

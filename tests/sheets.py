@@ -23,12 +23,12 @@ from inputs import FT, INCH, clearance, motion, roof_object
 from places import DATA
 from report.assessment.precheck import findings
 from report.motions.prepare import Shaking, prepare
-from report.sheet.findings import located
-from report.sheet.parts import changed
-from report.sheet.positions import CellPosition
-from report.sheet.read import Sheet, read
+from report.sheet.checking.findings import located
+from report.sheet.reading.parts import changed
+from report.sheet.reading.positions import CellPosition
+from report.sheet.reading.read import Sheet, read
 from report.sheet.schema import ProjectInput, UnitsFirst
-from report.sheet.template import write_template
+from report.sheet.writing.template import write_template
 from solver.model import InputError
 
 

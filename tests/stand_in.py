@@ -17,7 +17,7 @@ from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.package.html import pages
-from report.sheet.read import EchoRow, Sheet
+from report.sheet.reading.read import EchoRow, Sheet
 from report.sheet.schema import ProjectInput, RecordedAt
 from report.typeset.pdf import lay_out
 from sheets import Book

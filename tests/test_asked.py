@@ -22,7 +22,7 @@ def test_a_folder_of_the_product_stands_for_its_tests_and_one_of_tests_for_itsel
 
 
 def test_a_module_stands_for_the_files_that_bear_its_name_or_import_it():
-    of_template = asked.tests_of("report/sheet/template.py")
+    of_template = asked.tests_of("report/sheet/writing/template.py")
     assert {"tests/report/sheet/test_template.py", "tests/report/sheet/test_read.py"} <= {
         *of_template
     }

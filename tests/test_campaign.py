@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import sheets
 from mutations import trouble
-from report.sheet.archive import open_book
+from report.sheet.reading.archive import open_book
 from sheets import make, pack
 from solver import InputError, slide
 from solver.formats import read_motion_file

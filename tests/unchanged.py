@@ -26,19 +26,23 @@ from pypdf import PdfReader
 from pypdf.generic import StreamObject
 
 from places import ROOT
-from report.sheet.answers import STATUS_FORMAT
-from report.sheet.counts import COUNT_FORMAT, START
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput
-from report.sheet.template import write_template
+from report.sheet.schema.answers import STATUS_FORMAT
+from report.sheet.writing.counts import COUNT_FORMAT, START
+from report.sheet.writing.template import write_template
 
 Data = dict[str, Any]
 NEW = {"new-us": [], "new-si": ["--units", "SI"], "new-study": ["--study"]}
 FILLED = """
 import sys
 from pathlib import Path
-from report.sheet.read import read
-from report.sheet.template import write_template
+try:
+    from report.sheet.reading.read import read
+    from report.sheet.writing.template import write_template
+except ImportError:  # the older commit has no rooms
+    from report.sheet.read import read
+    from report.sheet.template import write_template
 source, path = map(Path, sys.argv[1:])
 project = read(source).project
 path.parent.mkdir(parents=True)

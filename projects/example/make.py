@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from report.sheet.example import project, suite, write_example
+from report.sheet.writing.example import project, suite, write_example
 
 __all__ = ["project", "suite"]
 

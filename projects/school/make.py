@@ -8,7 +8,8 @@ from __future__ import annotations
 import datetime as dt
 from pathlib import Path
 
-from report.sheet.rows import (
+from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.writing.rows import (
     Range,
     Row,
     clearance,
@@ -18,8 +19,7 @@ from report.sheet.rows import (
     roof_object,
     write_motions,
 )
-from report.sheet.schema import ProjectInput, UnitsFirst
-from report.sheet.template import write_template
+from report.sheet.writing.template import write_template
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis import SuiteMotion, make_suite

@@ -16,8 +16,8 @@ from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from report.motions.history import PreparedMotion
-from report.sheet.fields import Place
 from report.sheet.schema import Array, ProjectInput
+from report.sheet.schema.fields import Place
 from report.words.counts import lowered
 from report.words.units import Quantity, compared, number, pair, rounding
 from solver.records.acceptance import Acceptance

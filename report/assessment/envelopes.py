@@ -14,7 +14,7 @@ from report.assessment.overrides import mark_of
 from report.assessment.project import Assessment
 from report.assessment.runs import OrientedRun
 from report.sheet.schema import Direction, Polygon, Shape
-from report.sheet.shapes import Point, merged, sides
+from report.sheet.schema.shapes import Point, merged, sides
 from solver.model import INCH_M
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor

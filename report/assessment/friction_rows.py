@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.verdict import NOT_GIVEN, Requirement, stated
-from report.sheet.fields import Place
-from report.sheet.friction_checks import MU_TOLERANCE
+from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import Array, ProjectInput
+from report.sheet.schema.fields import Place
 from report.words.units import Quantity, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction

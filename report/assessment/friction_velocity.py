@@ -16,7 +16,7 @@ from report.assessment.friction import at_low_velocity, coefficient
 from report.assessment.friction_rows import tested
 from report.assessment.pending_runs import PendingRuns
 from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
-from report.sheet.friction_checks import MU_TOLERANCE
+from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import Series, governing

@@ -1,7 +1,7 @@
 """What a plan checker asks about the seismic parameters: source, SDC, site class, 11.4.8.
 
 Each row that is not satisfied is a condition, not NG; values below their table are errors
-(`report.sheet.site_checks`). Read `hazard_rows`.
+(`report.sheet.checking.site_checks`). Read `hazard_rows`.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from functools import partial
 
 from report.assessment.verdict import NOT_GIVEN, Requirement, stated
-from report.sheet.fields import Place
 from report.sheet.schema import ProjectInput, Site
+from report.sheet.schema.fields import Place
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
 from solver.rules.limit import Consequence
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason

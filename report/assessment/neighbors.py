@@ -12,9 +12,9 @@ from enum import StrEnum
 from itertools import combinations
 
 from report.assessment.arrays import ArrayAssessment
-from report.sheet.fields import Place
 from report.sheet.schema import Clearance, ObjectKind, ProjectInput, Rectangle, Shape
-from report.sheet.shapes import Point, Polygon, gap_m, sides, spans_near
+from report.sheet.schema.fields import Place
+from report.sheet.schema.shapes import Point, Polygon, gap_m, sides, spans_near
 from report.words.units import Quantity, pair
 from solver.model import INCH_M
 

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from functools import partial
 
 from report.assessment.verdict import Requirement
-from report.sheet.fields import Place
 from report.sheet.schema import (
     Override,
     ProjectInput,
@@ -19,6 +18,7 @@ from report.sheet.schema import (
     provision_name,
     provision_unit,
 )
+from report.sheet.schema.fields import Place
 from report.words.counts import lowered
 from solver.rules.limit import Consequence
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.sheet.schema import ObjectKind, RoofObject, Shape
-from report.sheet.shapes import Point, closest
+from report.sheet.schema.shapes import Point, closest
 from solver.rules.provisions import Neighbor
 
 

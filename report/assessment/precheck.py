@@ -16,12 +16,12 @@ from report.assessment.verdict import Requirement, Verdict
 from report.motions.plausible import record_findings
 from report.motions.prepare import Shaking
 from report.motions.targets import targets
-from report.sheet.fields import Finding, Place
-from report.sheet.findings import acknowledged, limit, note
-from report.sheet.plausible import implausible
-from report.sheet.read import Sheet
+from report.sheet.checking.findings import acknowledged, limit, note
+from report.sheet.checking.plausible import implausible
+from report.sheet.reading.read import Sheet
+from report.sheet.reading.unseen import warnings
 from report.sheet.schema import Array, ProjectInput
-from report.sheet.unseen import warnings
+from report.sheet.schema.fields import Finding, Place
 from report.words.counts import lowered
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions

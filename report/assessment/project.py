@@ -44,7 +44,7 @@ from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motio
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
-from report.sheet.read import Sheet
+from report.sheet.reading.read import Sheet
 from report.sheet.schema import Array, ProjectInput
 from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance

@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic.json_schema import SkipJsonSchema
 
-from report.sheet.fields import Place
+from report.sheet.schema.fields import Place
 from solver.rules.limit import Consequence
 
 

@@ -93,7 +93,7 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
     A project with an error stops no other. The exit code is 2 if any input has an error, and 1
     after an internal error.
     """
-    from report.sheet.grouped import grouped
+    from report.sheet.checking.grouped import grouped
 
     outcomes = run(sources, quiet=quiet or as_json)
     if as_json:

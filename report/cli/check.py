@@ -25,8 +25,8 @@ from report.words.counts import numbered
 
 if TYPE_CHECKING:
     from report.motions.prepare import Shaking
-    from report.sheet.fields import Finding
-    from report.sheet.read import Sheet
+    from report.sheet.reading.read import Sheet
+    from report.sheet.schema.fields import Finding
 
 STEPS = 3
 """Steps that a check reports."""
@@ -75,11 +75,11 @@ def checked(
     """
     from report.assessment.precheck import findings, limits_before_runs
     from report.motions.prepare import prepare
-    from report.sheet.findings import in_order
-    from report.sheet.legacy_notes import what_is_new
-    from report.sheet.live import findings as formula_findings
-    from report.sheet.live import overwritten
-    from report.sheet.read import read
+    from report.sheet.checking.findings import in_order
+    from report.sheet.reading.read import read
+    from report.sheet.writing.legacy_notes import what_is_new
+    from report.sheet.writing.live import findings as formula_findings
+    from report.sheet.writing.live import overwritten
     from report.typeset.letters import check_letters
 
     progress("reading the workbook")
@@ -106,8 +106,8 @@ def checked(
 
 def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
     """Yield that a package is dated after today; a package itself does not read the clock."""
-    from report.sheet.fields import Place
-    from report.sheet.findings import note
+    from report.sheet.checking.findings import note
+    from report.sheet.schema.fields import Place
 
     date = sheet.project.project.date
     if date > today:
@@ -117,9 +117,9 @@ def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
 
 def _repaired(source: Path) -> list[str]:
     """Restore the formulas that were typed over; return the addresses of their cells."""
-    from report.sheet.archive import open_book
-    from report.sheet.live import overwritten
-    from report.sheet.parts import Formula, write_cells
+    from report.sheet.reading.archive import open_book
+    from report.sheet.reading.parts import Formula, write_cells
+    from report.sheet.writing.live import overwritten
 
     book = open_book(source)
     lost = [item for item in overwritten(book) if item.can_be_restored]
@@ -129,7 +129,7 @@ def _repaired(source: Path) -> list[str]:
 
 def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:
     """Yield findings as lines: level, cells, what was found, the names of warnings."""
-    from report.sheet import findings
+    from report.sheet.checking import findings
 
     for line in findings.lines(found, sheet.addresses):
         finding = line.finding
@@ -153,7 +153,7 @@ def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
 
 
 def _summary(sheet: Sheet, shaking: Shaking, found: Iterable[Finding]) -> str:
-    from report.sheet.fields import Level
+    from report.sheet.schema.fields import Level
 
     data = sheet.project
     levels = [finding.level for finding in found]

@@ -55,7 +55,7 @@ def _drawn(drawing: Path, project: Path, units: str | None) -> RoofPlan:
     """Read the drawing by the layers that the workbook names."""
     from report.drawing.plan_read import plan_of
     from report.drawing.read_dxf import read_dxf
-    from report.sheet.read import read as read_sheet
+    from report.sheet.reading.read import read as read_sheet
     from report.words.units import LENGTHS
     from solver.model import InputError
 
@@ -76,9 +76,9 @@ def _drawn(drawing: Path, project: Path, units: str | None) -> RoofPlan:
 def _filled(project: Path, found: RoofPlan, replace: bool) -> tuple[Path, bool]:
     """Fill the plan in; return the workbook, and whether it has formulas."""
     from report.drawing.fill import changes
-    from report.sheet.archive import open_book
-    from report.sheet.live import live_formulas
-    from report.sheet.parts import Formula, write_cells
+    from report.sheet.reading.archive import open_book
+    from report.sheet.reading.parts import Formula, write_cells
+    from report.sheet.writing.live import live_formulas
     from solver.model import InputError
 
     if not (found.roof or found.arrays or found.objects):

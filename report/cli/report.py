@@ -65,9 +65,9 @@ def _new_project(
     is_study: bool,
 ) -> Path:
     """Write a workbook and its records folder; never overwrite a workbook or a record."""
-    from report.sheet.example import write_example
     from report.sheet.schema import UnitsFirst
-    from report.sheet.template import write_template
+    from report.sheet.writing.example import write_example
+    from report.sheet.writing.template import write_template
     from report.study.template import write_study
     from solver.model import InputError
 

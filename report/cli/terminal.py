@@ -118,7 +118,7 @@ def print_json(document: Any) -> None:
 
 def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     """Print the problems of an input, one per line; those of several cells once."""
-    from report.sheet.grouped import grouped
+    from report.sheet.checking.grouped import grouped
 
     click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
     for problem in grouped(problems):

@@ -182,7 +182,7 @@ def settle(workbook: Path, settle_s: float = SETTLE_S) -> None:
     InputError
         If it cannot be opened by then.
     """
-    from report.sheet.archive import open_book
+    from report.sheet.reading.archive import open_book
 
     last = time.monotonic() + settle_s
     while not _is_whole(workbook):

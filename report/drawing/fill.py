@@ -1,6 +1,6 @@
 """Which cells of a workbook a plan as drawn fills: arrays, objects, the roof, outlines.
 
-Reads no drawing and writes no file (`report.drawing.plan_read`, `report.sheet.parts`).
+Reads no drawing and writes no file (`report.drawing.plan_read`, `report.sheet.reading.parts`).
 """
 
 from __future__ import annotations
@@ -10,16 +10,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from report.drawing.plan_read import DrawnOutline, RoofPlan
-from report.sheet.archive import OpenBook
-from report.sheet.cells import Found, plain
-from report.sheet.fields import Entry, SheetSection, entries
-from report.sheet.legacy_notes import MOVE
-from report.sheet.locate import find_cell, find_unit_cell, is_absent
-from report.sheet.locate_tables import MAX_ROWS, TableFound, find_table, table_area
-from report.sheet.parts import Value
-from report.sheet.positions import FRESH, CellPosition, found_at, unit_size
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.cells import Found, plain
+from report.sheet.reading.locate import find_cell, find_unit_cell, is_absent
+from report.sheet.reading.locate_tables import MAX_ROWS, TableFound, find_table, table_area
+from report.sheet.reading.parts import Value
+from report.sheet.reading.positions import FRESH, CellPosition, found_at, unit_size
 from report.sheet.schema import ROOF, SECTIONS, SIDES, Polygon, Rectangle
-from report.sheet.shapes import Shape
+from report.sheet.schema.fields import Entry, SheetSection, entries
+from report.sheet.schema.shapes import Shape
+from report.sheet.writing.legacy_notes import MOVE
 from solver.model import InputError
 
 _BY_KEY = {section.key: section for section in SECTIONS}

@@ -24,7 +24,7 @@ from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema import ROOF, ObjectKind, RoofObject
-from report.sheet.shapes import Point, label_point, mean
+from report.sheet.schema.shapes import Point, label_point, mean
 from report.words.units import Quantity, Unit, compared, number, pair
 
 TEXT_SHARE = 1.0 / 120.0

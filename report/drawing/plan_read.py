@@ -14,9 +14,18 @@ from dataclasses import dataclass
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.layers import Layer
 from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
-from report.sheet.plan_checks import LEAST_VERTICES
+from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema import LayerKind
-from report.sheet.shapes import Point, Polygon, Rectangle, Shape, crossing, ring, sides, solid
+from report.sheet.schema.shapes import (
+    Point,
+    Polygon,
+    Rectangle,
+    Shape,
+    crossing,
+    ring,
+    sides,
+    solid,
+)
 from report.words.units import LENGTHS
 
 LAYERS: Mapping[str, LayerKind] = {

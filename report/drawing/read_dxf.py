@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from report.drawing.dxf import APPLICATION
-from report.sheet.shapes import Point, Polygon, ring
+from report.sheet.schema.shapes import Point, Polygon, ring
 from report.words.letters import UNPRINTABLE, trimmed
 from solver.meant import meant
 from solver.model import InputError

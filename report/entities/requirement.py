@@ -10,8 +10,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from report.entities.shown import Entity, OfUnit
-from report.sheet.fields import Finding, Level, Place
-from report.sheet.findings import located
+from report.sheet.checking.findings import located
+from report.sheet.schema.fields import Finding, Level, Place
 from solver.rules.limit import Consequence, Limit
 
 

@@ -20,7 +20,7 @@ from matplotlib.patches import Rectangle as Box
 from report.figures.base import INK, Broken
 from report.figures.labels import LINE_IN, TYPE_PT, Frame, Placer, centered, width_in
 from report.sheet.schema import Rectangle, Shape
-from report.sheet.shapes import Point, sides
+from report.sheet.schema.shapes import Point, sides
 from solver.model import INCH_M
 
 FOOT_M = 12.0 * INCH_M

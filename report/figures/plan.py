@@ -24,7 +24,7 @@ from report.figures.plan_notes import key_of
 from report.figures.plan_shapes import draw_arrays, draw_coordinates, draw_objects, draw_roof
 from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, PlanSheet, PlanSize, is_us_first
 from report.sheet.schema import Rectangle
-from report.sheet.shapes import around
+from report.sheet.schema.shapes import around
 
 
 def is_wide(assessment: Assessment) -> bool:

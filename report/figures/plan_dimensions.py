@@ -14,7 +14,7 @@ from report.figures.labels import Frame
 from report.figures.paper_plan import PAD_IN, text_size
 from report.figures.plan_key import FAILED, gap_line, ng_box, ng_size
 from report.figures.plan_sheet import Gap, PlanSheet
-from report.sheet.shapes import between
+from report.sheet.schema.shapes import between
 
 RADIUS_IN = 0.1
 

@@ -13,7 +13,7 @@ from report.figures.labels import LINE_IN, Frame, centered, width_in
 from report.figures.plan_key import ARRAY, BARE, DESIGN, EDGES, FILLS, ROOF, RUNS
 from report.figures.plan_sheet import PlanSheet
 from report.sheet.schema import Rectangle, RoofObject
-from report.sheet.shapes import Point, sides
+from report.sheet.schema.shapes import Point, sides
 from report.words.units import Quantity, number
 
 

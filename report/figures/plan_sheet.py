@@ -16,7 +16,7 @@ from report.figures.labels import Frame
 from report.figures.paper_plan import PlanPaper, text_size
 from report.figures.plan_key import EDGES, FILLS
 from report.sheet.schema import ObjectKind, RoofObject, Shape
-from report.sheet.shapes import Point, room
+from report.sheet.schema.shapes import Point, room
 from report.words.units import Quantity, measured, pair
 
 LEADER_IN = 1.5  # farthest label

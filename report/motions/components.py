@@ -15,11 +15,11 @@ import numpy as np
 
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
 from report.motions.spikes import spikes
-from report.sheet.archive import OpenBook
-from report.sheet.fields import Finding, Place
-from report.sheet.motion_checks import LABELS
+from report.sheet.checking.motion_checks import LABELS
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.unseen import Unseen
 from report.sheet.schema import AccelUnit, Baseline, MotionInput, Scaling
-from report.sheet.unseen import Unseen
+from report.sheet.schema.fields import Finding, Place
 from report.words.units import G_MPS2
 from solver.formats import read_motion_file
 from solver.model import InputError

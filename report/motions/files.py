@@ -17,10 +17,10 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 import numpy as np
 
 from report.motions.pasted import heading_on, read_column
-from report.sheet.archive import OpenBook
-from report.sheet.fields import Place
-from report.sheet.positions import CellPosition
-from report.sheet.unseen import Unseen, unseen
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.positions import CellPosition
+from report.sheet.reading.unseen import Unseen, unseen
+from report.sheet.schema.fields import Place
 from solver.formats import MotionFile, read_motion_file
 from solver.meant import nearest
 from solver.model import InputError

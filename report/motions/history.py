@@ -14,7 +14,7 @@ import numpy as np
 
 from report.motions.components import Components, processing_of
 from report.motions.targets import TargetSpectrum, targets
-from report.sheet.motion_checks import LABELS
+from report.sheet.checking.motion_checks import LABELS
 from report.sheet.schema import (
     BuildingInput,
     MotionInput,

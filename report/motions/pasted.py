@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from report.sheet.archive import OpenBook
-from report.sheet.cells import CellError, Found, check_saved, number
-from report.sheet.positions import MAX_COLUMNS, CellPosition, cells_below, found_at
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.cells import CellError, Found, check_saved, number
+from report.sheet.reading.positions import MAX_COLUMNS, CellPosition, cells_below, found_at
 from solver.formats.headings import Heading, Kind, parse
 from solver.formats.source import Source
 from solver.formats.times import Sampled, sampled

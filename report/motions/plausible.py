@@ -9,10 +9,10 @@ from collections.abc import Iterator, Sequence
 
 from report.motions.components import RecordFile
 from report.motions.prepare import Shaking
-from report.sheet.fields import Finding, Place
-from report.sheet.findings import note, warning
-from report.sheet.motion_checks import LABELS
+from report.sheet.checking.findings import note, warning
+from report.sheet.checking.motion_checks import LABELS
 from report.sheet.schema import ProjectInput
+from report.sheet.schema.fields import Finding, Place
 
 MOST_STEP_S = 0.02
 """Time step [s] above which a record has no content at 25 Hz and above."""

@@ -14,9 +14,9 @@ from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
 from report.motions.repeated import repeated
 from report.motions.stiff_links import stiff_links
-from report.sheet.fields import Finding, Place
-from report.sheet.motion_checks import LABELS
-from report.sheet.read import Sheet
+from report.sheet.checking.motion_checks import LABELS
+from report.sheet.reading.read import Sheet
+from report.sheet.schema.fields import Finding, Place
 from solver.model import Motion
 
 # Of all files, each counted for every motion that names it: what is read within 10 s.

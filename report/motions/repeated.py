@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from report.motions.components import HORIZONTAL, Components
-from report.sheet.fields import DraftRow, Finding, Place, Where
-from report.sheet.motion_checks import LABELS
+from report.sheet.checking.motion_checks import LABELS
+from report.sheet.schema.fields import DraftRow, Finding, Place, Where
 from solver.model import Floats
 
 ALIKE = 1e-3

@@ -1,14 +1,14 @@
 """Finds links that are too stiff to integrate under the motions of a project.
 
-`report.sheet.checks` checks a row by itself and against its array.
+`report.sheet.checking.checks` checks a row by itself and against its array.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from report.sheet.fields import Finding, Place
 from report.sheet.schema import Links, ProjectInput
+from report.sheet.schema.fields import Finding, Place
 from report.words.units import G_MPS2, Quantity
 from solver.model import Motion
 from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps

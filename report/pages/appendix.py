@@ -17,7 +17,7 @@ from report.entities.shown import plain, words
 from report.motions.components import RecordFile
 from report.pages.parts import BAR, PackageData
 from report.provenance.software import sbom_sha256
-from report.sheet.read import IGNORED, EchoRow
+from report.sheet.reading.read import IGNORED, EchoRow
 from report.words.formats import shortened
 
 LIBRARIES = (

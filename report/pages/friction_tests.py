@@ -27,7 +27,7 @@ from report.document.tables import Table, Wide, listed, stamp
 from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
-from report.sheet.friction_checks import MU_TOLERANCE
+from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import FrictionTests, ProjectInput
 from report.words.units import Quantity, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing

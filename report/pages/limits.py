@@ -14,8 +14,8 @@ from report.pages.links import link_troubles
 from report.pages.model import model_troubles
 from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
-from report.sheet.fields import Level
-from report.sheet.findings import lines
+from report.sheet.checking.findings import lines
+from report.sheet.schema.fields import Level
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import Basis
 

@@ -19,10 +19,10 @@ from report.entities.array import ArrayResult, array_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
 from report.pages.registry import package_data
-from report.sheet.fields import Level
-from report.sheet.findings import lines
-from report.sheet.legacy_notes import what_is_new
+from report.sheet.checking.findings import lines
 from report.sheet.schema import ModelChoice
+from report.sheet.schema.fields import Level
+from report.sheet.writing.legacy_notes import what_is_new
 from report.words.counts import lowered
 from report.words.units import Quantity, compared, no_less, pair, ratio, rounding
 from solver.model import Status

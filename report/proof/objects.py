@@ -14,7 +14,7 @@ from pypdf.generic import (
     StreamObject,
 )
 
-from report.sheet.archive import MAX_TOTAL, MB
+from report.sheet.reading.archive import MAX_TOTAL, MB
 from solver.model import InputError
 
 Allowed = Callable[[str, Any, Any], bool]

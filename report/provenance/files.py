@@ -20,7 +20,7 @@ from report.motions.components import RecordFile
 from report.motions.files import BAR, find_file
 from report.motions.prepare import Shaking
 from report.provenance.software import environment, sbom_sha256
-from report.sheet.read import Sheet
+from report.sheet.reading.read import Sheet
 from report.typeset.finish import Attached
 from solver.model import InputError
 

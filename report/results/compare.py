@@ -18,8 +18,8 @@ from report.entities.cells import Told
 from report.entities.columns import UnitFormat
 from report.entities.results import Compared, compared
 from report.entities.shown import Entity, marks_of
-from report.sheet.fields import Entry, Frozen, Place, SheetSection, YesNo, entries
 from report.sheet.schema import SECTIONS
+from report.sheet.schema.fields import Entry, Frozen, Place, SheetSection, YesNo, entries
 
 ALIKE = 1e-6
 """Relative difference up to which two results count as the same: rounding on another machine."""

@@ -12,7 +12,7 @@ from enum import StrEnum
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.results.sheets import TOP, Pages, typed, write_headings
-from report.sheet.fields import YesNo
+from report.sheet.schema.fields import YesNo
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
 
 InputCells = Mapping[str, str]

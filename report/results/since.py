@@ -13,9 +13,8 @@ from pydantic import ValidationError
 from pydantic_core import from_json
 
 from report.entities.results import SCHEMA_VERSION, Compared
-from report.sheet.cells import cut
 from report.typeset.letters import named, undrawable
-from report.words.letters import UNPRINTABLE
+from report.words.letters import UNPRINTABLE, cut
 from solver.meant import meant
 from solver.model import InputError
 

@@ -1,1 +1,1 @@
-"""The input workbook: its fields, its template, how it is read and checked."""
+"""The input workbook: its fields (schema), how they are checked, read and written."""

@@ -16,8 +16,8 @@ import numpy as np
 
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
-from report.sheet.fields import Finding, Place, entries
 from report.sheet.schema import MotionInput
+from report.sheet.schema.fields import Finding, Place, entries
 from report.study.read import StudyInput, StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding
 from report.words.units import G_MPS2

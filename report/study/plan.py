@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from report.sheet.fields import Finding, Place
+from report.sheet.schema.fields import Finding, Place
 from report.study.design import DesignRule, design_rule
 from report.study.motions import StudyMotions
 from report.study.read import StudyInput, StudySheet

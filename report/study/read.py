@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from report.sheet.archive import OpenBook, open_book
-from report.sheet.calculated import not_calculated
-from report.sheet.fields import Draft, Finding, Place
-from report.sheet.locate import is_absent
-from report.sheet.read import Gathered, gather, models, refuse
+from report.sheet.reading.archive import OpenBook, open_book
+from report.sheet.reading.calculated import not_calculated
+from report.sheet.reading.locate import is_absent
+from report.sheet.reading.read import Gathered, gather, models, refuse
+from report.sheet.reading.unseen import Unseen, unseen, warnings
 from report.sheet.schema import RecordedAt
-from report.sheet.unseen import Unseen, unseen, warnings
+from report.sheet.schema.fields import Draft, Finding, Place
 from report.study.schema import (
     MOST_CASES,
     MOST_VALUES,

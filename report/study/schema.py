@@ -14,7 +14,6 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.fields import Cell, Frozen, SheetSection
 from report.sheet.schema.choices import (
     AccelUnit,
     Id,
@@ -26,6 +25,7 @@ from report.sheet.schema.choices import (
     Text,
     UnitsFirst,
 )
+from report.sheet.schema.fields import Cell, Frozen, SheetSection
 from report.words.units import Quantity
 
 MOST_VALUES = 500

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from openpyxl import Workbook
 
-from report.sheet import style
-from report.sheet.grids import write_answers, write_block, write_table
-from report.sheet.layout import Layout
-from report.sheet.marks import mark_block, mark_table
 from report.sheet.schema import UnitsFirst
+from report.sheet.schema.layout import Layout
+from report.sheet.writing import style
+from report.sheet.writing.grids import write_answers, write_block, write_table
+from report.sheet.writing.marks import mark_block, mark_table
 from report.study.read import StudyInput
 from report.study.schema import SECTIONS
 from solver.files import write_whole

@@ -1,6 +1,6 @@
 """User-defined target spectra: a workbook sheet or CSV file, read into corner points.
 
-Independent of code rules. Read `read_target` first; `report.sheet.archive` checks the workbook.
+Independent of code rules; `report.sheet.reading.archive` checks the workbook. Read `read_target`.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from report.sheet.archive import OpenBook, open_book
-from report.sheet.cells import CellError, Found, check_saved, number
-from report.sheet.positions import CellPosition, found_at
+from report.sheet.reading.archive import OpenBook, open_book
+from report.sheet.reading.cells import CellError, Found, check_saved, number
+from report.sheet.reading.positions import CellPosition, found_at
 from solver.meant import meant
 from solver.model import Floats, InputError, Problem
 from solver.synthesis import BAND_HZ, Target

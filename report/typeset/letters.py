@@ -9,7 +9,7 @@ import re
 import subprocess
 from functools import cache
 
-from report.sheet.read import Sheet
+from report.sheet.reading.read import Sheet
 from solver.model import InputError, Problem
 
 _LISTED = 5

@@ -11,13 +11,13 @@ from functools import lru_cache
 from typing import Any
 
 from report.assessment.friction import mu_words
-from report.sheet.cells import cut
-from report.sheet.fields import Place
-from report.sheet.read import Sheet
+from report.sheet.reading.read import Sheet
+from report.sheet.reading.what_if import retyped
 from report.sheet.schema import SIDES, Array, Polarity, ProjectInput, RuleSetName
-from report.sheet.what_if import retyped
+from report.sheet.schema.fields import Place
 from report.web.opened import Opened
 from report.web.values import MUS, SHORT_PERIOD, Values, trim_unit_m, trimmed, typed
+from report.words.letters import cut
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import MOST_MU
 from solver.model import InputError, Motion

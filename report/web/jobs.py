@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from report.assessment.project import Assessment, anticipate, assess
-from report.sheet.parts import changed
-from report.sheet.what_if import cells
+from report.sheet.reading.parts import changed
+from report.sheet.reading.what_if import cells
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import check, controls, shown

@@ -12,8 +12,8 @@ from pathlib import Path
 from report.motions.components import Components
 from report.motions.prepare import Shaking, read_records, shaking
 from report.motions.stiff_links import stiff_links
-from report.sheet.read import Sheet, read
-from report.sheet.what_if import retyped
+from report.sheet.reading.read import Sheet, read
+from report.sheet.reading.what_if import retyped
 from report.typeset.letters import check_letters
 from report.web.values import Values, typed
 

@@ -16,7 +16,7 @@ from report.assessment.project import Assessment
 from report.entities.clearance import ClearanceResult, callout
 from report.entities.columns import UnitFormat
 from report.sheet.schema import ObjectKind, ProjectInput, Shape
-from report.sheet.shapes import Point, around, label_point
+from report.sheet.schema.shapes import Point, around, label_point
 from report.web.tables import Cell, ShowVerdict
 from report.words.units import Quantity, round_below
 

@@ -12,12 +12,13 @@ from typing import Any
 from openpyxl.utils import coordinate_to_tuple
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.archive import OpenBook, open_book
-from report.sheet.cells import cut, plain
-from report.sheet.grouped import Group, grouped, listed
-from report.sheet.locate_tables import find_table
-from report.sheet.positions import CellPosition, found_at
+from report.sheet.checking.grouped import Group, grouped, listed
+from report.sheet.reading.archive import OpenBook, open_book
+from report.sheet.reading.cells import plain
+from report.sheet.reading.locate_tables import find_table
+from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.schema import SECTIONS
+from report.words.letters import cut
 from solver.model import InputError
 
 _MOST_COLUMNS = 40

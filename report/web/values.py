@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.sheet.fields import Place
-from report.sheet.read import Sheet
+from report.sheet.reading.read import Sheet
+from report.sheet.reading.what_if import Typed, size_of_unit
 from report.sheet.schema import SIDES, Array, Scaling, SlopeUnit, coefficients, slope_rad
-from report.sheet.shapes import Rectangle, Shape, gap_m
-from report.sheet.what_if import Typed, size_of_unit
+from report.sheet.schema.fields import Place
+from report.sheet.schema.shapes import Rectangle, Shape, gap_m
 from solver.rules.hazard import EDITIONS
 
 Values = Mapping[str, float | str]

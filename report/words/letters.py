@@ -14,6 +14,9 @@ UNPRINTABLE = re.compile(
 """Control characters, those that separate lines or change the direction of a text, and what XML
 does not allow."""
 
+SHOWN = 60
+"""Characters of a cell or a name that a message shows."""
+
 _UNSEEN = r"[\s\u00ad\u200b-\u200f\u2060-\u2064\ufeff]+"
 _ENDS = re.compile(rf"\A{_UNSEEN}|{_UNSEEN}\Z")
 
@@ -34,6 +37,12 @@ _NAMES = re.compile(rf"\b({'|'.join(_LETTERS)})\b")
 _SIGNS = {"^2": "²", "m/s2": "m/s²", "v0": "v₀", "sqrt(": "√(", ">=": "≥", " - ": " − "}
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def cut(text: str, maximum: int = SHOWN) -> str:
+    """Return a text on one line, shortened."""
+    text = UNPRINTABLE.sub("?", text).replace("\n", " ")
+    return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
 
 
 def power_of_ten(exponent: int) -> str:

@@ -22,10 +22,10 @@ from measure import ROOT, SMOKE, command, figure, finished
 
 from report.assessment.cost import expected_s
 from report.motions.prepare import prepare
-from report.sheet import example
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput, UnitsFirst
-from report.sheet.template import write_template
+from report.sheet.writing import example
+from report.sheet.writing.template import write_template
 from solver.formats import read_record
 
 EXAMPLE = ROOT / "projects" / "example"

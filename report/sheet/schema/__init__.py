@@ -1,7 +1,7 @@
 """The input workbook as data: fields, units, allowed ranges, labels and help texts.
 
 Template, reader and input echo all come from these models; values are SI. Checks that involve more
-than one cell are in `checks`. Read `report.sheet.read` next.
+than one cell are in `checks`. Read `report.sheet.reading.read` next.
 """
 
 from __future__ import annotations
@@ -12,8 +12,6 @@ from typing import Annotated, Any, get_args, get_origin
 from pydantic import AfterValidator, model_validator
 from pydantic.fields import FieldInfo
 
-from report.sheet.fields import Cell, Frozen, OnSheet, SheetSection, YesNo
-from report.sheet.legacy_labels import PROVISIONS
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
     MAX_TEXT,
@@ -38,7 +36,9 @@ from report.sheet.schema.choices import (
     UnitsFirst,
     decimals,
 )
+from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection, YesNo
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
+from report.sheet.schema.legacy_labels import PROVISIONS
 from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site, edition_of, site_class_or_default
@@ -53,7 +53,7 @@ from report.sheet.schema.scene import (
     Vertex,
     slope_rad,
 )
-from report.sheet.shapes import Point, Polygon, Rectangle, Shape, ring
+from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, ring
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 
 __all__ = [

@@ -9,8 +9,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import StructureType
+from report.sheet.schema.fields import Cell, Frozen
 from solver.rules.spectra import Tail
 
 Period = Annotated[float, Field(gt=0, le=10)]

@@ -11,8 +11,8 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import Id, NotNegative, Text
+from report.sheet.schema.fields import Cell, Frozen
 from report.words.units import Quantity
 from solver.friction_tests import MOST_MU, FrictionRun, Surface
 

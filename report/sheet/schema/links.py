@@ -10,8 +10,8 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import Id, Positive, decimals
+from report.sheet.schema.fields import Cell, Frozen
 from report.words.units import G_MPS2, Quantity
 from solver.friction_tests import MOST_MU
 from solver.sliding.row import BlockRow

@@ -9,7 +9,6 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import (
     AccelUnit,
     Baseline,
@@ -20,6 +19,7 @@ from report.sheet.schema.choices import (
     Scaling,
     Text,
 )
+from report.sheet.schema.fields import Cell, Frozen
 
 
 class MotionInput(Frozen):

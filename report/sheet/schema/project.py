@@ -10,7 +10,6 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import (
     EditionName,
     NotNegative,
@@ -23,6 +22,7 @@ from report.sheet.schema.choices import (
     Text,
     UnitsFirst,
 )
+from report.sheet.schema.fields import Cell, Frozen
 from report.words.units import Quantity
 from solver.rules.hazard import (
     EDITIONS,

@@ -9,7 +9,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.sheet.fields import Cell
+from report.sheet.schema.fields import Cell
 from report.sheet.schema.scene import Placed
 from report.words.units import Quantity
 

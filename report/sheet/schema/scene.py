@@ -10,7 +10,6 @@ from typing import Annotated, Self
 
 from pydantic import Field, PrivateAttr
 
-from report.sheet.fields import Cell, Frozen
 from report.sheet.schema.choices import (
     Direction,
     Id,
@@ -23,7 +22,8 @@ from report.sheet.schema.choices import (
     SlopeUnit,
     Text,
 )
-from report.sheet.shapes import Point, Polygon, Rectangle, Shape
+from report.sheet.schema.fields import Cell, Frozen
+from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape
 from report.words.units import Quantity
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import DefectError, Friction

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import scenes
 import stand_in
 from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
-from report.sheet.shapes import Polygon, Rectangle, closest, gap_m
+from report.sheet.schema.shapes import Polygon, Rectangle, closest, gap_m
 
 CIRCUMSCRIBED = 1.0 / math.cos(math.pi / 24)
 """Of a circle, its polygon of 24 sides around it: 0.9 % outside."""

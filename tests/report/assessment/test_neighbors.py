@@ -15,9 +15,9 @@ from report.assessment.clearances import minimum_gap
 from report.assessment.neighbors import NearbyKind, bare_edges, neighbors, unplaced
 from report.assessment.project import assess
 from report.motions.prepare import prepare
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput, Rectangle
-from report.sheet.shapes import gap_m
+from report.sheet.schema.shapes import gap_m
 from sheets import at, make, project
 
 OUTLINE = sides(0, 220, 0, 170)

@@ -7,7 +7,7 @@ import stand_in
 from report.assessment.overrides import OVERRIDDEN, override_rows
 from report.assessment.precheck import limits_before_runs
 from report.assessment.verdict import Verdict
-from report.sheet.fields import Place
+from report.sheet.schema.fields import Place
 from solver.rules.limit import Consequence
 
 

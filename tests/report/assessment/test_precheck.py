@@ -6,7 +6,7 @@ import scenes
 import stand_in
 from report.assessment.arrays import Route
 from report.assessment.precheck import limits_before_runs
-from report.sheet.fields import Level, Place
+from report.sheet.schema.fields import Level, Place
 
 SEVEN = scenes.motions(7)
 BARE = stand_in.project(

@@ -9,9 +9,9 @@ from openpyxl import load_workbook
 from cells import cell
 from inputs import FT, NO_SIDES
 from report.cli.main import main
-from report.sheet.live import overwritten
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import Polygon, UnitsFirst
+from report.sheet.writing.live import overwritten
 from sheets import at, blank, edit, make, parts, project, put, same, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
 

@@ -10,9 +10,9 @@ import packages
 from inputs import FT, NO_SIDES, clearance
 from places import ROOT
 from report.cli.main import main
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import Clearance, Roof, UnitsFirst
-from report.sheet.template import write_template
+from report.sheet.writing.template import write_template
 from sketch import Sketch
 
 L_FT = ((30, 140), (180, 140), (180, 190), (140, 190), (140, 232), (30, 232))

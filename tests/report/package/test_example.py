@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from places import ROOT
-from report.sheet import example
+from report.sheet.writing import example
 from sheets import read_workbook, same
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum

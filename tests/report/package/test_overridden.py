@@ -21,7 +21,7 @@ from report.figures.plan_sheet import LANDSCAPE
 from report.pages.summary import summary
 from report.results.json import results_json
 from report.results.xlsx import results_xlsx
-from report.sheet.archive import open_book
+from report.sheet.reading.archive import open_book
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import answer
 from sheets import make

@@ -17,7 +17,7 @@ from places import ROOT
 from printed import FRONT, IDS, printed
 from report.motions.prepare import prepare
 from report.motions.targets import targets
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
 

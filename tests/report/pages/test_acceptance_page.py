@@ -14,7 +14,7 @@ from report.assessment.acceptance import shaking_acceptance
 from report.assessment.spectra import spectra
 from report.motions.components import read_components
 from report.motions.targets import TargetSpectrum, targets
-from report.sheet.archive import open_book
+from report.sheet.reading.archive import open_book
 from report.sheet.schema import MotionInput, RecordedAt
 from solver.records.acceptance import Acceptance
 from solver.records.record import Record, write_record

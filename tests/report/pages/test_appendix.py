@@ -8,7 +8,7 @@ import scenes
 from printed import printed
 from report.assessment.changes import NO_FORMER, Change, ChangeKind
 from report.pages.registry import package_data
-from report.sheet.read import EchoRow
+from report.sheet.reading.read import EchoRow
 
 
 def row(cell, label, typed="", value="", unit="", unseen=""):

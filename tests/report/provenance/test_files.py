@@ -18,7 +18,7 @@ from report.provenance.files import (
     record_bytes,
     sources,
 )
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from solver.model import InputError
 
 EXAMPLE = ROOT / "projects" / "example"

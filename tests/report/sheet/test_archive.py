@@ -12,8 +12,8 @@ import pytest
 from openpyxl import DEFUSEDXML, LXML, load_workbook
 
 from cells import cell
-from report.sheet.archive import open_book, sheet_parts
-from report.sheet.scan import MAX_CELLS, MAX_OTHERS, MAX_TAGS
+from report.sheet.reading.archive import open_book, sheet_parts
+from report.sheet.reading.scan import MAX_CELLS, MAX_OTHERS, MAX_TAGS
 from sheets import edit, make, pack, parts, problems, project, read_workbook, same
 from solver.model import InputError
 

@@ -4,7 +4,7 @@ import datetime as dt
 
 import pytest
 
-from report.sheet.cells import plain
+from report.sheet.reading.cells import plain
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,10 @@ from pypdf import PdfReader
 import sheets
 from cells import cell
 from recalculated import converted, recalculated_sheets
-from report.sheet.marks import RED, VIOLET
-from report.sheet.needs import WRONG
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import UnitsFirst
+from report.sheet.writing.marks import RED, VIOLET
+from report.sheet.writing.needs import WRONG
 from sheets import at, blank, edit, make, of, put, same, type_into
 
 MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"

@@ -8,7 +8,7 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
 from cells import address, cell
 from places import ROOT
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import PROVISION_KEYS, UnitsFirst
 from sheets import at, edit, make, of, problems, read_workbook, said, type_into
 from solver.model import InputError

@@ -7,8 +7,8 @@ import pytest
 from click.testing import CliRunner
 
 from report.cli.main import main
-from report.sheet.grouped import grouped
-from report.sheet.read import read
+from report.sheet.checking.grouped import grouped
+from report.sheet.reading.read import read
 from report.web.problems import problems
 from sheets import at, make, said, type_into
 from solver.model import InputError, Problem

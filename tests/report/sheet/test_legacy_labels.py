@@ -8,12 +8,11 @@ from click.testing import CliRunner
 from cells import cell
 from places import DATA, ROOT
 from report.cli.main import main
-from report.sheet import legacy_labels
-from report.sheet.archive import open_book
-from report.sheet.fields import entries
-from report.sheet.legacy_notes import what_is_new
-from report.sheet.read import read
-from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput
+from report.sheet.reading.archive import open_book
+from report.sheet.reading.read import read
+from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput, legacy_labels
+from report.sheet.schema.fields import entries
+from report.sheet.writing.legacy_notes import what_is_new
 from sheets import edit, make, project, same, type_into
 
 

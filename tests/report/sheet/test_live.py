@@ -9,10 +9,10 @@ from cells import cell
 from places import DATA
 from recalculated import recalculated_sheets
 from report.cli.main import main
-from report.sheet.archive import open_book
-from report.sheet.formula_text import canonical, moved
-from report.sheet.live import findings, live_formulas, overwritten
+from report.sheet.reading.archive import open_book
+from report.sheet.reading.formula_text import canonical, moved
 from report.sheet.schema import UnitsFirst
+from report.sheet.writing.live import findings, live_formulas, overwritten
 from sheets import at, blank, edit, formula_cells, make, pack, parts, put, retitle, said, type_into
 
 
@@ -180,7 +180,7 @@ def test_the_status_formulas_of_0_2_are_others_and_repair_writes_those_of_today(
     assert lost(path) == []
 
 
-@pytest.mark.nightly("report/sheet/needs.py", "report/sheet/live.py")
+@pytest.mark.nightly("report/sheet/writing/needs.py", "report/sheet/writing/live.py")
 def test_a_repaired_workbook_of_0_2_shows_the_ticks_of_today(tmp_path):
     given = WRONG_CELLS | {"Arrays/A2/Downslope direction": 400}
     now, was = (type_into(make(tmp_path / name), given) for name in ("now", "was"))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from report.sheet.number_format import is_percentage, misleading, shows_nothing
+from report.sheet.reading.number_format import is_percentage, misleading, shows_nothing
 
 
 @pytest.mark.parametrize(

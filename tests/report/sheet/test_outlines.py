@@ -4,7 +4,7 @@ import pytest
 from openpyxl import load_workbook
 
 from inputs import FT, NO_SIDES, SIDES, clearance, sides
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
 from sheets import arrays, at, blank, make, of, problems, project, read_workbook, same, type_into
 

@@ -9,9 +9,9 @@ from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple, range_boundaries
 
 from cells import cell
-from report.sheet import style
-from report.sheet.parts import changed, write_cells
-from report.sheet.positions import CellPosition
+from report.sheet.reading.parts import changed, write_cells
+from report.sheet.reading.positions import CellPosition
+from report.sheet.writing import style
 from sheets import at, make, pack, parts
 from solver.model import InputError
 

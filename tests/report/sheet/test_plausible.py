@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from inputs import FT, INCH, LB
-from report.sheet.fields import Level, Place
-from report.sheet.findings import lines, note, warning
-from report.sheet.plausible import implausible
+from report.sheet.checking.findings import lines, note, warning
+from report.sheet.checking.plausible import implausible
+from report.sheet.schema.fields import Level, Place
 from sheets import arrays, at, make, project, row_changed, told
 
 

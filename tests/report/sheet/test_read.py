@@ -17,7 +17,7 @@ from cells import address, cell
 from inputs import FT
 from report.sheet import schema
 from report.sheet.schema import UnitsFirst
-from report.sheet.template import write_template
+from report.sheet.writing.template import write_template
 from sheets import (
     at,
     edit,

@@ -8,7 +8,6 @@ from pydantic import ValidationError
 
 import inputs
 from inputs import INCH
-from report.sheet.fields import Bounds, YesNo, entries
 from report.sheet.schema import (
     PROVISION_KEYS,
     SECTIONS,
@@ -23,7 +22,8 @@ from report.sheet.schema import (
     SlopeUnit,
     slope_rad,
 )
-from report.sheet.shapes import gap_m
+from report.sheet.schema.fields import Bounds, YesNo, entries
+from report.sheet.schema.shapes import gap_m
 from report.words.units import LENGTHS, WEIGHTS, Quantity
 from sheets import project
 from solver.formats import UNIT_CHOICES

@@ -9,7 +9,7 @@ import shapely
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from report.sheet.shapes import (
+from report.sheet.schema.shapes import (
     Polygon,
     Rectangle,
     around,

@@ -5,9 +5,9 @@ from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 
 from cells import address, cell
-from report.sheet.fields import entries
 from report.sheet.schema import PROVISION_KEYS, SECTIONS, UnitsFirst, provision_name
-from report.sheet.template import write_template
+from report.sheet.schema.fields import entries
+from report.sheet.writing.template import write_template
 from sheets import arrays, formula_cells, make, project
 
 SHEETS = [

@@ -54,7 +54,7 @@ def spoiled(tmp_path_factory):
     return dict(zip(paths, recalculated_sheets(paths, folder), strict=True))
 
 
-@pytest.mark.nightly("report/sheet/conditions.py", "report/sheet/needs.py")
+@pytest.mark.nightly("report/sheet/checking/conditions.py", "report/sheet/writing/needs.py")
 def test_a_row_has_its_tick_where_check_finds_nothing_in_it(spoiled):
     for path, sheets in spoiled.items():
         lines = () if path.parent.name == "accepted" else problems(path)

@@ -14,9 +14,9 @@ import scenes
 from cells import cell as named
 from printed import printed
 from report.assessment.precheck import findings
-from report.sheet.fields import Place
-from report.sheet.read import read
-from report.sheet.unseen import Concealment, Unseen, warnings
+from report.sheet.reading.read import read
+from report.sheet.reading.unseen import Concealment, Unseen, warnings
+from report.sheet.schema.fields import Place
 from sheets import at, blank, edit, make, of, read_workbook, told, type_into
 
 

@@ -3,9 +3,9 @@
 import pytest
 
 from inputs import INCH
-from report.sheet.fields import Place, entries
+from report.sheet.checking.usual import unusual
 from report.sheet.schema import SECTIONS
-from report.sheet.usual import unusual
+from report.sheet.schema.fields import Place, entries
 from sheets import arrays, project, row_changed
 
 

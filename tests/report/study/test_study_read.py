@@ -17,7 +17,7 @@ from openpyxl import load_workbook
 from cells import address, addressed, cell
 from places import ROOT
 from report.cli.main import main
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.sheet.schema import UnitsFirst
 from report.study.motions import study_motions
 from report.study.plan import plan_study

@@ -14,7 +14,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from places import ROOT
-from report.sheet.read import read
+from report.sheet.reading.read import read
 from report.web import receiving
 from report.web.access import Gate
 from report.web.app import made

@@ -10,9 +10,9 @@ import pytest
 import stand_in
 from places import ROOT
 from report.assessment.project import anticipate, assess
-from report.sheet.parts import changed
+from report.sheet.reading.parts import changed
+from report.sheet.reading.what_if import cells, retyped
 from report.sheet.schema import Scaling
-from report.sheet.what_if import cells, retyped
 from report.web import jobs
 from report.web.answers import answer
 from report.web.controls import controls, shown

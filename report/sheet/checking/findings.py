@@ -1,0 +1,111 @@
+"""Warnings on the input, which an engineer may answer with a reason, and notes.
+
+Owns ids and acknowledgments. Read `report.sheet.checking.plausible` next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from report.sheet.checking.grouped import listed
+from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema.fields import Finding, Level, Place
+from report.sheet.schema.references import suggestion
+
+
+def warning(name: str, place: Place, text: str) -> Finding:
+    """Return a warning that may be acknowledged."""
+    return Finding(level=Level.WARNING, id=name, place=place, text=text)
+
+
+def unanswered(place: Place, text: str, cell: str) -> Finding:
+    """Return a warning on a cell that is no input."""
+    return Finding(level=Level.WARNING, id="", place=place, text=text, cell=cell)
+
+
+def limit(place: Place, text: str) -> Finding:
+    """Return a warning that no reason lifts."""
+    return Finding(level=Level.WARNING, id="", place=place, text=text)
+
+
+def note(place: Place, text: str) -> Finding:
+    """Return a note."""
+    return Finding(level=Level.NOTE, id="", place=place, text=text)
+
+
+def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Return findings in the order of the template, each with the reason that the sheet gives.
+
+    An acknowledgment of no warning is a note.
+    """
+    found = tuple(findings)
+    reasons = {_key(row.warning): row.reason for row in data.acknowledged}
+    answered = [replace(f, reason=reasons.get(_key(f.id), "") if f.id else "") for f in found]
+    return in_order([*answered, *_idle(data, found)])
+
+
+def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:
+    """Return findings in the order of the template."""
+    return tuple(sorted(findings, key=lambda finding: _rank(finding.place)))
+
+
+def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[str]:
+    """Yield the address of each finding: its cell, or else its table or sheet."""
+    for finding in findings:
+        place = finding.place
+        table = addresses.get(Place(place.section), _SHEETS[place.section])
+        yield finding.cell or addresses.get(place, table)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FindingGroup:
+    """Findings that differ only in their cells and ids, printed as one.
+
+    Attributes
+    ----------
+    finding : Finding
+        The first of them.
+    cells, names : str
+        Addresses and ids, the first few of them with the count of the others; names are empty
+        if there are no ids.
+    """
+
+    finding: Finding
+    cells: str
+    names: str
+
+
+def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[FindingGroup]:
+    """Yield findings with their cells, in order; equal ones once, at the place of the first."""
+    found = tuple(findings)
+    alike: dict[tuple[str, ...], list[tuple[Finding, str]]] = {}
+    for finding, cell in zip(found, located(found, addresses), strict=True):
+        has_id = "id" if finding.id else ""
+        key = (finding.level, finding.place.section, finding.text, finding.reason, has_id)
+        alike.setdefault(key, []).append((finding, cell))
+    for group in alike.values():
+        cells, names = listed(cell for _, cell in group), listed(one.id for one, _ in group)
+        yield FindingGroup(finding=group[0][0], cells=cells, names=names if group[0][0].id else "")
+
+
+_SHEETS = {section.key: section.sheet for section in SECTIONS}
+_ORDER = {section.key: count for count, section in enumerate(SECTIONS)}
+
+
+def _rank(place: Place) -> tuple[int, int]:
+    return _ORDER[place.section], place.row
+
+
+def _key(name: str) -> str:
+    return " ".join(name.split()).casefold()
+
+
+def _idle(data: ProjectInput, found: Iterable[Finding]) -> Iterator[Finding]:
+    given = [finding.id for finding in found if finding.id]
+    known = {_key(name) for name in given}
+    for index, row in enumerate(data.acknowledged):
+        if _key(row.warning) not in known:
+            text = f"warning is '{row.warning}', which is not given; "
+            text += suggestion(row.warning, given) if given else "delete the row"
+            yield note(Place("acknowledged", index, "warning"), text)

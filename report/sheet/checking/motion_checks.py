@@ -1,0 +1,194 @@
+"""Checks of motions, building and target spectrum that involve more than one cell.
+
+Each fault names the cell to change. Works on a draft, like `checks`, and reads no record.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+from report.sheet.checking.site_checks import site_parameters
+from report.sheet.schema import RecordedAt, Scaling
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from solver.building.beam import MOST_STORIES
+
+LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
+"""Fields of a motion that name a record, each with the name of its component."""
+
+
+def motion_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield all inconsistencies in the motions of a draft."""
+    for index, row in enumerate(draft["motions"]):
+        yield from _same_component(index, row)
+        yield from _scale_value(index, row)
+        yield from _processing(index, row)
+    yield from _building(draft, where)
+    yield from _own_spectrum(draft, where)
+    yield from _scaled_to_target(draft, where)
+
+
+def _same_component(index: int, row: DraftRow) -> Iterator[Finding]:
+    seen: dict[str, str] = {}
+    for field, label in LABELS.items():
+        if not row.get(field):
+            continue
+        first = seen.setdefault(" ".join(row[field].split()), label)
+        if first != label:
+            text = f"{label} record is '{row[field]}', the same as the {first} record"
+            yield Finding.error(Place("motions", index, field), text, "give another record")
+
+
+def _scale_value(index: int, row: DraftRow) -> Iterator[Finding]:
+    scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
+    value = row.get("scale_value")
+    if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
+        text = f"factor or PPA is {value:g}, but scaling is '{scaling}'"
+        yield Finding.error(place, text, "change the scaling or leave this blank")
+
+
+def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
+    start, end = row.get("from_s"), row.get("to_s")
+    if end is not None and end <= (start or 0.0):
+        wanted = f"give more than the start time, {start or 0.0:g} s"
+        yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", wanted)
+    high, low = row.get("highpass_hz"), row.get("lowpass_hz")
+    if high is not None and low is not None and low <= high:
+        text = f"low-pass corner is {low:g} Hz"
+        wanted = f"give more than the high-pass corner, {high:g} Hz"
+        yield Finding.error(Place("motions", index, "lowpass_hz"), text, wanted)
+
+
+def _building(draft: Draft, where: Where) -> Iterator[Finding]:
+    ground = _first_row(draft, "recorded_at", RecordedAt.GROUND)
+    for row in draft["building"]:
+        first, second = row.get("period_s"), row.get("period_2_s")
+        if second is not None and (first is None or second > first):
+            longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
+            text = f"period T2 is {second:g} s"
+            wanted = f"give {longest}, or leave it blank"
+            yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
+    if ground is not None:
+        yield from _stories(draft)
+
+
+def _stories(draft: Draft) -> Iterator[Finding]:
+    for row in draft["site"]:
+        count = row.get("stories", 1)
+        if count > MOST_STORIES:
+            text = (
+                f"number of stories is {count}, more than the {MOST_STORIES} of the building model"
+            )
+            yield Finding.error(Place("site", 0, "stories"), text, "give roof motions")
+
+
+def _first_row(draft: Draft, field: str, value: object) -> int | None:
+    """Return the first motion with a value in a field; None for none."""
+    rows = (index for index, row in enumerate(draft["motions"]) if row.get(field) is value)
+    return next(rows, None)
+
+
+def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
+    rows = draft["spectrum"]
+    if len(rows) == 1:
+        yield Finding.error(Place("spectrum"), "one row is given", "give at least two, or none")
+    given = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
+    for (before, first), (after, second) in pairwise(sorted(given)):
+        if after - before <= 1e-9 * after:
+            at = where(Place("spectrum", first, "period_s"))
+            text = f"period is {after:g} s, already given at {at}"
+            wanted = "give each period once"
+            yield Finding.error(Place("spectrum", second, "period_s"), text, wanted)
+    verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
+    if any(verticals) and not all(verticals):
+        index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
+        wanted = "give it in every row, or in none"
+        yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", wanted)
+
+
+def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield errors of the target spectrum and of scaling to it."""
+    row = draft["target"][0] if draft["target"] else {}
+    start, end = row.get("from_s"), row.get("to_s")
+    if start is None or end is None:
+        return
+    if end <= start:
+        text = f"longest scaling period is {end:g} s"
+        wanted = f"give more than the shortest, {start:g} s"
+        yield Finding.error(Place("target", 0, "to_s"), text, wanted)
+        return
+    scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
+    for index in scaled:
+        yield from _within_passband(draft, index, end)
+    if scaled and draft["spectrum"]:
+        yield from _covered(draft, start, end)
+    ground = [i for i in scaled if draft["motions"][i].get("recorded_at") is RecordedAt.GROUND]
+    if not draft["spectrum"]:
+        yield from _design_spectrum(draft, ground, where)
+
+
+def _within_passband(draft: Draft, index: int, end_s: float) -> Iterator[Finding]:
+    corner = draft["motions"][index].get("highpass_hz")
+    if corner is not None and corner * end_s > 1.0 + 1e-9:
+        text = (
+            f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the longest "
+            f"scaling period is {end_s:g} s"
+        )
+        yield Finding.error(Place("motions", index, "highpass_hz"), text, "reduce one of them")
+
+
+def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
+    periods = [row["period_s"] for row in draft["spectrum"] if "period_s" in row]
+    if len(periods) < 2 or (min(periods) <= start_s and end_s <= max(periods)):
+        return
+    text = (
+        f"periods range from {min(periods):g} to {max(periods):g} s, but motions are scaled over "
+        f"{start_s:g} to {end_s:g} s"
+    )
+    yield Finding.error(Place("spectrum"), text, "add rows, or change the scaling periods")
+
+
+def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[Finding]:
+    """Yield missing values of the design spectrum if a ground motion is scaled to it."""
+    site = draft["site"][0] if draft["site"] else {}
+    target = draft["target"][0]
+    field, label = _lacking_s_d1(site)
+    parts = {
+        Place("site", 0, field): (label, _s_d1(site)),
+        Place("target", 0, "t_l_s"): ("long-period transition T_L", target.get("t_l_s", math.nan)),
+    }
+    for place, (label, value) in parts.items():
+        if ground and value is None:
+            at = where(Place("motions", ground[0], "scaling"))
+            text = f"{label} is missing"
+            yield Finding.error(
+                place,
+                text,
+                f"{at} scales a ground motion to the design spectrum, which requires "
+                "S_D1, or S_1 and F_v, and T_L",
+            )
+    if all(value is not None and value == value for _, value in parts.values()):
+        yield from _transition(site, target)
+
+
+def _transition(site: DraftRow, target: DraftRow) -> Iterator[Finding]:
+    parameters = site_parameters(site)
+    t_s = None if parameters is None else parameters.t_s
+    if t_s is not None and target["t_l_s"] <= t_s:
+        text = f"long-period transition T_L is {target['t_l_s']:g} s"
+        wanted = f"give more than T_S = S_D1/S_DS = {t_s:.3g} s"
+        yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
+
+
+def _s_d1(site: DraftRow) -> float | None:
+    """Return S_D1 [g]; NaN where a cell of the site could not be read."""
+    parameters = site_parameters(site)
+    return math.nan if parameters is None else parameters.s_d1
+
+
+def _lacking_s_d1(site: DraftRow) -> tuple[str, str]:
+    """Return the field and label to fill in where S_D1 is missing."""
+    lacking = [name for name in ("s_1_g", "f_v") if site.get(name) is None]
+    field = lacking[0] if len(lacking) == 1 else "s_d1_g"
+    return field, {"s_1_g": "S_1", "f_v": "F_v", "s_d1_g": "S_D1"}[field]

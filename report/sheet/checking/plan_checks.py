@@ -1,0 +1,292 @@
+"""Checks of what the workbook gives in roof plan: rectangles, outlines, and what is on the roof.
+
+Read `report.sheet.checking.checks` first, which runs them. The geometry is in
+`report.sheet.schema.shapes`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from report.sheet.checking.conditions import ORDERED
+from report.sheet.schema import (
+    ROOF,
+    SIDES,
+    ObjectKind,
+    Polygon,
+    Rectangle,
+    Shape,
+    UnitsFirst,
+)
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.sheet.schema.references import suggestion
+from report.sheet.schema.shapes import NEAR_M, Point, crossing, gap_m, outside, ring
+from report.words.units import Quantity, pair
+
+LEAST_VERTICES = 3
+_EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
+_PLACED = ("arrays", "objects")
+
+
+@dataclass(frozen=True, slots=True)
+class _Outline:
+    """The rows of an outline: the first of them, and the vertices; none if a cell is unreadable."""
+
+    name: str
+    first: int
+    vertices: tuple[Point, ...]
+
+    @property
+    def place(self) -> Place:
+        """The cell that names it first."""
+        return Place("outlines", self.first, "name")
+
+
+def us_first(draft: Draft) -> bool:
+    """Whether US units come first."""
+    return all(row.get("units_first") is not UnitsFirst.SI for row in draft["project"])
+
+
+def shapes_of(draft: Draft) -> dict[str, Shape]:
+    """Return the shape of each array and object that has a valid one, by id."""
+    outlines = _outlines(draft)
+    rows = {row["id"]: row for section in _PLACED for row in draft[section] if "id" in row}
+    found = {name: _shape(row, outlines.get(name)) for name, row in rows.items()}
+    return {name: shape for name, shape in found.items() if shape is not None}
+
+
+def places_of(draft: Draft, names: Iterable[str], where: Where) -> str:
+    """Return the cells of the rectangles of arrays and objects, or of the first of an outline."""
+    outlines = _outlines(draft)
+    rows = {
+        row["id"]: Place(section, index)
+        for section in _PLACED
+        for index, row in enumerate(draft[section])
+        if "id" in row
+    }
+    return " and ".join(
+        where(outlines[name].place) if name in outlines else _sides(rows[name], where)
+        for name in names
+    )
+
+
+def _sides(row: Place, where: Where) -> str:
+    first, last = (where(row._replace(field=side)) for side in (SIDES[0], SIDES[-1]))
+    return f"{first}:{last.partition('!')[2]}"
+
+
+def plan_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield what is wrong with the shapes in plan."""
+    yield from _rectangles(draft, where)
+    yield from _outline_rows(draft, where)
+    yield from _doubled(draft, where)
+    yield from _on_the_roof(draft, where)
+    yield from _overlaps(draft, where)
+
+
+def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
+    if outline is None:
+        return _rectangle(row)
+    return _polygon(outline)
+
+
+def _rectangle(row: DraftRow) -> Rectangle | None:
+    """Return a row's rectangle, if all four sides are given and in order."""
+    given = [row[side] for side in SIDES if row.get(side) is not None]
+    if len(given) < len(SIDES):
+        return None
+    x_from, x_to, y_from, y_to = given
+    return Rectangle(*given) if x_from < x_to and y_from < y_to else None
+
+
+def _polygon(outline: _Outline) -> Polygon | None:
+    """Return the polygon of an outline, if it is one."""
+    points = ring(outline.vertices)
+    if len(points) < LEAST_VERTICES or crossing(points) is not None:
+        return None
+    return Polygon(points)
+
+
+def _outlines(draft: Draft) -> dict[str, _Outline]:
+    """Return the outlines by name, in the order of the workbook."""
+    rows: dict[str, list[tuple[int, DraftRow]]] = {}
+    for index, row in enumerate(draft["outlines"]):
+        if "name" in row:
+            name = ROOF if row["name"].casefold() == ROOF else row["name"]
+            rows.setdefault(name, []).append((index, row))
+    return {
+        name: _Outline(name, found[0][0], _vertices([row for _, row in found]))
+        for name, found in rows.items()
+    }
+
+
+def _vertices(rows: list[DraftRow]) -> tuple[Point, ...]:
+    is_whole = all("x_m" in row and "y_m" in row for row in rows)
+    return tuple((row["x_m"], row["y_m"]) for row in rows) if is_whole else ()
+
+
+def _rectangles(draft: Draft, where: Where) -> Iterator[Finding]:
+    for section in ("roof", *_PLACED):
+        for index, row in enumerate(draft[section]):
+            yield from _in_order(section, index, row, us_first(draft), where)
+
+
+def _in_order(
+    section: str, index: int, row: DraftRow, is_us: bool, where: Where
+) -> Iterator[Finding]:
+    for first, last in ORDERED:
+        low, high = row.get(first), row.get(last)
+        if low is None or high is None or low < high:
+            continue
+        given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
+        at = where(Place(section, index, first))
+        wanted = f"give more than {_label(first)} in {at}, {least}"
+        yield Finding.error(Place(section, index, last), f"{_label(last)} is {given}", wanted)
+
+
+def _label(side: str) -> str:
+    return side.removesuffix("_m").replace("_", " ")
+
+
+def _outline_rows(draft: Draft, where: Where) -> Iterator[Finding]:
+    ids = [row["id"] for section in _PLACED for row in draft[section] if "id" in row]
+    for outline in _outlines(draft).values():
+        if outline.name not in (ROOF, *ids):
+            yield Finding.error(
+                outline.place,
+                f"outline of '{outline.name}', which is not in Arrays or Objects",
+                suggestion(outline.name, [*ids, ROOF]),
+            )
+        if outline.name == ROOF and ROOF in map(str.casefold, ids):
+            text = "outline of 'roof', which is also the ID of an array or object"
+            yield Finding.error(outline.place, text, "give that another ID")
+        yield from _ring_faults(outline, us_first(draft))
+    yield from _scattered(draft, where)
+
+
+def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Finding]:
+    if not outline.vertices:
+        return
+    points = ring(outline.vertices)
+    if len(set(points)) < LEAST_VERTICES:
+        count = len(set(points))
+        text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
+        yield Finding.error(outline.place, text, f"give at least {LEAST_VERTICES}, one to a row")
+        return
+    at = crossing(points)
+    if at is not None:
+        text = f"outline of {outline.name} touches or crosses itself near {spot(at, is_us)}"
+        yield Finding.error(outline.place, text, "give its vertices in order, none of them twice")
+
+
+def spot(at: Point, is_us: bool) -> str:
+    """Return a point of the plan in words."""
+    x, y = (pair(value, Quantity.PLAN, is_us) for value in at)
+    return f"x {x}, y {y}"
+
+
+def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield the rows at which an outline goes on after rows of another one."""
+    last: dict[str, int] = {}
+    for index, row in enumerate(draft["outlines"]):
+        name = row.get("name")
+        if name is None:
+            continue
+        before = last.get(name.casefold(), index - 1)
+        if before != index - 1:
+            at = where(Place("outlines", before, "name"))
+            text = f"outline of '{name}' goes on here after {at}"
+            wanted = "put all of its rows together"
+            yield Finding.error(Place("outlines", index, "name"), text, wanted)
+        last[name.casefold()] = index
+
+
+def _doubled(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield rectangles of what has an outline as well."""
+    outlines = _outlines(draft)
+    rows = [(section, i, row) for section in _PLACED for i, row in enumerate(draft[section])]
+    named = [(section, i, row, row.get("id", "")) for section, i, row in rows]
+    named += [("roof", 0, row, ROOF) for row in draft["roof"]]
+    for section, index, row, name in named:
+        if name in outlines and any(row.get(side) is not None for side in SIDES):
+            side = next(side for side in SIDES if row.get(side) is not None)
+            at = where(outlines[name].place)
+            text = f"{_label(side)} is given, and {name} has an outline at {at}"
+            wanted = "leave the four sides blank, or delete the outline"
+            yield Finding.error(Place(section, index, side), text, wanted)
+
+
+def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
+    outlines = _outlines(draft)
+    for row in draft["roof"]:
+        roof = _shape(row, outlines.get(ROOF))
+        if roof is None:
+            continue
+        at = outlines[ROOF].place if ROOF in outlines else Place("roof", 0, "x_from_m")
+        for index, array in enumerate(draft["arrays"]):
+            own = outlines.get(array.get("id", ""))
+            if isinstance(roof, Rectangle) and own is None:
+                yield from _beyond(roof, index, array, draft, where)
+                continue
+            shape = _shape(array, own)
+            found = outside(shape, roof) if shape is not None else None
+            if found is not None:
+                text = f"{array.get('id')} is outside the roof near {spot(found, us_first(draft))}"
+                place = Place("arrays", index, "x_from_m") if own is None else own.place
+                wanted = f"correct it, or the outline of the roof at {where(at)}"
+                yield Finding.error(place, text, wanted)
+
+
+def _beyond(
+    roof: Rectangle, index: int, array: DraftRow, draft: Draft, where: Where
+) -> Iterator[Finding]:
+    """Yield the sides of a rectangular array that are outside a rectangular roof."""
+    for side in SIDES:
+        value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
+        if value is None or (value >= edge if is_low else value <= edge):
+            continue
+        given, limit = (pair(at, Quantity.PLAN, us_first(draft)) for at in (value, edge))
+        inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
+        text = f"{_label(side)} is {given}, outside the roof"
+        wanted = f"give {limit} or {inside}, or correct the outline at {at}"
+        yield Finding.error(Place("arrays", index, side), text, wanted)
+
+
+@dataclass(frozen=True, slots=True)
+class _Body:
+    """An array, or an object that no array can overlap, in plan."""
+
+    place: Place
+    name: str
+    is_array: bool
+    shape: Shape
+    bounds: Rectangle
+
+
+def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield arrays that overlap each other or an object; `checks` has those with a clearance."""
+    given = {frozenset((row.get("array"), row.get("object"))) for row in draft["clearances"]}
+    bodies = sorted(_bodies(draft), key=lambda body: body.bounds.x_from_m)
+    for count, one in enumerate(bodies):
+        for other in bodies[count + 1 :]:
+            if other.bounds.x_from_m >= one.bounds.x_to_m:
+                break
+            first, second = sorted((one, other), key=lambda body: (not body.is_array, body.place))
+            if not first.is_array or frozenset((one.name, other.name)) in given:
+                continue
+            if gap_m(one.bounds, other.bounds) < 0.0 and gap_m(one.shape, other.shape) < -NEAR_M:
+                text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
+                yield Finding.error(first.place, text, "correct one of them")
+
+
+def _bodies(draft: Draft) -> Iterator[_Body]:
+    """Yield the arrays and objects that have a shape, without edges: an array may reach them."""
+    outlines = _outlines(draft)
+    for section in _PLACED:
+        for index, row in enumerate(draft[section]):
+            own = outlines.get(row.get("id", ""))
+            shape = _shape(row, own) if "id" in row else None
+            if shape is not None and row.get("kind") not in _EDGES:
+                place = Place(section, index, "x_from_m") if own is None else own.place
+                yield _Body(place, row["id"], section == "arrays", shape, shape.bounds)

@@ -1,0 +1,210 @@
+"""Checks of the site: seismic parameters against each other, the edition, and the SDC.
+
+Each fault names the cell to change. Read `site_faults`; `checks` calls it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from report.sheet.schema import RiskCategory, edition_of, site_class_or_default
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from solver.rules import hazard
+from solver.rules.hazard import Edition, HazardBasis, SeismicParameters
+from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coefficient
+
+LEAST_I_E = {
+    RiskCategory.I: 1.0,
+    RiskCategory.II: 1.0,
+    RiskCategory.III: 1.25,
+    RiskCategory.IV: 1.5,
+}
+# Difference allowed between a value and the same from other cells: it is typed as a permit sheet
+# or a hazard tool prints it, rounded to two decimals or more.
+AGREES_G = 0.0051
+ROUNDING_OF_COEFFICIENTS = 0.0051
+"""Difference of a site coefficient from its table that is rounding: to two decimals."""
+
+_Chain = tuple[tuple[str, str], ...]
+
+# Names at the short period and at 1 s: mapped, coefficient, maximum considered, design.
+_CHAINS = (
+    (("s_s_g", "S_S"), ("f_a", "F_a"), ("s_ms_g", "S_MS"), ("s_ds_g", "S_DS")),
+    (("s_1_g", "S_1"), ("f_v", "F_v"), ("s_m1_g", "S_M1"), ("s_d1_g", "S_D1")),
+)
+
+
+def site_faults(draft: Draft, where: Where) -> Iterator[Finding]:
+    """Yield inconsistencies of the site."""
+    for row in draft["site"]:
+        yield from _importance(row)
+        edition = edition_of_row(row)
+        if edition is None:
+            continue
+        yield from _edition(row, edition)
+        yield from _missing_s_ds(row, edition)
+        yield from _site_class(row, edition)
+        for chain, table in zip(_CHAINS, (F_A, F_V), strict=True):
+            yield from _agreement(row, edition, chain)
+            yield from _below_table(row, edition, chain, table, where)
+        yield from _sdc(row)
+
+
+def edition_of_row(row: DraftRow) -> Edition | None:
+    """Return the edition of a draft of the site; None if it cannot be determined."""
+    if "rule_set" not in row or "edition_name" not in row:
+        return None
+    return edition_of(row["rule_set"], row["edition_name"])
+
+
+def site_parameters(row: DraftRow) -> SeismicParameters | None:
+    """Return the parameters of a draft of the site; None if a cell could not be read."""
+    edition = edition_of_row(row)
+    names = [name for chain in _CHAINS for name, _ in chain]
+    if edition is None or any(name not in row for name in names):
+        return None
+    values = {name.removesuffix("_g"): row[name] for name in names}
+    return hazard.seismic_parameters(edition, **values)
+
+
+def _importance(row: DraftRow) -> Iterator[Finding]:
+    risk_category, i_e = row.get("risk_category"), row.get("i_e")
+    if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
+        return
+    wanted = f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
+    yield Finding.error(Place("site", 0, "i_e"), f"importance factor I_e is {i_e:g}", wanted)
+
+
+def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
+    """Yield an edition that contradicts the rule set, and coefficients that it does not have."""
+    rule_set = row["rule_set"]
+    if rule_set in hazard.EDITIONS and rule_set != edition.name:
+        text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"
+        wanted = "leave it blank, or correct one"
+        yield Finding.error(Place("site", 0, "edition_name"), text, wanted)
+    if edition.has_site_coefficients:
+        return
+    for field, label, other in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
+        if row.get(field) is not None:
+            text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients"
+            wanted = f"leave it blank and give {other} from a hazard tool"
+            yield Finding.error(Place("site", 0, field), text, wanted)
+
+
+def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
+    parameters = site_parameters(row)
+    if parameters is None or parameters.s_ds is not None:
+        return
+    has_coefficients = edition.has_site_coefficients
+    missing = [n for n in ("s_s_g", "f_a") if row[n] is None] if has_coefficients else []
+    field = missing[0] if len(missing) == 1 else "s_ds_g"
+    label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
+    wanted = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
+    yield Finding.error(Place("site", 0, field), f"{label} is missing", wanted)
+
+
+def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Finding]:
+    """Yield a value that differs from the same derived from other cells of its chain."""
+    mapped, coefficient, maximum, design = (row.get(name) for name, _ in chain)
+    (_, mapped_label), (_, factor_label), (maximum_name, maximum_label) = chain[:3]
+    design_name, design_label = chain[3]
+    product = None
+    if edition.has_site_coefficients and mapped is not None and coefficient is not None:
+        product = coefficient * mapped
+    factors = f"{factor_label} {mapped_label}"
+    for name, label, given, words, derived in (
+        (maximum_name, maximum_label, maximum, factors, product),
+        (design_name, design_label, design, f"2/3 {maximum_label}", _design(maximum)),
+        (design_name, design_label, design, f"2/3 {factors}", _design(product)),
+    ):
+        if given is not None and derived is not None and abs(given - derived) > AGREES_G:
+            text = f"{label} is {given:g} g, but {words} is {derived:.4f} g"
+            wanted = "leave one of them blank, or correct it"
+            yield Finding.error(Place("site", 0, name), text, wanted)
+            return
+
+
+def _design(maximum_g: float | None) -> float | None:
+    return None if maximum_g is None else 2.0 / 3.0 * maximum_g
+
+
+def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
+    site_class = row.get("site_class")
+    if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
+        text = f"site class is '{site_class}', which {edition.name} does not have"
+        wanted = f"give one of {', '.join(F_A.rows)}"
+        yield Finding.error(Place("site", 0, "site_class"), text, wanted)
+
+
+def _below_table(
+    row: DraftRow, edition: Edition, chain: _Chain, table: CoefficientTable, where: Where
+) -> Iterator[Finding]:
+    """Yield what is below that of the mapped value, the site class and the table of its edition.
+
+    A given coefficient is compared with the table, and `_agreement` compares the rest with it.
+    """
+    (mapped, symbol), (coefficient, factor), maximum, design = chain
+    mapped_g, given = row.get(mapped), row.get(coefficient)
+    tabulated = _tabulated(row, edition, mapped_g, table)
+    if mapped_g is None or coefficient not in row or math.isnan(tabulated):
+        return
+    of_class = f"for site class '{site_class_or_default(row['site_class'])}'"
+    of_class += "" if row["site_class"] else ", assumed because none is given"
+    if given is not None:
+        if given < tabulated - ROUNDING_OF_COEFFICIENTS:
+            wanted = f"give at least {tabulated:.4g} {of_class} and {symbol} of {mapped_g:g} g in"
+            at = where(Place("site", 0, mapped))
+            yield _or_study(coefficient, f"{factor} is {given:g}", f"{wanted} {at}", table)
+        return
+    for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
+        value, least = row.get(name), share * tabulated * mapped_g
+        if value is not None and value < least - AGREES_G:
+            wanted = f"give at least {math.ceil(1e3 * least) / 1e3:g} g, which is {words}{factor}"
+            wanted += f" {symbol} with {factor} of {tabulated:.4g} {of_class}"
+            yield _or_study(name, f"{label} is {value:g} g", wanted, table)
+
+
+def _tabulated(
+    row: DraftRow, edition: Edition, mapped_g: float | None, table: CoefficientTable
+) -> float:
+    """Return the coefficient of a table; NaN where it has none or a site-specific one may be less.
+
+    Where a table has none, a site-specific analysis is a requirement of the package.
+    """
+    if edition.name != table.edition or mapped_g is None or "site_class" not in row:
+        return math.nan
+    site_class = site_class_or_default(row["site_class"])
+    is_studied = row.get("hazard") in (None, HazardBasis.SITE_SPECIFIC)
+    has_none = is_studied or site_class not in table.rows
+    return math.nan if has_none else site_coefficient(table, site_class, mapped_g)
+
+
+def _or_study(field: str, found: str, wanted: str, table: CoefficientTable) -> Finding:
+    """Return a value below its table, with the way out."""
+    out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
+    return Finding.error(Place("site", 0, field), found, f"{wanted} ({table.clause}†), {out}")
+
+
+def _sdc(row: DraftRow) -> Iterator[Finding]:
+    sdc, risk_category = row.get("sdc"), row.get("risk_category")
+    parameters = site_parameters(row)
+    if sdc is None or risk_category is None or parameters is None or parameters.s_ds is None:
+        return
+    is_essential = risk_category is RiskCategory.IV
+    s_ds_g, s_d1_g, s_1_g = parameters.s_ds, parameters.s_d1, row["s_1_g"]
+    by_1s = "" if s_d1_g is None else hazard.sdc_1s(s_d1_g, is_essential=is_essential)
+    near_fault = "" if s_1_g is None else hazard.sdc_near_fault(s_1_g, is_essential=is_essential)
+    least, reason, clause = max(
+        (
+            hazard.sdc_short(s_ds_g, is_essential=is_essential),
+            f"S_DS = {s_ds_g:.3f} g",
+            "ASCE 7 Table 11.6-1",
+        ),
+        (by_1s, f"S_D1 = {s_d1_g or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
+        (near_fault, f"S_1 = {s_1_g or 0.0:g} g", "ASCE 7 section 11.6"),
+        key=lambda table: table[0],
+    )
+    if sdc < least:
+        wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
+        yield Finding.error(Place("site", 0, "sdc"), f"seismic design category is '{sdc}'", wanted)

@@ -1,0 +1,72 @@
+"""Warnings on numbers outside the range that the sheet itself prints as usual.
+
+Most of them are a wrong unit. Read `unusual`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from report.sheet.checking.findings import warning
+from report.sheet.schema import (
+    SECTIONS,
+    Array,
+    Clearance,
+    Direction,
+    FrictionTestRow,
+    MotionInput,
+    ProjectInput,
+    RoofObject,
+)
+from report.sheet.schema.fields import Entry, Finding, Frozen, Place, SheetSection, entries
+
+ROUNDING = 1e-9
+"""Difference from a limit / limit that is rounding error of a conversion of units."""
+
+
+def unusual(data: ProjectInput) -> Iterator[Finding]:
+    """Yield a warning for each number outside its usual range."""
+    is_us = data.project.units_first.is_us
+    for section in SECTIONS:
+        found = getattr(data, section.key)
+        for index, row in enumerate(found if section.is_table else (found,)):
+            for entry in entries(section.model):
+                if _is_unusual(entry, getattr(row, entry.name)):
+                    yield _warning(section, index, entry, row, is_us)
+
+
+def _is_unusual(entry: Entry, value: float | None) -> bool:
+    if entry.cell.usual is None or value is None:
+        return False
+    low, high = entry.expected.low, entry.expected.high
+    return not low * (1.0 - ROUNDING) <= value <= high * (1.0 + ROUNDING)
+
+
+def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
+    symbol, si = str(entry.cell.unit), 1.0
+    if entry.quantity:
+        unit = entry.quantity.us if is_us else entry.quantity.si
+        symbol, si = unit.symbol, unit.si
+    given, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
+    text = f"{entry.spoken} is {given} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
+    name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
+    place = Place(section.key, index, entry.name)
+    return warning(name, place, f"{text} is usual: correct the value or its unit")
+
+
+def _named(row: Frozen) -> str:
+    """Return by what a row of a table is known; nothing for single cells."""
+    match row:
+        case Array() | RoofObject() | MotionInput():
+            return row.id
+        case Clearance():
+            return spoken(row)
+        case FrictionTestRow():
+            return f"{row.report or ''} {row.surface} {row.number}"
+    return ""
+
+
+def spoken(row: Clearance) -> str:
+    """Return a clearance in words."""
+    where = "" if row.direction is Direction.ANY else f" {row.direction}"
+    return f"{row.array} to {row.object}{where}"

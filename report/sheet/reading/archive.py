@@ -1,0 +1,275 @@
+"""Opens an untrusted workbook, or reports why it cannot be used.
+
+Owns every check that must precede openpyxl: file type, sizes, and that each sheet is a part of the
+file; `scan` checks the content of the parts. Independent of the fields of the sheets. Read
+`report.sheet.reading.read` next.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import posixpath
+import re
+import warnings
+import zipfile
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import ParseError
+
+import defusedxml.ElementTree
+from openpyxl import LXML, Workbook, load_workbook
+
+from report.sheet.reading.scan import REOPEN, Extent, Scan, scan_parts
+from solver.meant import meant
+from solver.model import DefectError, InputError
+
+MB = 1_000_000
+MAX_FILE = 100 * MB
+MAX_TOTAL = 100 * MB
+MAX_MEMBER = 50 * MB
+MAX_MEMBERS = 2000
+# Deflate reaches at most 1032; sheets with identical rows reach about 100.
+MAX_RATIO = 200
+
+OTHER_KINDS = {
+    ".xls": "an old Excel workbook",
+    ".xlsm": "a workbook with macros",
+    ".xlsb": "a binary Excel workbook",
+    ".xltx": "an Excel template",
+    ".ods": "an OpenDocument sheet",
+    ".csv": "a text file",
+    ".numbers": "a Numbers sheet",
+}
+_WORKBOOK = "xl/workbook.xml"
+_RELATIONS = "xl/_rels/workbook.xml.rels"
+_DOTTED = re.compile(rb"""(\bTarget\s*=\s*["'])(/[^"']*)(["'])""")
+SAVE_AS = "save it as .xlsx (Excel Workbook)"
+REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OpenBook:
+    """A workbook with the values last computed by the program that saved it.
+
+    Attributes
+    ----------
+    path : Path
+    sha256 : str
+        Of the file.
+    book : Workbook
+    scans : mapping of sheet title to Scan
+    calculation : mapping of str to str
+        How it was calculated when it was saved, as the file says it.
+    """
+
+    path: Path
+    sha256: str
+    book: Workbook
+    scans: Mapping[str, Scan]
+    calculation: Mapping[str, str]
+
+    def __reduce__(self) -> tuple[Callable[[], OpenBook], tuple[()]]:
+        """Reach another process without cells: nothing is read from them once motions run."""
+        empty = partial(
+            OpenBook,
+            path=self.path,
+            sha256=self.sha256,
+            book=Workbook(),
+            scans={},
+            calculation=self.calculation,
+        )
+        return empty, ()
+
+    def extent(self, title: str) -> Extent:
+        """Return the extent of a sheet's values."""
+        return self.scans[title].extent
+
+    def formula(self, title: str, cell: str) -> str:
+        """Return the formula typed into a cell, empty if there is none."""
+        return self.scans[title].formula(cell)
+
+
+def open_book(path: Path) -> OpenBook:
+    """Open an .xlsx, or `input.xlsx` in a folder.
+
+    Raises
+    ------
+    InputError
+        If there is none, or it is another type of file, damaged, or too large.
+    """
+    path = _located(path)
+    data = _read(path)
+    with _zip(data) as archive:
+        _check_sizes(archive)
+        _check_kind(archive)
+        parts = scan_parts({name: _content(archive, name) for name in archive.namelist()})
+        scans = _scans_by_title(archive, parts)
+        book = _load(_plainly_named(archive, data))
+    if book.sheetnames != list(scans):
+        raise InputError(f"its sheets cannot all be read; {REOPEN}")
+    return OpenBook(
+        path=path,
+        sha256=hashlib.sha256(data).hexdigest(),
+        book=book,
+        scans=scans,
+        calculation=parts[_WORKBOOK].calculation,
+    )
+
+
+def _located(path: Path) -> Path:
+    if path.is_dir():
+        path = path / "input.xlsx"
+    if not path.exists():
+        wanted = "give a workbook, or a folder that holds input.xlsx"
+        raise InputError(f"no such file; {meant(path) or wanted}")
+    if not path.is_file():
+        raise InputError("not a file; give a workbook, or a folder that holds input.xlsx")
+    if path.suffix.lower() != ".xlsx":
+        kind = OTHER_KINDS.get(path.suffix.lower(), "not a workbook file name")
+        raise InputError(f"{kind} ({path.suffix or 'no extension'}); {SAVE_AS}")
+    return path
+
+
+def _read(path: Path) -> bytes:
+    try:
+        if path.stat().st_size > MAX_FILE:
+            raise InputError(f"larger than {MAX_FILE // MB} MB; keep records in files beside it")
+        return path.read_bytes()
+    except OSError as error:
+        raise InputError(
+            f"cannot be read ({error.strerror}); close it in other programs"
+        ) from error
+
+
+def _zip(data: bytes) -> zipfile.ZipFile:
+    if not data:
+        raise InputError("empty file; start again from a fresh workbook (roofslip new)")
+    if data.startswith(b"\xd0\xcf\x11\xe0"):
+        if "EncryptedPackage".encode("utf-16-le") in data:
+            raise InputError("protected with a password; save it without one")
+        raise InputError(f"an old Excel workbook (.xls) by its content; {SAVE_AS}")
+    try:
+        return zipfile.ZipFile(io.BytesIO(data))
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError) as error:
+        raise InputError(f"not a workbook, or truncated; {REOPEN}") from error
+
+
+def _check_sizes(archive: zipfile.ZipFile) -> None:
+    members = archive.infolist()
+    # zipfile never returns more of a member than the directory states, so these sizes are limits.
+    total = sum(m.file_size for m in members)
+    largest = max((m.file_size for m in members), default=0)
+    packed = sum(m.compress_size for m in members)
+    if len(members) > MAX_MEMBERS:
+        raise InputError(f"has {len(members)} parts, more than {MAX_MEMBERS}; {REOPEN}")
+    if total > MAX_TOTAL or largest > MAX_MEMBER:
+        raise InputError(
+            f"unpacks to {total / MB:.0f} MB, more than {MAX_TOTAL // MB} MB in total or"
+            f" {MAX_MEMBER // MB} MB in one part; keep records in files beside it"
+        )
+    if total > MB and total > MAX_RATIO * packed:
+        raise InputError(f"unpacks to more than {MAX_RATIO} times its size; {REOPEN}")
+
+
+def _check_kind(archive: zipfile.ZipFile) -> None:
+    names = set(archive.namelist())
+    if any(member.flag_bits & 1 for member in archive.infolist()):
+        raise InputError("protected with a password; save it without one")
+    if any(name.lower().endswith("vbaproject.bin") for name in names):
+        raise InputError(f"a workbook with macros; {SAVE_AS}")
+    if "xl/workbook.bin" in names:
+        raise InputError(f"a binary Excel workbook (.xlsb) by its content; {SAVE_AS}")
+    if "mimetype" in names and "content.xml" in names:
+        raise InputError(f"an OpenDocument sheet (.ods) by its content; {SAVE_AS}")
+    if not {"[Content_Types].xml", _WORKBOOK} <= names:
+        raise InputError(f"a zip archive, but not a workbook; {SAVE_AS}")
+    if b"http://purl.oclc.org/ooxml/" in _content(archive, _WORKBOOK):
+        raise InputError(
+            "a Strict Open XML workbook; save it as Excel Workbook (.xlsx), not Strict"
+        )
+    if b"macroEnabled" in _content(archive, "[Content_Types].xml"):
+        raise InputError(f"a workbook with macros; {SAVE_AS}")
+
+
+def _content(archive: zipfile.ZipFile, name: str) -> bytes:
+    try:
+        return archive.read(name)
+    except (zipfile.BadZipFile, EOFError, OSError, NotImplementedError, ValueError) as error:
+        raise InputError(f"damaged at {name}; {REOPEN}") from error
+    except Exception as error:  # zlib, lzma and bz2 raise errors of their own
+        raise InputError(f"damaged at {name} ({error}); {REOPEN}") from error
+
+
+def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict[str, Scan]:
+    """Return the scans of the sheets among those of all parts.
+
+    A sheet whose part openpyxl would skip is an error: its rows would be lost without a word.
+    """
+    found = {}
+    for title, part in sheet_parts(archive):
+        if part not in scans:
+            raise InputError(
+                f"sheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
+            )
+        found[title] = scans[part]
+    return found
+
+
+def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
+    """Return each sheet's title with the name of its part, as openpyxl resolves it."""
+    relations = _tree(archive, _RELATIONS)
+    targets = {item.get("Id"): _part(item.get("Target", "")) for item in relations}
+    listed = [
+        (element.get("name", ""), targets.get(element.get(REL), ""))
+        for element in _tree(archive, _WORKBOOK).iter()
+        if element.tag.rpartition("}")[2] == "sheet"
+    ]
+    repeated = [
+        title for title, count in Counter(t.casefold() for t, _ in listed).items() if count > 1
+    ]
+    if repeated:
+        raise InputError(f"two sheets have the name '{repeated[0]}'; rename one")
+    return listed
+
+
+def _part(target: str) -> str:
+    """Return the name of the part that a relationship of the workbook names (ECMA-376-2, 9.3)."""
+    return posixpath.normpath(posixpath.join("/xl", target)).lstrip("/") if target else ""
+
+
+def _plainly_named(archive: zipfile.ZipFile, data: bytes) -> bytes:
+    """Return a workbook whose relationships openpyxl resolves: it keeps the dots of `/xl/./`."""
+    old = archive.read(_RELATIONS)
+    plain = _DOTTED.sub(lambda m: m[1] + posixpath.normpath(m[2]) + m[3], old)
+    if plain == old:
+        return data
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as packed:
+        for member in archive.infolist():
+            is_this = member.filename == _RELATIONS
+            packed.writestr(member, plain if is_this else archive.read(member))
+    return out.getvalue()
+
+
+def _tree(archive: zipfile.ZipFile, name: str) -> Any:
+    try:
+        return defusedxml.ElementTree.fromstring(_content(archive, name), forbid_dtd=True)
+    except ParseError as error:  # of names: the scan knows no namespaces
+        raise InputError(f"damaged at {name}; {REOPEN}") from error
+
+
+def _load(data: bytes) -> Workbook:
+    if LXML:
+        raise DefectError("openpyxl reads through lxml; import report before it")
+    try:
+        with warnings.catch_warnings():
+            # It warns about features that it drops, none of which is an input.
+            warnings.simplefilter("ignore")
+            return load_workbook(io.BytesIO(data), data_only=True, keep_links=False)
+    except Exception as error:  # a damaged workbook makes openpyxl raise almost anything
+        raise InputError(f"damaged ({type(error).__name__}: {error}); {REOPEN}") from error

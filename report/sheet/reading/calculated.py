@@ -1,0 +1,43 @@
+"""Formulas whose saved values may be former ones: the workbook was saved before its calculation.
+
+Read `not_calculated`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from report.sheet.checking.findings import warning
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.unseen import Used
+from report.sheet.schema.fields import Finding, Place
+
+_MOST_LISTED = 8
+
+
+def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding]:
+    """Yield a warning if the values of formulas may not follow from the cells that they refer to.
+
+    A workbook that asks to be calculated when it is opened, as a fresh one does, has such values
+    only in formulas that are read.
+    """
+    says = book.calculation
+    read = [(place, cell.address) for place, cell in used if cell.formula]
+    if says.get("calcCompleted", "1") in ("0", "false"):
+        manual = " (calculation is manual)" if says.get("calcMode") == "manual" else ""
+        why = f"was saved before its formulas were calculated{manual}"
+    elif read and says.get("fullCalcOnLoad", "0") in ("1", "true"):
+        why = "asks to be calculated when it is opened"
+    else:
+        return
+    if read or any(scan.formulas for scan in book.scans.values()):
+        place, cell = read[0] if read else (whole, "")
+        which = _listed([address for _, address in read]) if read else "its computed cells"
+        text = f"the workbook {why}, and {which} may show former values: calculate it (F9) and save"
+        yield replace(warning("calculation", place, f"{text} it"), cell=cell)
+
+
+def _listed(cells: Sequence[str]) -> str:
+    more = len(cells) - _MOST_LISTED
+    return ", ".join(cells[:_MOST_LISTED]) + (f" and {more} more" if more > 0 else "")

@@ -1,0 +1,327 @@
+"""Converts the content of a cell to the value of a field, or to an error message.
+
+Independent of sheets and files: `report.sheet.reading.locate` finds the cells.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import date, datetime, time, timedelta
+from enum import StrEnum
+from typing import Any
+
+from openpyxl.utils.escape import unescape
+from pydantic import ValidationError
+
+from report.sheet.reading.number_format import is_percentage, misleading
+from report.sheet.schema import legacy_labels
+from report.sheet.schema.fields import Entry, Frozen, YesNo, adapter
+from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
+from report.words.units import Quantity
+from solver.model import InputError, Problem
+
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
+_THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
+_WITH_UNIT = re.compile(
+    r"[+-]?[0-9]+\.?[0-9]*\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
+)
+EARLIEST = date(2000, 1, 1)
+"""A date before it is refused, as by the sheet's own check."""
+LARGEST = 1e15
+"""Magnitude above which a number is refused, so that no change of units can overflow."""
+
+
+class CellError(InputError):
+    """A cell with invalid content; the message has the form `is ...; give ...`."""
+
+    def __init__(self, found: str, remedy: str = "") -> None:
+        super().__init__(Problem(found, remedy))
+
+    @property
+    def problem(self) -> Problem:
+        """The only one."""
+        return self.parts[0]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found:
+    """The content of a cell.
+
+    Attributes
+    ----------
+    sheet, cell : str
+    value : object
+        As typed; for a formula, the last computed value.
+    formula : str
+        Empty if none was typed.
+    is_error : bool
+        Whether the value is an Excel error, such as ``#DIV/0!``.
+    number_format : str
+    """
+
+    sheet: str
+    cell: str
+    value: Any
+    formula: str = ""
+    is_error: bool = False
+    number_format: str = "General"
+
+    @property
+    def address(self) -> str:
+        """Its address: `Arrays!D7`."""
+        return f"{self.sheet}!{self.cell}"
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing that can be seen was typed."""
+        blank = self.value is None or (isinstance(self.value, str) and not trimmed(self.value))
+        return blank and not self.formula
+
+    @property
+    def text(self) -> str:
+        """What was typed, for the echo; for a formula, with its value."""
+        shown = "" if self.value is None else plain(self.value)
+        return f"{self.formula} → {shown}" if self.formula else shown
+
+
+def plain(value: object) -> str:
+    """Return a cell's value as a user would type it."""
+    match value:
+        case bool():
+            return "TRUE" if value else "FALSE"
+        case datetime() if value.time() == time():
+            return value.date().isoformat()
+        case float() if value.is_integer() and abs(value) < 1e15:
+            return str(int(value))
+        case float():
+            return f"{value:.15g}"  # the digits that a spreadsheet keeps of what was typed
+        case date() | time():
+            return value.isoformat()
+        case _:
+            return str(value)
+
+
+SI_SYMBOLS = {
+    Quantity.SIZE: "m",
+    Quantity.PLAN: "m",
+    Quantity.WEIGHT: "N",
+    Quantity.STIFFNESS: "N/m",
+    Quantity.VELOCITY: "m/s",
+    Quantity.PRESSURE: "Pa",
+}
+
+
+def as_used(value: object, entry: Entry, unit: str) -> str:
+    """Return a field's value for the echo, with its unit: that of SI where it can be chosen."""
+    unit = SI_SYMBOLS[entry.quantity] if entry.quantity else unit
+    if isinstance(value, bool):
+        return str(YesNo.YES if value else YesNo.NO)
+    if isinstance(value, float):
+        return f"{value:.6g} {unit}".rstrip()
+    return "" if value is None else plain(value)
+
+
+def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]) -> str:
+    """Return what another cell states of the unit of a number; empty for nothing.
+
+    Parameters
+    ----------
+    entry : Entry
+        The field of the number.
+    row, cells : mapping
+        What was read of its row so far, and the cells of the row, by field.
+    """
+    if entry.cell.unit_from is None:
+        return ""
+    name, unit_of = entry.cell.unit_from
+    text = row[name] if name in row else cells[name].value if name in cells else None
+    return "" if text is None else unit_of(plain(text).strip())
+
+
+def read_cell(
+    cell: Found, entry: Entry, model: type[Frozen], unit: str, si: float, shown: str = ""
+) -> Any:
+    """Return a field's value in SI from a cell that is not blank.
+
+    Parameters
+    ----------
+    cell : Found
+    entry, model : Entry, type
+        The field and the model that holds it.
+    unit : str
+        Unit of the number in the cell, for messages.
+    si : float
+        Size of that unit in SI.
+    shown : str
+        What another cell says of the unit of a number that has none of its own.
+
+    Raises
+    ------
+    CellError
+    """
+    check_saved(cell)
+    wanted = wish(entry, unit, si)
+    value = _converted(cell, entry, wanted, unit or shown)
+    if isinstance(value, float):
+        value *= si
+    if isinstance(value, float | int) and not abs(value) <= LARGEST:
+        raise CellError(_is(cell, entry), f"{wanted}, below {LARGEST:g} in size")
+    try:
+        return adapter(model, entry.name).validate_python(value)
+    except ValidationError as error:
+        raise CellError(_is(cell, entry), wanted) from error
+
+
+def check_saved(cell: Found) -> None:
+    """Raise if a cell contains an Excel error, or a formula that was never computed."""
+    if cell.is_error:
+        cause = f" (from {cut(cell.formula)})" if cell.formula else ""
+        raise CellError(f"is {cell.value}{cause}", "correct the formula, or type a value")
+    if cell.formula and cell.value is None:
+        raise CellError(
+            f"is a formula with no saved value ({cut(cell.formula)})",
+            "open the workbook in Excel or LibreOffice and save it",
+        )
+
+
+def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
+    """Return what a field accepts: `give a number from 0 to 1.5`."""
+    if entry.choices:
+        return f"choose {_either(entry.choices)}"
+    if entry.kind in (int, float):
+        noun = "a whole number" if entry.kind is int else "a number"
+        suffix = f" [{unit}]" if unit else ""
+        return f"give {noun}{_range(entry, si)}{suffix}"
+    if entry.kind is date:
+        return "give a date such as 2026-03-05"
+    return f"give text of at most {entry.max_length} characters"
+
+
+def wish_for_missing(entry: Entry, unit: str = "", si: float = 1.0) -> str:
+    """Return what to write where nothing is: as `wish`, and for a text an example of it."""
+    is_text = entry.kind is str and not entry.choices
+    return f"give text such as '{entry.cell.example}'" if is_text else wish(entry, unit, si)
+
+
+def _range(entry: Entry, si: float) -> str:
+    words = entry.bounds.words(si)
+    if not words:
+        return ""
+    is_closed = math.isfinite(entry.bounds.low) and math.isfinite(entry.bounds.high)
+    return f" {'from' if is_closed and not entry.bounds.excludes_low else 'of'} {words}"
+
+
+def _either(choices: tuple[str, ...]) -> str:
+    return f"{', '.join(choices[:-1])} or {choices[-1]}"
+
+
+def _is(cell: Found, entry: Entry) -> str:
+    if isinstance(cell.value, str) and len(cell.value) > SHOWN and entry.kind is str:
+        return f"is {len(cell.value)} characters long"
+    return f"is {_quoted(cell.value)}"
+
+
+def _quoted(value: object) -> str:
+    text = cut(plain(value))
+    return f"'{text}'" if isinstance(value, str) else text
+
+
+def _converted(cell: Found, entry: Entry, wanted: str, unit: str) -> Any:
+    if entry.kind in (int, float):
+        value = number(cell, wanted, unit)
+        return int(value) if entry.kind is int and value.is_integer() else value
+    if entry.kind is date:
+        return _date(cell, wanted)
+    if entry.choices:
+        return _choice(cell, entry, wanted)
+    return _text(cell)
+
+
+def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
+    """Return the number in a cell, in the cell's unit; numeric text is accepted.
+
+    The number format may name that unit, and no other one.
+
+    Raises
+    ------
+    CellError
+    """
+    value = cell.value
+    if isinstance(value, str):
+        return _number_in_text(value.strip(), wanted)
+    if isinstance(value, bool):
+        raise CellError(f"is {plain(value)}, a logical value", wanted)
+    if isinstance(value, date | time | timedelta):
+        raise CellError(f"is a date or time ({plain(value)})", f"{wanted}, formatted as a number")
+    # Whole numbers of any length are read as such; `float` has no value for 400 digits.
+    if not abs(value) <= sys.float_info.max:
+        raise CellError(f"is {_quoted(value)}", wanted)
+    if is_percentage(cell.number_format):
+        raise CellError(
+            f"is a percentage ({100 * value:g}%, which Excel holds as {value:g})",
+            f"{wanted}, formatted as a number",
+        )
+    if how := misleading(cell.number_format, unit):
+        raise CellError(
+            f"is {plain(value)}, shown {how} by its number format ({cut(cell.number_format)})",
+            f"{wanted}, formatted as a number",
+        )
+    return float(value)
+
+
+def _number_in_text(text: str, wanted: str) -> float:
+    if _NUMBER.fullmatch(text) and math.isfinite(float(text)):
+        return float(text)
+    if _THOUSANDS.fullmatch(text):
+        whole = text.replace(",", "")
+        raise CellError(f"is '{cut(text)}'", f"write {whole}, without a comma")
+    if match := _DECIMAL_COMMA.fullmatch(text):
+        raise CellError(f"is '{cut(text)}'", f"write {match[1] or '0'}.{match[2]}")
+    if _WITH_UNIT.fullmatch(text):
+        raise CellError(f"is '{cut(text)}'", f"{wanted}, with no unit in the cell")
+    raise CellError(f"is '{cut(text)}'", wanted)
+
+
+def _date(cell: Found, wanted: str) -> date:
+    value = cell.value
+    if isinstance(value, datetime):
+        found = value.date()
+    elif isinstance(value, date):
+        found = value
+    else:
+        try:
+            found = date.fromisoformat(str(value).strip() if isinstance(value, str) else "")
+        except ValueError as error:
+            raise CellError(f"is {_quoted(value)}", wanted) from error
+    # A spreadsheet shows a small number, such as 3.5, as a day of 1900.
+    if found < EARLIEST:
+        raise CellError(f"is {found}, before {EARLIEST}", wanted)
+    return found
+
+
+def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
+    said = " ".join(str(plain(cell.value)).split()).casefold()
+    if entry.kind is bool:
+        said = {"true": "yes", "false": "no"}.get(said, said)
+    said = legacy_labels.CHOICES.get(said, said)
+    for choice in entry.choices:
+        if choice.casefold() == said:
+            return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
+    raise CellError(f"is {_quoted(cell.value)}", wanted)
+
+
+def _text(cell: Found) -> str:
+    if isinstance(cell.value, date | time | timedelta | bool):
+        raise CellError(
+            f"is {plain(cell.value)}, which is not text", "format the cell as text and retype it"
+        )
+    # Excel writes characters that XML does not allow, and a pasted CR, as _x000D_.
+    text = trimmed(unescape(plain(cell.value)).replace("\r\n", "\n").replace("\r", "\n"))
+    if UNPRINTABLE.search(text):
+        raise CellError(f"is '{cut(text)}', with control characters", "retype it")
+    return text

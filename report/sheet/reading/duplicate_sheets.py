@@ -1,0 +1,66 @@
+"""Finds sheets that have the labels of another one, as a sheet copied in Excel has.
+
+One of the two is read, and what is typed into the other has no effect. Read `copies`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Set
+
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.sheet.checking.findings import warning
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.positions import label_key, labels_of, scanned, sheets_of
+from report.sheet.schema import SECTIONS
+from report.sheet.schema.fields import Finding, Place, SheetSection, entries
+
+Rows = tuple[frozenset[str], ...]
+"""Labels in each row of a sheet, in the form that is compared."""
+
+
+def copies(book: OpenBook, addresses: Mapping[Place, str]) -> Iterator[Finding]:
+    """Yield a warning for each sheet with all labels of one that is read.
+
+    Parameters
+    ----------
+    addresses : mapping of Place to str
+        Of what is read.
+    """
+    rows = {sheet.title: _rows(book, sheet) for sheet in sheets_of(book)}
+    told: set[str] = set()
+    for section in SECTIONS:
+        read = _sheet_of(section, addresses)
+        labels = _labels(section, rows[read]) if read in rows else frozenset()
+        for title in rows:
+            if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
+                told.add(title)
+                text = (
+                    f"sheets '{read}' and '{title}' both have the labels of {section.title};"
+                    f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"
+                )
+                yield warning(f"copy {title}", Place(section.key), text)
+
+
+def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
+    rows: dict[int, set[str]] = {}
+    for position in scanned(book, sheet):
+        label = label_key(sheet.cell(position.row, position.column).value)
+        rows.setdefault(position.row, set()).add(label)
+    return tuple(map(frozenset, rows.values()))
+
+
+def _sheet_of(section: SheetSection, addresses: Mapping[Place, str]) -> str:
+    """Return the sheet from which a section is read; empty if it was not found."""
+    found = (address for place, address in addresses.items() if place.section == section.key)
+    return next(found, "").rpartition("!")[0]
+
+
+def _labels(section: SheetSection, rows: Rows) -> Set[str]:
+    """Return the labels of a section on a sheet: of a table, those in one row."""
+    wanted = {
+        label: entry.name for entry in entries(section.model) for label in labels_of(section, entry)
+    }
+    places = rows if section.is_table else (frozenset().union(*rows),)
+    found = ({wanted[label] for label in place & wanted.keys()} for place in places)
+    return max(found, key=len, default=set())

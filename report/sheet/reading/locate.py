@@ -1,0 +1,102 @@
+"""Finds the single inputs of a workbook by defined name and by label; `locate_tables` the others.
+
+Never uses positions or styles, which users change. `cells` converts the content of the cells.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.locate_tables import table_area
+from report.sheet.reading.positions import (
+    FRESH,
+    CellPosition,
+    area_named,
+    label_key,
+    labels_of,
+    scanned,
+    sheet_titled,
+)
+from report.sheet.schema import legacy_labels
+from report.sheet.schema.fields import Entry, SheetSection, entries
+from solver.model import InputError
+
+
+def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
+    """Return the cell of a single field, by its defined name, or else beside its label.
+
+    Raises
+    ------
+    InputError
+    """
+    position = _field_named(book, section, entry) or _beside_label(book, section, entry)
+    if position is None:
+        raise InputError(
+            f"{section.sheet}: {entry.spoken} is missing (no name {section.cell_name(entry.name)}"
+            f" and no label '{entry.cell.label}'); {FRESH}"
+        )
+    return position
+
+
+def find_unit_cell(
+    book: OpenBook, section: SheetSection, entry: Entry, value: CellPosition
+) -> CellPosition:
+    """Return the cell that holds the unit of a single field, by name, or else next to the value."""
+    names = _fields(section, entry)
+    spots = (_named(book, section.unit_name(name)) for name in names)
+    position = next((spot for spot in spots if spot is not None), None)
+    return position or CellPosition(value.sheet, value.row, value.column + 1)
+
+
+def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
+    """Return the fields that a block lacks because its workbook is of a version before them.
+
+    A workbook that has some of those that came together has lost the others.
+    """
+    groups = (
+        [entry for entry in entries(section.model) if (section.key, entry.name) in added]
+        for added in legacy_labels.ADDED
+    )
+    return tuple(entry for group in groups if not _has_any(book, section, group) for entry in group)
+
+
+def _has_any(book: OpenBook, section: SheetSection, fields: Sequence[Entry]) -> bool:
+    return any(
+        _field_named(book, section, entry) or _beside_label(book, section, entry)
+        for entry in fields
+    )
+
+
+def is_absent(book: OpenBook, section: SheetSection) -> bool:
+    """Whether a workbook has neither names nor labels of a section."""
+    if section.is_table:
+        return sheet_titled(book, section.sheet) is None and table_area(book, section) is None
+    return not _has_any(book, section, entries(section.model))
+
+
+def _fields(section: SheetSection, entry: Entry) -> tuple[str, ...]:
+    """Return the name of a field and its earlier names."""
+    return entry.name, *legacy_labels.FIELDS.get((section.key, entry.name), ())
+
+
+def _field_named(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
+    spots = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
+    return next((spot for spot in spots if spot is not None), None)
+
+
+def _named(book: OpenBook, name: str) -> CellPosition | None:
+    title, (left, top, right, bottom) = area_named(book.book, name) or ("", (0, 0, 0, 0))
+    is_cell = title and (left, top) == (right, bottom)
+    return CellPosition(title, top, left) if is_cell else None
+
+
+def _beside_label(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
+    sheet = sheet_titled(book, section.sheet)
+    if sheet is None:
+        return None
+    wanted = labels_of(section, entry)
+    for position in scanned(book, sheet):
+        if label_key(sheet.cell(position.row, position.column).value) in wanted:
+            return CellPosition(position.sheet, position.row, position.column + 1)
+    return None

@@ -1,0 +1,322 @@
+"""Finds the tables of a workbook by their name, or by the headings of their fields.
+
+Never uses positions or styles, which users change. Read `find_table`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.positions import (
+    FRESH,
+    MAX_COLUMNS,
+    CellPosition,
+    bounds_of,
+    found_at,
+    heading_parts,
+    label_key,
+    labels_of,
+    merged,
+    scanned,
+    sheet_titled,
+    sheets_of,
+    unit_size,
+)
+from report.sheet.schema.answers import ANSWER_HEADINGS, STATUS_HEADING
+from report.sheet.schema.fields import Entry, SheetSection, entries
+from solver.model import InputError, Problem
+
+MAX_ROWS = 2000
+
+_Place = tuple[Worksheet, int, int, int, range]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FieldColumn:
+    """A column of a table, and the unit in its heading.
+
+    Attributes
+    ----------
+    number : int
+    unit : str
+    si : float
+    heading : CellPosition
+        The cell that states the unit.
+    """
+
+    number: int
+    unit: str
+    si: float
+    heading: CellPosition
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableFound:
+    """A table of inputs.
+
+    Attributes
+    ----------
+    heading : CellPosition
+        Its first heading.
+    columns : mapping of field to FieldColumn
+        Of the headings that are present and readable.
+    rows : range
+        Rows that may contain inputs.
+    others : tuple of CellPosition
+        Headings that belong to no field.
+    absent : tuple of str
+        Optional fields without a column, as in workbooks of earlier versions or after a column was
+        deleted.
+    problems : tuple of Problem
+        Finished lines about headings and merged cells.
+    """
+
+    heading: CellPosition
+    columns: Mapping[str, FieldColumn]
+    rows: Sequence[int]
+    others: tuple[CellPosition, ...]
+    absent: tuple[str, ...]
+    problems: tuple[Problem, ...]
+
+
+def find_table(book: OpenBook, section: SheetSection) -> TableFound:
+    """Return a table of inputs, by its name, or else by a row of its headings.
+
+    Raises
+    ------
+    InputError
+        If there is neither, or the sheet has data too far away.
+    """
+    sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
+    _check_reach(book, sheet, top)
+    last_column = _last_heading(sheet, top, right)
+    positions = [CellPosition(sheet.title, top, column) for column in range(left, last_column + 1)]
+    headings = [p for p in positions if not _is_answer(section, sheet.cell(top, p.column).value)]
+    columns, others, seen, problems = _columns(book, section, headings)
+    absent, missing = _unseen(book, section, headings, seen, others)
+    problems += missing
+    used = [column.number for column in columns.values()]
+    last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
+    problems += _merged(sheet, top, last_row, used)
+    return TableFound(
+        heading=headings[0],
+        columns=columns,
+        rows=[row for row in range(top + 1, last_row + 1) if row not in below],
+        others=tuple(others),
+        absent=absent,
+        problems=tuple(problems),
+    )
+
+
+def _is_answer(section: SheetSection, heading: object) -> bool:
+    """Whether a heading is that of a column of formulas, which is not read."""
+    return label_key(heading) in ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
+
+
+def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
+    """Return sheet, left, heading row, right and rows of totals of a section's table."""
+    for sheet in sheets_of(book):
+        for table in sheet.tables.values():
+            names = {str(table.displayName).casefold(), str(table.name).casefold()}
+            bounds = bounds_of(table.ref)
+            has_headings = table.headerRowCount != 0 and bounds and bounds[2] <= MAX_COLUMNS
+            if section.table_name in names and bounds and has_headings:
+                left, top, right, bottom = bounds
+                totals = table.totalsRowCount or 0
+                return sheet, left, top, right, range(bottom - totals + 1, bottom + 1)
+    return None
+
+
+def _headings(book: OpenBook, section: SheetSection) -> _Place:
+    """Return the row with the most headings of a section; its own sheet is searched first."""
+    own = sheet_titled(book, section.sheet)
+    fields = entries(section.model)
+    wanted = set[str]().union(*(labels_of(section, entry) for entry in fields))
+    for sheet in [own] if own else sheets_of(book):
+        rows: dict[int, list[int]] = {}
+        taken = _rows_of_others(sheet, section)
+        for position in scanned(book, sheet):
+            if position.row in taken:
+                continue
+            if label_key(sheet.cell(position.row, position.column).value) in wanted:
+                rows.setdefault(position.row, []).append(position.column)
+        best = max(rows, key=lambda row: len(rows[row]), default=0)
+        if best and len(rows[best]) > len(fields) / 2:
+            return sheet, min(rows[best]), best, max(rows[best]), range(0)
+    what = f"no table {section.table_name} and no row of its headings"
+    missing = "" if own else "the sheet is missing: "
+    raise InputError(f"{section.sheet}: {missing}{what}; {FRESH}")
+
+
+def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
+    """Return the rows of headings of tables that bear the name of another section.
+
+    Sections have headings in common, and one without a table must not read that of another.
+    """
+    names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
+    others = [
+        ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
+    ]
+    return {bounds[1] for ref in others if (bounds := bounds_of(ref))}
+
+
+def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
+    extent, far = book.extent(sheet.title), []
+    if extent.last_row > top + MAX_ROWS:
+        far.append((extent.row_cell, f"more than {MAX_ROWS} rows below the headings"))
+    if extent.last_column > MAX_COLUMNS:
+        far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
+    if far:
+        raise InputError(
+            [
+                Problem(f"contains data {where}", "clear it", f"{sheet.title}!{cell}")
+                for cell, where in far
+            ]
+        )
+
+
+def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
+    """Return the last column that has a heading, or is within the table."""
+    while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
+        right += 1
+    return right
+
+
+def _columns(
+    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
+) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[Problem]]:
+    fields = {
+        label: entry for entry in entries(section.model) for label in labels_of(section, entry)
+    }
+    columns: dict[str, FieldColumn] = {}
+    others: list[CellPosition] = []
+    problems: list[Problem] = []
+    seen: set[str] = set()
+    for position in headings:
+        text = found_at(book, position).value
+        entry = fields.get(label_key(text))
+        if entry is None:
+            others += [position] if text is not None else []
+        elif entry.name in seen:
+            twice = f"heading '{entry.cell.label}' appears twice"
+            problems.append(Problem(twice, "keep one", position.address))
+        else:
+            seen.add(entry.name)
+            try:
+                columns[entry.name] = _column(position, entry, heading_parts(text)[1])
+            except InputError as error:
+                problems += error.parts
+    return columns, others, seen, problems
+
+
+def _unseen(
+    book: OpenBook,
+    section: SheetSection,
+    headings: Sequence[CellPosition],
+    seen: set[str],
+    others: Sequence[CellPosition],
+) -> tuple[tuple[str, ...], list[Problem]]:
+    """Return optional fields that have no column, and a problem for each other missing field.
+
+    If a table has an unknown heading, no field counts as absent: the heading may be a renamed one.
+    """
+    fields = entries(section.model)
+    places = _heading_places(book, section, headings)
+    absent = [e.name for e in fields if e.name not in seen and not e.is_expected and not others]
+    problems = []
+    for entry in fields:
+        if entry.name not in seen and entry.name not in absent:
+            position = places[entry.name]
+            text = found_at(book, position).value
+            instead = f", '{text}' found" if position in others else ""
+            missing = f"heading '{entry.cell.label}' is missing{instead}"
+            wanted = f"write it here in its own column, or {FRESH}"
+            problems.append(Problem(missing, wanted, position.address))
+    return tuple(absent), problems
+
+
+def _heading_places(
+    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
+) -> Mapping[str, CellPosition]:
+    """Return where each heading is, or where it belongs: after that of the field before it."""
+    fields = entries(section.model)
+    labels = {label: entry.name for entry in fields for label in labels_of(section, entry)}
+    places = {
+        labels[key]: position
+        for position in headings
+        if (key := label_key(found_at(book, position).value)) in labels
+    }
+    first = headings[0]
+    following = first
+    for entry in fields:
+        position = places.setdefault(entry.name, following)
+        following = CellPosition(first.sheet, first.row, position.column + 1)
+    return places
+
+
+def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:
+    try:
+        symbol, si = unit_size(entry, unit)
+    except InputError as error:
+        raise InputError(error.parts[0].at(position.address)) from error
+    return FieldColumn(number=position.column, unit=symbol, si=si, heading=position)
+
+
+def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
+    """Return the first row of the next table below, or the row after the last one."""
+    starts = [sheet.max_row + 1]
+    for table in sheet.tables.values():
+        bounds = bounds_of(table.ref)
+        if bounds and bounds[1] > top and any(bounds[0] <= c <= bounds[2] for c in columns):
+            starts.append(bounds[1])
+    return min(starts)
+
+
+def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[Problem]:
+    problems = []
+    for area in sorted(sheet.merged_cells.ranges, key=str):
+        reaches = any(area.min_col <= column <= area.max_col for column in columns)
+        if reaches and area.min_row <= last_row and area.max_row >= top:
+            problems.append(merged(sheet.title, area.coord))
+    return problems
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableArea:
+    """A named table with all of its headings, those of formulas included.
+
+    Attributes
+    ----------
+    sheet : str
+    header, last, totals : int
+        Row of the headings, last row above its totals, and row of the totals; 0 without one.
+    headings : mapping of str to CellPosition
+        By label: without unit, asterisk, case or extra spaces.
+    """
+
+    sheet: str
+    header: int
+    last: int
+    totals: int
+    headings: Mapping[str, CellPosition]
+
+
+def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
+    """Return the table of a section, found by its name; None without one."""
+    found = _table_named(book, section)
+    if found is None:
+        return None
+    sheet, left, top, right, totals = found
+    places = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
+    return TableArea(
+        sheet=sheet.title,
+        header=top,
+        last=totals.start - 1,
+        totals=totals.start if totals else 0,
+        headings={label_key(sheet.cell(top, place.column).value): place for place in places},
+    )

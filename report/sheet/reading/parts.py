@@ -1,0 +1,379 @@
+"""Changes cells of a workbook within the parts of its file, and leaves every other byte as it is.
+
+Formats, cached values, formulas, sketches and charts stay, which a load and save would lose. Knows
+no fields: `report.sheet.reading.locate` finds the cells.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.parsers import expat
+from xml.sax.saxutils import escape, unescape
+
+from openpyxl.utils import coordinate_to_tuple, get_column_letter
+
+from report.sheet.reading.archive import sheet_parts
+from report.sheet.reading.positions import CellPosition
+from report.sheet.reading.scan import REOPEN
+from solver.files import write_whole
+from solver.model import InputError
+
+
+class Formula(str):
+    """A formula with its equals sign, to be written as such."""
+
+    __slots__ = ()
+
+
+Value = Formula | str | float | int | None
+"""What is written in a cell: a formula, text, a number, or nothing."""
+
+_CALC_CHAIN = "xl/calcChain.xml"
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
+
+
+@dataclass(frozen=True, slots=True)
+class _Element:
+    """A row or a cell in the bytes of a sheet: where it starts and ends, and its start tag."""
+
+    number: int
+    attributes: Mapping[str, str]
+    start: int
+    opened: int
+    closing: int
+    end: int
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it has one tag alone."""
+        return self.closing == self.end
+
+
+@dataclass(slots=True)
+class _Sheet:
+    """Where the rows and the cells of a sheet are in its bytes."""
+
+    tag: str = ""
+    data: _Element | None = None
+    rows: dict[int, _Element] = field(default_factory=dict)
+    cells: dict[int, dict[int, _Element]] = field(default_factory=dict)
+    formulas: dict[tuple[int, int], Mapping[str, str]] = field(default_factory=dict)
+    styles: list[tuple[int, int, str]] = field(default_factory=list)
+    columns: list[tuple[range, int, int]] = field(default_factory=list)
+
+    def style(self, row: int, column: int) -> str:
+        """Return the style of a cell that is not there: that of its row, or of its column."""
+        if row in self.rows and self.rows[row].attributes.get("customFormat") in ("1", "true"):
+            return self.rows[row].attributes.get("s", "")
+        found = (style for low, high, style in self.styles if low <= column <= high)
+        return next(found, "")
+
+
+def write_cells(path: Path, changes: Mapping[CellPosition, Value]) -> None:
+    """Change cells of a workbook; the file is replaced when the new one is complete.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read or written, a sheet is missing, or a cell shares its formula.
+    """
+    if not changes:
+        return
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
+    write_whole(path, changed(data, changes))
+
+
+def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:
+    """Return a workbook with other contents of some cells; formulas are computed when it is opened.
+
+    Parameters
+    ----------
+    changes : mapping of CellPosition to value
+        None leaves a cell blank. Each keeps its format.
+    """
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        parts = dict(sheet_parts(archive))
+        new: dict[str, bytes] = {}
+        had_formula = False
+        for title in dict.fromkeys(position.sheet for position in changes):
+            if title not in parts:
+                raise InputError(f"{title}: the sheet is missing")
+            cells = {(p.row, p.column): v for p, v in changes.items() if p.sheet == title}
+            before = archive.read(parts[title])
+            sheet = _scanned(title, before)
+            had_formula |= any(at in sheet.formulas for at in cells)
+            had_formula |= any(isinstance(value, Formula) for value in cells.values())
+            new[parts[title]] = _spliced(title, before, sheet, cells)
+            new |= _longer_tables(archive, parts[title], cells)
+        new["xl/workbook.xml"] = _computed_when_opened(archive.read("xl/workbook.xml"))
+        left_out = _without_chain(archive, new) if had_formula else frozenset()
+        return _packed(archive, new, left_out)
+
+
+def _packed(archive: zipfile.ZipFile, new: Mapping[str, bytes], left_out: frozenset[str]) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:
+        for member in archive.infolist():
+            if member.filename not in left_out:
+                content = new.get(member.filename)
+                packed.writestr(member, archive.read(member) if content is None else content,
+                                compress_type=member.compress_type)  # fmt: skip
+    return out.getvalue()
+
+
+def _scanned(title: str, data: bytes) -> _Sheet:
+    """Find the rows and cells of a sheet in its bytes."""
+    if re.match(rb'<\?xml[^>]*encoding=["\'](?!utf-8["\'])', data, re.IGNORECASE):
+        raise InputError(f"{title}: not in UTF-8; {REOPEN}")
+    scan = _Scan(title, data)
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = scan.start
+    parser.EndElementHandler = scan.end
+    scan.parser = parser
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        raise InputError(f"{title}: damaged; {REOPEN}") from error
+    if scan.sheet.data is None:
+        raise InputError(f"{title}: has no cells; {REOPEN}")
+    return scan.sheet
+
+
+class _Scan:
+    """Collects rows and cells with their places while a sheet is parsed."""
+
+    parser: expat.XMLParserType
+
+    def __init__(self, title: str, data: bytes) -> None:
+        self.sheet = _Sheet()
+        self._title, self._data = title, data
+        self._open: list[tuple[str, Mapping[str, str], int, int]] = []
+        self._row = 0
+
+    def start(self, name: str, attributes: dict[str, str]) -> None:
+        """Note the start of an element."""
+        local = name.rpartition(":")[2]
+        at = self.parser.CurrentByteIndex
+        if local in ("row", "c", "sheetData"):
+            if local != "sheetData" and "r" not in attributes:
+                raise InputError(f"{self._title}: has cells without addresses; {REOPEN}")
+            self._open.append((name, attributes, at, _tag_end(self._data, at)))
+        if local == "row":
+            self._row = int(attributes["r"])
+        elif local == "col":
+            low, high = int(attributes["min"]), int(attributes["max"])
+            self.sheet.columns.append((range(low, high + 1), at, _tag_end(self._data, at)))
+            if "style" in attributes:
+                self.sheet.styles.append((low, high, attributes["style"]))
+        elif local == "f" and self._open:
+            row, column = coordinate_to_tuple(self._open[-1][1]["r"])
+            self.sheet.formulas[row, column] = attributes
+
+    def end(self, name: str) -> None:
+        """Note the end of an element."""
+        local = name.rpartition(":")[2]
+        if local not in ("row", "c", "sheetData"):
+            return
+        _, attributes, start, opened = self._open.pop()
+        at = self.parser.CurrentByteIndex
+        has_end = self._data.startswith(f"</{name}".encode(), at)
+        end = self._data.index(b">", at) + 1 if has_end else at
+        closing = at if has_end else end
+        if local == "sheetData":
+            self.sheet.tag = name.removesuffix("sheetData")
+            self.sheet.data = _Element(0, attributes, start, opened, closing, end)
+        elif local == "row":
+            self.sheet.rows[self._row] = _Element(
+                self._row, attributes, start, opened, closing, end
+            )
+        else:
+            column = coordinate_to_tuple(attributes["r"])[1]
+            cell = _Element(column, attributes, start, opened, closing, end)
+            self.sheet.cells.setdefault(self._row, {})[column] = cell
+
+
+def _tag_end(data: bytes, start: int) -> int:
+    """Return where a start tag ends; its attributes may hold a > in quotes."""
+    match = re.compile(rb"""<(?:[^>"']|"[^"]*"|'[^']*')*>""").match(data, start)
+    return match.end() if match else start
+
+
+def _spliced(
+    title: str, data: bytes, sheet: _Sheet, cells: Mapping[tuple[int, int], Value]
+) -> bytes:
+    """Return the bytes of a sheet with other contents of cells, by row and column."""
+    filled = {column for (_, column), value in cells.items() if value is not None}
+    edits = list(_shown(data, sheet, filled))
+    for row in sorted({row for row, _ in cells}):
+        values = {column: value for (at, column), value in cells.items() if at == row}
+        for column in values:
+            if _is_needed_elsewhere(sheet, row, column, cells):
+                cell = f"{title}!{get_column_letter(column)}{row}"
+                raise InputError(f"{cell}: shares its formula with other cells; clear it first")
+        edits += _row_edits(data, sheet, row, values)
+    out, at = [], 0
+    for start, end, content in sorted(edits, key=lambda edit: edit[0]):
+        out += [data[at:start], content]
+        at = end
+    return b"".join([*out, data[at:]])
+
+
+def _shown(data: bytes, sheet: _Sheet, filled: set[int]) -> Iterator[tuple[int, int, bytes]]:
+    """Yield start, end and new bytes of columns that are hidden, folded groups also, and filled."""
+    hidden = [
+        columns
+        for columns, start, end in sheet.columns
+        if re.search(rb'\shidden="(?:1|true)"', data[start:end]) and filled.intersection(columns)
+    ]
+    for columns, start, end in sheet.columns:
+        tag = data[start:end]
+        if columns in hidden:
+            yield start, end, re.sub(rb'\s(?:hidden|collapsed)="\w+"', b"", tag)
+        elif any(columns.start == other.stop for other in hidden):
+            # Where a group ends, its mark would fold it again.
+            yield start, end, re.sub(rb'\scollapsed="\w+"', b"", tag)
+
+
+def _is_needed_elsewhere(
+    sheet: _Sheet, row: int, column: int, cells: Mapping[tuple[int, int], Value]
+) -> bool:
+    """Whether the formula of a cell is also that of cells which are not changed."""
+    formula = sheet.formulas.get((row, column), {})
+    reach = formula.get("ref", "")
+    if formula.get("t") != "shared":
+        return ":" in reach
+    group = [at for at, other in sheet.formulas.items() if other.get("si") == formula.get("si")]
+    return bool(reach) and not cells.keys() >= set(group)
+
+
+def _row_edits(
+    data: bytes, sheet: _Sheet, row: int, values: Mapping[int, Value]
+) -> Iterator[tuple[int, int, bytes]]:
+    """Yield start, end and new bytes of what changes in a row."""
+    assert sheet.data is not None
+    old = sheet.cells.get(row, {})
+    home = sheet.rows.get(row)
+    fresh = {c: v for c, v in values.items() if c not in old and v is not None}
+    for column in sorted(values.keys() & old.keys()):
+        cell = old[column]
+        content = _cell(sheet, row, column, values[column], cell.attributes.get("s", ""))
+        yield cell.start, cell.end, content
+    if not fresh:
+        return
+    if home is None or home.is_empty:
+        yield _whole_row(data, sheet, row, home, fresh)
+        return
+    head = re.sub(rb'\sspans="[^"]*"', b"", data[home.start : home.opened])
+    yield home.start, home.opened, head
+    for column in sorted(fresh):
+        after = min((c for c in old if c > column), default=None)
+        at = home.closing if after is None else old[after].start
+        yield at, at, _cell(sheet, row, column, fresh[column], sheet.style(row, column))
+
+
+def _whole_row(
+    data: bytes, sheet: _Sheet, row: int, home: _Element | None, values: Mapping[int, Value]
+) -> tuple[int, int, bytes]:
+    """Return the place and the bytes of a row that has no cells yet, or is not there."""
+    assert sheet.data is not None
+    inner = b"".join(_cell(sheet, row, c, values[c], sheet.style(row, c)) for c in sorted(values))
+    tag = f"{sheet.tag}row".encode()
+    if home is not None:
+        head = re.sub(rb'\sspans="[^"]*"', b"", data[home.start : home.opened])
+        return home.start, home.end, head.rstrip(b"/> ") + b">" + inner + b"</" + tag + b">"
+    whole = b'<%b r="%d">%b</%b>' % (tag, row, inner, tag)
+    body = sheet.data
+    if body.is_empty:
+        name = f"{sheet.tag}sheetData".encode()
+        return body.start, body.end, b"<%b>%b</%b>" % (name, whole, name)
+    after = min((number for number in sheet.rows if number > row), default=None)
+    at = body.closing if after is None else sheet.rows[after].start
+    return at, at, whole
+
+
+def _cell(sheet: _Sheet, row: int, column: int, value: Value, style: str) -> bytes:
+    """Return a cell; a number as such, a text within the cell itself."""
+    tag, at = sheet.tag, f"{get_column_letter(column)}{row}"
+    look = f' s="{style}"' if style else ""
+    if value is None:
+        return f'<{tag}c r="{at}"{look}/>'.encode()
+    if isinstance(value, Formula):
+        return f'<{tag}c r="{at}"{look}><{tag}f>{escape(value[1:])}</{tag}f></{tag}c>'.encode()
+    if isinstance(value, str):
+        words = escape(_CONTROL.sub("?", value))
+        inner = f'<{tag}is><{tag}t xml:space="preserve">{words}</{tag}t></{tag}is>'
+        return f'<{tag}c r="{at}"{look} t="inlineStr">{inner}</{tag}c>'.encode()
+    # A number of numpy is written as a number of Python.
+    number = value if isinstance(value, int) else float(value)
+    return f'<{tag}c r="{at}"{look}><{tag}v>{number!r}</{tag}v></{tag}c>'.encode()
+
+
+def _computed_when_opened(workbook: bytes) -> bytes:
+    """Return the part of the workbook that asks for all formulas to be computed when opened."""
+    match = re.search(rb"<((?:\w+:)?)calcPr\b[^>]*?/?>", workbook)
+    if match is None:
+        return workbook
+    if b"fullCalcOnLoad" in match[0]:
+        tag = re.sub(rb'fullCalcOnLoad="[^"]*"', b'fullCalcOnLoad="1"', match[0])
+    else:
+        tag = re.sub(rb"\s*(/?>)$", rb' fullCalcOnLoad="1"\1', match[0])
+    return workbook[: match.start()] + tag + workbook[match.end() :]
+
+
+def _without_chain(archive: zipfile.ZipFile, new: dict[str, bytes]) -> frozenset[str]:
+    """Leave out the order of computation, which may name a cell that is no formula any more."""
+    if _CALC_CHAIN not in archive.namelist():
+        return frozenset()
+    for name in ("[Content_Types].xml", "xl/_rels/workbook.xml.rels"):
+        content = new.get(name, archive.read(name))
+        new[name] = re.sub(rb"<[^<>]*calcChain\.xml[^<>]*/>", b"", content)
+    return frozenset({_CALC_CHAIN})
+
+
+def _longer_tables(
+    archive: zipfile.ZipFile, part: str, cells: Mapping[tuple[int, int], Value]
+) -> Iterator[tuple[str, bytes]]:
+    """Yield the tables of a sheet that grow to the rows written just below them."""
+    filled = [at for at, value in cells.items() if value is not None]
+    for name in _tables(archive, part):
+        content = archive.read(name)
+        match = re.search(rb'<(?:\w+:)?table\b[^>]*?\sref="([A-Z]+)(\d+):([A-Z]+)(\d+)"', content)
+        if match is None or b"totalsRowCount" in content:
+            continue
+        left, right = (coordinate_to_tuple(f"{match[k].decode()}1")[1] for k in (1, 3))
+        top, bottom = int(match[2]), int(match[4])
+        below = {row for row, column in filled if row > bottom and left <= column <= right}
+        last = bottom
+        while last + 1 in below:
+            last += 1
+        if last > bottom:
+            old = b"%b%d:%b%d" % (match[1], top, match[3], bottom)
+            longer = b"%b%d:%b%d" % (match[1], top, match[3], last)
+            yield name, content.replace(b'ref="%b"' % old, b'ref="%b"' % longer)
+
+
+def _tables(archive: zipfile.ZipFile, part: str) -> Sequence[str]:
+    """Return the parts of the tables on a sheet."""
+    folder, _, name = part.rpartition("/")
+    relations = f"{folder}/_rels/{name}.rels"
+    if relations not in archive.namelist():
+        return ()
+    targets = re.findall(rb'Target="([^"]*tables/[^"]*)"', archive.read(relations))
+    found = [_joined(folder, unescape(target.decode())) for target in targets]
+    return [target for target in found if target in archive.namelist()]
+
+
+def _joined(folder: str, target: str) -> str:
+    """Return the name of a part that a sheet refers to."""
+    if target.startswith("/"):
+        return target.lstrip("/")
+    return os.path.normpath(f"{folder}/{target}").replace(os.sep, "/")

@@ -1,0 +1,184 @@
+"""Cells of a workbook by position, and what their labels and names say.
+
+Knows no input; `locate` and `locate_tables` find them with it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from openpyxl import Workbook
+from openpyxl.cell.cell import MergedCell
+from openpyxl.utils import get_column_letter, range_boundaries
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.cells import Found
+from report.sheet.schema import legacy_labels
+from report.sheet.schema.fields import Entry, SheetSection
+from solver.model import InputError, Problem
+
+MAX_COLUMNS = 200
+SCANNED_ROWS = 200
+FRESH = "copy it from a fresh workbook (roofslip new)"
+_HEADING = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\])?")
+_AREA = re.compile(r"(?:'((?:[^']|'')+)'|([^'!]+))!(\$?[A-Z]+\$?[0-9]+(?::\$?[A-Z]+\$?[0-9]+)?)")
+
+# Of a sheet of Excel.
+_LAST_COLUMN, _LAST_ROW = 16_384, 1_048_576
+
+
+@dataclass(frozen=True, slots=True)
+class CellPosition:
+    """A cell by its position."""
+
+    sheet: str
+    row: int
+    column: int
+
+    @property
+    def cell(self) -> str:
+        """Its coordinate: `D7`."""
+        return f"{get_column_letter(self.column)}{self.row}"
+
+    @property
+    def address(self) -> str:
+        """Its address: `Arrays!D7`."""
+        return f"{self.sheet}!{self.cell}"
+
+
+def found_at(book: OpenBook, position: CellPosition) -> Found:
+    """Return the content of a cell, as typed and as computed."""
+    cell = book.book[position.sheet].cell(position.row, position.column)
+    return Found(
+        sheet=position.sheet,
+        cell=position.cell,
+        value=cell.value,
+        formula=book.formula(position.sheet, position.cell),
+        is_error=cell.data_type == "e",
+        number_format=str(cell.number_format),
+    )
+
+
+def check_uncovered(book: OpenBook, *positions: CellPosition) -> None:
+    """Raise for each cell that a merged one covers: what was typed there is lost.
+
+    Raises
+    ------
+    InputError
+    """
+    found = []
+    for at in positions:
+        sheet = book.book[at.sheet]
+        if isinstance(sheet.cell(at.row, at.column), MergedCell):
+            areas = (area.coord for area in sheet.merged_cells.ranges if at.cell in area)
+            found.append(merged(at.sheet, next(areas, at.cell)))
+    if found:
+        raise InputError(list(dict.fromkeys(found)))
+
+
+def merged(title: str, area: str) -> Problem:
+    """Return the error for merged cells."""
+    return Problem(f"{title}!{area}: cells are merged", "unmerge them")
+
+
+def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:
+    """Return the content of the cells below a heading, down to the last row of the sheet."""
+    last = book.extent(heading.sheet).last_row
+    return [
+        found_at(book, CellPosition(heading.sheet, row, heading.column))
+        for row in range(heading.row + 1, last + 1)
+    ]
+
+
+def sheets_of(book: OpenBook) -> list[Worksheet]:
+    """Return the sheets with cells."""
+    return list(book.book.worksheets)
+
+
+def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
+    """Return the sheet with a title, ignoring case."""
+    wanted = title.strip().casefold()
+    return next((s for s in sheets_of(book) if s.title.strip().casefold() == wanted), None)
+
+
+def scanned(book: OpenBook, sheet: Worksheet) -> Iterator[CellPosition]:
+    """Yield the cells of a sheet where labels and headings are looked for, row by row."""
+    extent = book.extent(sheet.title)
+    for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1):
+        for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1):
+            yield CellPosition(sheet.title, row, column)
+
+
+def area_named(book: Workbook, name: str) -> tuple[str, tuple[int, int, int, int]] | None:
+    """Return the sheet of a named range, and its left, top, right, bottom; None without one."""
+    for defined in book.defined_names.values():
+        if str(defined.name).casefold() != name:
+            continue
+        match = _AREA.fullmatch(str(defined.attr_text))
+        if not match:
+            continue
+        bounds = bounds_of(match[3])
+        title = match[2] or match[1].replace("''", "'")
+        if bounds and title in book.sheetnames:
+            return title, bounds
+    return None
+
+
+def bounds_of(reference: str | None) -> tuple[int, int, int, int] | None:
+    """Return left, top, right, bottom of a range; None unless it states all four."""
+    try:
+        left, top, right, bottom = range_boundaries((reference or "").replace("$", ""))
+    except (ValueError, TypeError):
+        return None
+    # A:C has no rows, and a damaged file may say A0.
+    if not (left and top and right and bottom):
+        return None
+    is_on_sheet = max(left, right) <= _LAST_COLUMN and max(top, bottom) <= _LAST_ROW
+    return (left, top, right, bottom) if is_on_sheet else None
+
+
+def label_key(text: object) -> str:
+    """Return a label in the form that is compared: no unit, asterisk, case or extra spaces."""
+    return " ".join(heading_parts(text)[0].replace("*", " ").split()).casefold()
+
+
+def heading_parts(text: object) -> tuple[str, str]:
+    """Return a heading's label and the unit in its brackets."""
+    match = _HEADING.fullmatch(" ".join(str(text or "").split()))
+    return (match[1], (match[2] or "").strip()) if match else (str(text), "")
+
+
+def labels_of(section: SheetSection, entry: Entry) -> set[str]:
+    """Return the label of a field and its earlier labels, in the form that is compared."""
+    earlier = legacy_labels.LABELS.get((section.key, entry.name), ())
+    return {label_key(label) for label in (entry.cell.label, *earlier)}
+
+
+def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
+    """Return a unit's symbol and its size in SI, as accepted by a field.
+
+    Raises
+    ------
+    InputError
+    """
+    fixed = "" if entry.quantity else str(entry.cell.unit)
+    accepted = entry.quantity.accepted if entry.quantity else {fixed: 1.0}
+    if not entry.quantity and not unit:
+        return fixed, 1.0
+    for symbol, si in accepted.items():
+        if symbol.casefold() == unit.casefold():
+            return symbol, si
+    problem = f"is '{unit}'" if unit else "is missing"
+    raise InputError(f"unit of {entry.spoken} {problem}; {_wanted(list(accepted))}")
+
+
+def _wanted(symbols: Sequence[str]) -> str:
+    """Return what to write for a unit, of those that a field accepts."""
+    if symbols == [""]:
+        return "it has no unit: delete it"
+    if len(symbols) == 1:
+        return f"give the number in {symbols[0]}, and write {symbols[0]}"
+    return f"write one of {', '.join(symbols)}"

@@ -1,0 +1,402 @@
+"""Reads an input workbook: every value with its cell, or every error with its cell.
+
+Combines opening (`archive`), finding (`locate`), converting (`cells`) and checking (`checks`);
+`report.motions` reads the records. Start at `read`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from report.sheet.checking.checks import faults
+from report.sheet.reading.archive import OpenBook, open_book
+from report.sheet.reading.calculated import not_calculated
+from report.sheet.reading.cells import (
+    CellError,
+    Found,
+    as_used,
+    plain,
+    read_cell,
+    stated_unit,
+    wish_for_missing,
+)
+from report.sheet.reading.duplicate_sheets import copies
+from report.sheet.reading.locate import (
+    added_later,
+    find_cell,
+    find_unit_cell,
+    is_absent,
+)
+from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
+from report.sheet.reading.positions import (
+    FRESH,
+    CellPosition,
+    check_uncovered,
+    found_at,
+    unit_size,
+)
+from report.sheet.reading.unseen import Unseen, by_cell, unseen
+from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema.fields import Draft, Entry, Finding, Place, SheetSection, entries
+from solver.model import InputError, Problem
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EchoRow:
+    """One cell as read, as finished text.
+
+    Attributes
+    ----------
+    sheet, cell, label : str
+    typed, unit : str
+        As typed; for a formula, with its value when the workbook was saved.
+    value : str
+        As used; in SI if the unit can be chosen.
+    unseen : str
+        How the workbook keeps the cell from sight, such as `hidden`; empty if it does not.
+    """
+
+    sheet: str
+    cell: str
+    label: str
+    typed: str
+    unit: str
+    value: str
+    unseen: str = ""
+
+    @property
+    def address(self) -> str:
+        """Its address: `Arrays!D7`."""
+        return f"{self.sheet}!{self.cell}"
+
+
+_STUDY = "Study"
+"""Sheet of a workbook that `roofslip study` reads."""
+
+IGNORED = "not an input, ignored"
+"""How the echo shows a cell under a heading that is not known."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sheet:
+    """A workbook as data, with every problem found in it.
+
+    Attributes
+    ----------
+    path : Path
+    sha256 : str
+        Of the workbook.
+    book : OpenBook
+        For columns pasted into it and files beside it.
+    draft : mapping
+        Rows of each section by field; a field that could not be read is absent.
+    echo : tuple of EchoRow
+        Every field in the order of the template.
+    problems : tuple of (Place, Problem)
+    addresses : mapping of Place to str
+    unfound : frozenset of str
+        Sections that could not be found.
+    unseen : tuple of Unseen
+        What is read and kept from sight.
+    warnings : tuple of Finding
+        On the workbook as a whole: for each sheet that is ignored beside one like it, and for
+        values that may be former ones.
+    """
+
+    path: Path
+    sha256: str
+    book: OpenBook
+    draft: Mapping[str, Sequence[Mapping[str, Any]]]
+    echo: tuple[EchoRow, ...]
+    problems: tuple[tuple[Place, Problem], ...]
+    addresses: Mapping[Place, str]
+    unfound: frozenset[str]
+    unseen: tuple[Unseen, ...]
+    warnings: tuple[Finding, ...]
+
+    @cached_property
+    def project(self) -> ProjectInput:
+        """The input, validated.
+
+        Raises
+        ------
+        InputError
+            With every problem, each as `Sheet!Cell: what was found; what to give`.
+        """
+        self.refuse(())
+        return ProjectInput(**models(self.draft, SECTIONS))
+
+    def refuse(self, faults: Iterable[Finding]) -> None:
+        """Raise the problems of the workbook together with further faults, if there are any.
+
+        Raises
+        ------
+        InputError
+            In the order of the template.
+        """
+        located = _located(faults, self.addresses, self.unfound)
+        refuse([*self.problems, *located], SECTIONS)
+
+
+def read(path: Path) -> Sheet:
+    """Read the input workbook at a path, or `input.xlsx` in a folder; run nothing.
+
+    Raises
+    ------
+    InputError
+        If there is no workbook to read. `Sheet.project` raises the errors within it, and
+        `report.motions.prepare` those together with the errors of its records.
+    """
+    book = open_book(path)
+    if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
+        raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
+    gathered = gather(book, SECTIONS)
+    gathered.take(faults(gathered.draft, gathered.where))
+    hidden = unseen(book, gathered.used)
+    marks = by_cell(hidden)
+    return Sheet(
+        path=book.path,
+        sha256=book.sha256,
+        book=book,
+        draft=gathered.draft,
+        echo=tuple(replace(row, unseen=marks.get(row.address, "")) for row in gathered.echo),
+        problems=tuple(gathered.problems),
+        addresses=gathered.addresses,
+        unfound=frozenset(gathered.unfound),
+        unseen=hidden,
+        warnings=(
+            *copies(book, gathered.addresses),
+            *not_calculated(book, gathered.used, Place(SECTIONS[0].key)),
+        ),
+    )
+
+
+def gather(book: OpenBook, sections: Sequence[SheetSection]) -> Gathered:
+    """Read every field of sections, with the errors of single cells."""
+    gathered = Gathered()
+    for section in sections:
+        _read_section(book, section, gathered)
+    return gathered
+
+
+def models(draft: Draft, sections: Sequence[SheetSection]) -> Mapping[str, Any]:
+    """Return the validated rows of each table, and the only row of each block, by section."""
+    rows = {each.key: tuple(each.model(**row) for row in draft[each.key]) for each in sections}
+    return {each.key: rows[each.key] if each.is_table else rows[each.key][0] for each in sections}
+
+
+def _where(place: Place, addresses: Mapping[Place, str]) -> str:
+    """Return the address of a place; that of its table or sheet if it has no cell."""
+    whole = addresses.get(Place(place.section), place.section)
+    return addresses.get(place, whole)
+
+
+def _located(
+    faults: Iterable[Finding], addresses: Mapping[Place, str], unfound: Set[str]
+) -> Iterator[tuple[Place, Problem]]:
+    """Yield faults with their addresses, except those that only follow from a missing table."""
+    sources = {"clearances": {"arrays", "objects"}, "links": {"arrays"}}
+    for fault in faults:
+        place = fault.place
+        if place.section not in unfound and not sources.get(place.section, set()) & unfound:
+            yield place, fault.problem(_where(place, addresses))
+
+
+def refuse(problems: Sequence[tuple[Place, Problem]], sections: Sequence[SheetSection]) -> None:
+    """Raise problems in the order of the template, each once, if there are any."""
+    order = {section.key: i for i, section in enumerate(sections)}
+    fields = {
+        (section.key, entry.name): i
+        for section in sections
+        for i, entry in enumerate(entries(section.model))
+    }
+
+    def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
+        place = problem[0]
+        return order[place.section], place.row, fields.get((place.section, place.field), -1)
+
+    if problems:
+        raise InputError(list(dict.fromkeys(each for _, each in sorted(problems, key=rank))))
+
+
+@dataclass(slots=True)
+class Gathered:
+    """What has been read so far; problems have the place used for sorting."""
+
+    draft: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
+    echo: list[EchoRow] = field(default_factory=list)
+    problems: list[tuple[Place, Problem]] = field(default_factory=list)
+    addresses: dict[Place, str] = field(default_factory=dict)
+    unfound: set[str] = field(default_factory=set)
+    used: list[tuple[Place, Found]] = field(default_factory=list)
+
+    def where(self, place: Place) -> str:
+        """Return the address of a place."""
+        return _where(place, self.addresses)
+
+    def use(self, place: Place, cell: Found) -> None:
+        """Note that the content of a cell is read."""
+        if not cell.is_blank:
+            self.used.append((place, cell))
+
+    def add(self, place: Place, problems: Iterable[Problem]) -> None:
+        """Add problems of a place."""
+        self.problems += [(place, problem) for problem in problems]
+
+    def take(self, faults: Iterable[Finding]) -> None:
+        """Add faults."""
+        self.problems += _located(faults, self.addresses, self.unfound)
+
+
+def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
+    gathered.draft[section.key] = []
+    if section.may_be_absent and is_absent(book, section):
+        defaults = {entry.name: entry.default for entry in entries(section.model)}
+        gathered.draft[section.key] += [] if section.is_table else [defaults]
+        return
+    try:
+        if is_absent(book, section) and not section.is_table:
+            raise InputError(
+                f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
+            )
+        if section.is_table:
+            _read_table(book, section, find_table(book, section), gathered)
+        else:
+            _read_block(book, section, gathered)
+    except InputError as error:
+        gathered.unfound.add(section.key)
+        gathered.add(Place(section.key), error.parts)
+
+
+def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
+    row: dict[str, Any] = {}
+    gathered.draft[section.key].append(row)
+    absent = added_later(book, section)
+    row |= {entry.name: entry.default for entry in absent}
+    for entry in entries(section.model):
+        if entry in absent:
+            continue
+        place = Place(section.key, 0, entry.name)
+        try:
+            position = find_cell(book, section, entry)
+            gathered.addresses[place] = position.address
+            column = _block_column(book, section, entry, position)
+        except InputError as error:
+            gathered.add(place, error.parts)
+            continue
+        cell = found_at(book, position)
+        if not cell.is_blank and column.heading != position:
+            gathered.use(place, found_at(book, column.heading))
+        _read_field(section, entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
+
+
+def _block_column(
+    book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
+) -> FieldColumn:
+    if entry.kind not in (int, float):
+        check_uncovered(book, position)
+        return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
+    at = find_unit_cell(book, section, entry, position)
+    check_uncovered(book, position, at)
+    unit = found_at(book, at)
+    text = "" if unit.value is None else plain(unit.value).strip()
+    try:
+        symbol, si = unit_size(entry, text)
+    except InputError as error:
+        raise InputError(error.parts[0].at(unit.address)) from error
+    return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
+
+
+def _read_table(
+    book: OpenBook, section: SheetSection, table: TableFound, gathered: Gathered
+) -> None:
+    gathered.addresses[Place(section.key)] = table.heading.address
+    gathered.add(Place(section.key), table.problems)
+    gathered.echo += [_ignored(book, position) for position in table.others]
+    sheet = table.heading.sheet
+    for number in table.rows:
+        cells = {
+            name: found_at(book, CellPosition(sheet, number, column.number))
+            for name, column in table.columns.items()
+        }
+        if not all(cell.is_blank for cell in cells.values()):
+            _read_row(section, table, cells, gathered)
+    read = {place.field for place, _ in gathered.used if place.section == section.key}
+    for name, column in table.columns.items():
+        if name in read:
+            gathered.use(Place(section.key), found_at(book, column.heading))
+
+
+def _read_row(
+    section: SheetSection, table: TableFound, cells: dict[str, Found], gathered: Gathered
+) -> None:
+    row: dict[str, Any] = {}
+    rows = gathered.draft[section.key]
+    rows.append(row)
+    for entry in entries(section.model):
+        if entry.name in table.absent:
+            row[entry.name] = entry.default
+        elif entry.name in cells:
+            place, cell = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
+            gathered.addresses[place] = cell.address
+            column, stated = table.columns[entry.name], stated_unit(entry, row, cells)
+            _read_field(section, entry, place, cell, column, stated, row, gathered)
+
+
+def _read_field(
+    section: SheetSection,
+    entry: Entry,
+    place: Place,
+    cell: Found,
+    column: FieldColumn,
+    stated: str,
+    row: dict[str, Any],
+    gathered: Gathered,
+) -> None:
+    gathered.use(place, cell)
+    try:
+        row[entry.name] = _value(section, entry, cell, column, stated)
+    except CellError as error:
+        gathered.add(place, [error.problem.at(cell.address, entry.spoken)])
+        return
+    gathered.echo.append(_echoed(entry, cell, column, row[entry.name]))
+
+
+def _value(
+    section: SheetSection, entry: Entry, cell: Found, column: FieldColumn, stated: str
+) -> Any:
+    if not cell.is_blank:
+        return read_cell(cell, entry, section.model, column.unit, column.si, stated)
+    if entry.is_required:
+        raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
+    return entry.default
+
+
+def _echoed(entry: Entry, cell: Found, column: FieldColumn, value: Any) -> EchoRow:
+    shown = as_used(value, entry, column.unit)
+    if cell.is_blank and shown:
+        shown += " (default)"
+    return EchoRow(
+        sheet=cell.sheet,
+        cell=cell.cell,
+        label=entry.cell.label,
+        typed=cell.text,
+        unit=column.unit,
+        value=shown or "—",
+    )
+
+
+def _ignored(book: OpenBook, position: CellPosition) -> EchoRow:
+    text = plain(found_at(book, position).value)
+    return EchoRow(
+        sheet=position.sheet,
+        cell=position.cell,
+        label=f"column '{text}'",
+        typed="",
+        unit="",
+        value=IGNORED,
+    )

@@ -1,0 +1,278 @@
+"""Cells that are read though the workbook does not show them, or shows them struck through.
+
+Knows how a workbook hides: sheets, rows and columns, filters, colors, number formats. Knows no
+field. Read `unseen`, and `warnings` for what is said of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from itertools import groupby, islice
+from typing import Any
+
+from openpyxl.styles.colors import COLOR_INDEX, Color
+from openpyxl.utils import coordinate_to_tuple, get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.sheet.checking.findings import warning
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.cells import Found
+from report.sheet.reading.number_format import shows_nothing
+from report.sheet.reading.positions import bounds_of
+from report.sheet.schema.fields import Finding, Place
+
+Used = Iterable[tuple[Place, Found]]
+"""Cells that are read, each with the place that it is read for."""
+
+LEAST_HEIGHT, LEAST_WIDTH = 3.0, 0.4
+"""Height [points] and width [characters] below which nothing in a row or column can be read."""
+
+_LIKE = 24
+"""Difference of two colors in red, green and blue, each of 255, below which they look alike."""
+
+_MOST_RANGES = 8
+
+_MOST_FILTERS = 50
+"""Filters of a sheet that are told from other ways to hide a row."""
+
+
+class Concealment(StrEnum):
+    """How a cell is kept from sight, as the echo prints it."""
+
+    SHEET = "hidden sheet"
+    HIDDEN = "hidden"
+    FILTERED = "filtered out"
+    STRUCK = "struck through"
+    INVISIBLE = "invisible"
+
+
+_SENTENCES: Mapping[Concealment, str] = {
+    Concealment.SHEET: "the sheet is {state}, and {cells} on it {are} read: show it, or clear what"
+    " is not meant",
+    Concealment.HIDDEN: "{cells} {are} in hidden rows or columns, and {are} read: show them, or"
+    " clear what is not meant",
+    Concealment.FILTERED: "{cells} {are} in rows that a filter hides, and {are} read: clear the"
+    " filter, and delete the rows that are not meant",
+    Concealment.STRUCK: "{cells} {are} struck through, and {are} read: clear what is not meant,"
+    " and remove the strikethrough from the rest",
+    Concealment.INVISIBLE: "{cells} cannot be seen for the color of the text or the number format,"
+    " and {are} read: change it, or clear what is not meant",
+}
+_STATES = {"hidden": "hidden", "veryHidden": "hidden so that Excel's menu does not list it"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unseen:
+    """Cells of a sheet that are read and kept from sight in one way.
+
+    Attributes
+    ----------
+    kind : Concealment
+    sheet, state : str
+        Title of the sheet, and whether it is visible, hidden or very hidden.
+    place : Place
+        Of the first cell.
+    cells : tuple of (int, int)
+        Rows and columns.
+    """
+
+    kind: Concealment
+    sheet: str
+    state: str
+    place: Place
+    cells: tuple[tuple[int, int], ...]
+
+    @property
+    def words(self) -> str:
+        """The cells as ranges: `cells B5, B7:B9`."""
+        ranges = list(_ranges(self.cells))
+        more = len(ranges) - _MOST_RANGES
+        listed = ", ".join(ranges[:_MOST_RANGES])
+        if more > 0:
+            listed += f" and {more} more range{'s' if more > 1 else ''}"
+        return f"{'cells' if self.are_many else 'cell'} {listed}"
+
+    @property
+    def are_many(self) -> bool:
+        """Whether it is more than one cell."""
+        return len(set(self.cells)) > 1
+
+
+def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
+    """Return what is read and kept from sight, one for each sheet and kind."""
+    sights: dict[str, _Sight] = {}
+    places: dict[tuple[str, Concealment], Place] = {}
+    cells: dict[tuple[str, Concealment], list[tuple[int, int]]] = {}
+    for place, cell in used:
+        if cell.sheet not in sights:
+            sights[cell.sheet] = _Sight(book.book[cell.sheet])
+        at = coordinate_to_tuple(cell.cell)
+        for kind in sights[cell.sheet].kinds(*at, cell):
+            places.setdefault((cell.sheet, kind), place)
+            cells.setdefault((cell.sheet, kind), []).append(at)
+    return tuple(
+        Unseen(
+            kind=kind,
+            sheet=sheet,
+            state=book.book[sheet].sheet_state,
+            place=places[sheet, kind],
+            cells=tuple(found),
+        )
+        for (sheet, kind), found in cells.items()
+    )
+
+
+def by_cell(found: Iterable[Unseen]) -> Mapping[str, str]:
+    """Return in words how each cell is kept from sight, by its address."""
+    words: dict[str, str] = {}
+    for one in found:
+        for row, column in one.cells:
+            address = f"{one.sheet}!{get_column_letter(column)}{row}"
+            words[address] = ", ".join(filter(None, (words.get(address, ""), one.kind.value)))
+    return words
+
+
+def warnings(found: Iterable[Unseen]) -> Iterator[Finding]:
+    """Yield a warning for each sheet and kind, with the cells."""
+
+    def key(one: Unseen) -> tuple[str, str]:
+        return one.sheet, one.kind
+
+    for _, group in groupby(sorted(found, key=key), key=key):
+        first, *others = group
+        one = replace(first, cells=(*first.cells, *(cell for o in others for cell in o.cells)))
+        text = _SENTENCES[one.kind].format(
+            state=_STATES.get(one.state, "hidden"),
+            cells=one.words,
+            are="are" if one.are_many else "is",
+        )
+        row, column = one.cells[0]
+        at = f"{one.sheet}!{get_column_letter(column)}{row}"
+        yield replace(warning(f"{one.kind} {one.sheet}", one.place, text), cell=at)
+
+
+def _ranges(cells: Iterable[tuple[int, int]]) -> Iterator[str]:
+    """Yield cells as ranges: the runs of each row, those of equal columns below each other as one.
+
+    In the order of their first cells.
+    """
+    open_: dict[tuple[int, int], tuple[int, int]] = {}
+    done: list[tuple[int, int, int, int]] = []
+    for row, group in groupby(sorted(set(cells)), key=lambda cell: cell[0]):
+        runs = list(_runs(column for _, column in group))
+        for run in runs:
+            top, last = open_.get(run, (row, row))
+            if last < row - 1:
+                done.append((top, run[0], last, run[1]))
+                top = row
+            open_[run] = top, row
+    done += [(top, left, last, right) for (left, right), (top, last) in open_.items()]
+    for top, left, last, right in sorted(done):
+        first, end = f"{get_column_letter(left)}{top}", f"{get_column_letter(right)}{last}"
+        yield first if first == end else f"{first}:{end}"
+
+
+def _runs(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
+    """Yield first and last of each run of successive numbers, which increase."""
+    first = last = 0
+    for number in numbers:
+        if last and number > last + 1:
+            yield first, last
+            first = number
+        first, last = first or number, number
+    yield first, last
+
+
+class _Sight:
+    """What a sheet hides; what it says of a column or a style is looked up once."""
+
+    def __init__(self, sheet: Worksheet) -> None:
+        self._sheet = sheet
+        self._is_hidden = sheet.sheet_state != "visible"
+        self._rows = dict(_hidden_rows(sheet))
+        self._columns: dict[int, bool] = {}
+        self._styles: dict[int, Sequence[Concealment]] = {}
+
+    def kinds(self, row: int, column: int, found: Found) -> Sequence[Concealment]:
+        """Return how a cell is kept from sight."""
+        of_place = self._of_place(row, column)
+        cell = self._sheet.cell(row, column)
+        if not cell.has_style:
+            return of_place
+        style = cell.style_id
+        if style not in self._styles:
+            self._styles[style] = tuple(_of_style(cell))
+        blanked = (
+            (Concealment.INVISIBLE,) if shows_nothing(found.number_format, found.value) else ()
+        )
+        return tuple(dict.fromkeys((*of_place, *self._styles[style], *blanked)))
+
+    def _of_place(self, row: int, column: int) -> Sequence[Concealment]:
+        if self._is_hidden:
+            return (Concealment.SHEET,)
+        if row in self._rows:
+            return (self._rows[row],)
+        if column not in self._columns:
+            self._columns[column] = _hides_column(self._sheet, column)
+        return (Concealment.HIDDEN,) if self._columns[column] else ()
+
+
+def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:
+    filtered = tuple(islice(_filtered(sheet), _MOST_FILTERS))
+    for row, said in sheet.row_dimensions.items():
+        if said.hidden or _is_less(said.height, LEAST_HEIGHT):
+            is_filtered = any(row in rows for rows in filtered)
+            yield row, Concealment.FILTERED if is_filtered else Concealment.HIDDEN
+
+
+def _is_less(size: float | None, minimum: float) -> bool:
+    return size is not None and size < minimum
+
+
+def _hides_column(sheet: Worksheet, column: int) -> bool:
+    said = sheet.column_dimensions.values()
+    return any(
+        (one.hidden or _is_less(one.width, LEAST_WIDTH))
+        and (one.min or 0) <= column <= (one.max or 0)
+        for one in said
+    )
+
+
+def _filtered(sheet: Worksheet) -> Iterator[range]:
+    """Yield the rows of each filter that is in use, without that of its headings."""
+    for one in (sheet.auto_filter, *(table.autoFilter for table in sheet.tables.values())):
+        bounds = bounds_of(one.ref) if one is not None and one.filterColumn else None
+        if bounds:
+            yield range(bounds[1] + 1, bounds[3] + 1)
+
+
+def _of_style(cell: Any) -> Iterator[Concealment]:
+    if cell.font.strike:
+        yield Concealment.STRUCK
+    fill = cell.fill
+    behind = _rgb(fill.fgColor, _WHITE) if getattr(fill, "fill_type", None) == "solid" else _WHITE
+    color = _rgb(cell.font.color, _BLACK)
+    if color and behind and all(abs(a - b) < _LIKE for a, b in zip(color, behind, strict=True)):
+        yield Concealment.INVISIBLE
+
+
+_WHITE, _BLACK = (255, 255, 255), (0, 0, 0)
+_OF_THEME = (_WHITE, _BLACK)
+"""The first two colors of a theme: those of background and text."""
+
+
+def _rgb(color: Color | None, default: tuple[int, ...]) -> tuple[int, ...]:
+    """Return red, green and blue of a color; empty for one that only a theme knows."""
+    if color is None:
+        return default
+    if color.type == "rgb":
+        return tuple(bytes.fromhex(str(color.rgb)[-6:]))
+    if color.tint:
+        return ()
+    if color.type == "theme":
+        return _OF_THEME[color.theme] if color.theme < len(_OF_THEME) else ()
+    if color.type == "indexed" and color.indexed < len(COLOR_INDEX):
+        return tuple(bytes.fromhex(COLOR_INDEX[color.indexed][-6:]))
+    return default

@@ -1,0 +1,379 @@
+"""The live formulas beside the inputs: what the package will compute, while the sheet is filled.
+
+Each formula repeats a function of `solver.rules` or `report.assessment` in cells; tests compare
+them. Only functions of Excel 2007 to 2016, no array formulas. The reader reads none of them. Read
+`site_answers`, then `table_answers`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from report.sheet.schema.layout import Layout, literal
+from report.words.units import Quantity, Unit
+from solver.model import INCH_M
+from solver.rules.provisions import Neighbor
+
+STATUS = "status"
+"""Name of the first column of every table: see `report.sheet.writing.needs.row_status`."""
+
+STATUS_HEADING = "Status"
+STATUS_FORMAT = '[=0]"✓";[<0]"wrong";0" missing"'
+
+IN_DISPLACEMENT, IN_SEPARATION = "in the displacement", "in the separation"
+"""Where a rule set applies the importance factor, as written on the sheet Provisions."""
+
+ONE_VALUE, BY_FORMULA = "one value", "the formula"
+"""What a rule set prescribes in SDC A, B and C, as written on the sheet Provisions."""
+
+_REFERENCE = re.compile(r"(\w*)\[(#?)(\w+)\]")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FormulaColumn:
+    """A column of formulas in a table.
+
+    Attributes
+    ----------
+    name, heading : str
+    note : str
+        Shown above the heading.
+    formula : str
+        Without its equals sign: `[field]` is the cell of its row, `table[field]` a whole column,
+        and `table[#field]` a heading. Blank where it gives an error.
+    number_format : str
+    width : int
+    is_helper : bool
+        Whether it only serves other formulas, and is folded at the right.
+    """
+
+    name: str
+    heading: str
+    note: str
+    formula: str
+    number_format: str = "General"
+    width: int = 11
+    is_helper: bool = False
+
+    def written(self, layout: Layout, section: str) -> str:
+        """Return the formula with the references of a finished layout."""
+
+        def reference(match: re.Match[str]) -> str:
+            table, is_heading, field = match.groups()
+            if not table:
+                return layout.tables[section].this(field)
+            place = layout.tables[table]
+            return place.head(field) if is_heading else place.all(field)
+
+        return _blank_on_error(_REFERENCE.sub(reference, _on_one_line(self.formula)))
+
+
+def table_answers(section: str, *, is_us: bool) -> tuple[FormulaColumn, ...]:
+    """Return the answers of a table, in the order of its columns."""
+    side = 0 if is_us else 1
+    if section == "arrays":
+        return _of_arrays(Quantity.PRESSURE.value[side])
+    if section == "outlines":
+        return (_DOUBLE_AREA,)
+    return _of_clearances(Quantity.SIZE.value[side]) if section == "clearances" else ()
+
+
+def _on_one_line(formula: str) -> str:
+    return "".join(map(str.strip, formula.splitlines()))
+
+
+def _label(heading: str) -> str:
+    return heading.partition("[")[0].strip().casefold()
+
+
+def _blank_on_error(formula: str) -> str:
+    return f'IFERROR({formula},"")'
+
+
+def _decimals(count: int) -> str:
+    return f"0.{'0' * count}" if count else "0"
+
+
+_SLOPE_DEG = """
+    IF(TRIM([slope_value])="","",
+    IF([slope_unit]="degrees",[slope_value]+0,
+    IF([slope_unit]="percent",DEGREES(ATAN([slope_value]/100)),
+    IF([slope_unit]="in/12",DEGREES(ATAN([slope_value]/12)),""))))
+"""
+_KIND_OF_ARRAY = """
+    IF(TRIM([mu])="","",TRIM([construction])&" | "&([mu]+0)
+    &" | "&IF(TRIM([mu_fast])="",[mu]+0,[mu_fast]+0)
+    &" | "&IF(TRIM([mu_rate_s_per_m])="",0,[mu_rate_s_per_m]+0)
+    &" | "&IF(TRIM([mu_static])="",[mu]+0,[mu_static]+0))
+"""
+_VERTICES = f"COUNTIF(live_outlines,{literal('[id]')})"
+_IS_ITS = "--(TRIM(outlines[name])=TRIM([id]))"
+# An error where a row is below the table.
+_OUTLINED_AREA = f"""
+    ABS(SUMPRODUCT({_IS_ITS},outlines[double_area]))/2*unit_outlines_x_m*unit_outlines_y_m
+    /(SUMPRODUCT({_IS_ITS})={_VERTICES})
+"""
+
+
+def _weight_per_area(unit: Unit) -> str:
+    x, y = (f"([{a}_to_m]*unit_arrays_{a}_to_m-[{a}_from_m]*unit_arrays_{a}_from_m)" for a in "xy")
+    force = f"[weight_n]*unit_arrays_weight_n/{unit.si!r}"
+    return f"""
+        IF(TRIM([weight_n])="","",
+        IF({_VERTICES}>0,{force}/({_OUTLINED_AREA}),
+        IF(OR({x}<=0,{y}<=0),"",{force}/({x}*{y}))))
+    """
+
+
+def _of_arrays(unit: Unit) -> tuple[FormulaColumn, ...]:
+    return (
+        FormulaColumn(
+            name="slope_deg",
+            heading="Slope in degrees",
+            note="from slope and its unit",
+            formula=_SLOPE_DEG,
+            number_format="0.00",
+        ),
+        FormulaColumn(
+            name="weight_per_area",
+            heading=f"Weight per area [{unit.symbol}]",
+            note="over the rectangle or outline in plan",
+            formula=_weight_per_area(unit),
+            number_format=_decimals(unit.decimals),
+        ),
+        FormulaColumn(
+            name="kind_of_array",
+            heading="Kind of array",
+            note="construction | friction: low, high, rate, static",
+            formula=_KIND_OF_ARRAY,
+            width=40,
+            is_helper=True,
+        ),
+    )
+
+
+_NUMBER = "(ROW([name])-ROW(outlines[#name]))"
+_FIRST = f"MATCH({literal('[name]')},outlines[name],0)"
+_FOLLOWING = (
+    f"MATCH({literal('[name]')},INDEX(outlines[name],{_NUMBER}+1)"
+    f":INDEX(outlines[name],ROWS(outlines[name])),0)+{_NUMBER}"
+)
+_AFTER = f"IF({_NUMBER}=ROWS(outlines[name]),{_FIRST},IFERROR({_FOLLOWING},{_FIRST}))"
+_DOUBLE_AREA = FormulaColumn(
+    name="double_area",
+    heading="Twice the area",
+    note="of the triangle to the next vertex",
+    formula=f"""
+        IF(TRIM([name])="","",
+        [x_m]*INDEX(outlines[y_m],{_AFTER})-INDEX(outlines[x_m],{_AFTER})*[y_m])
+    """,
+    is_helper=True,
+)
+
+_KIND = "INDEX(objects[kind],[object_row])"
+_HEIGHT = "INDEX(objects[height_m],[object_row])*unit_objects_height_m"
+_CENTER = "INDEX(arrays[cg_height_m],[array_row])*unit_arrays_cg_height_m"
+# As `solver.rules.provisions.parapet_qualifies`, in inches.
+_QUALIFIES = f"""
+    AND({_HEIGHT}/{INCH_M!r}>=rule_parapet_height_in*(1-0.000000001),
+    ({_HEIGHT}-{_CENTER})/{INCH_M!r}>=rule_parapet_over_cg_in*(1-0.000000001))
+"""
+_ONE, _OTHER = (
+    {
+        name: f"INDEX(arrays[{name}],[{row}])"
+        for name in ("kind_of_array", "slope_deg", "downslope_deg")
+    }
+    for row in ("array_row", "other_row")
+)
+_TURN = f"{_ONE['downslope_deg']}-{_OTHER['downslope_deg']}"
+_BACK = f"{_OTHER['downslope_deg']}-{_ONE['downslope_deg']}"
+# As `report.assessment.clearances.are_alike`.
+_ARE_ALIKE = f"""
+    AND({_ONE["kind_of_array"]}={_OTHER["kind_of_array"]},
+    ABS(RADIANS({_ONE["slope_deg"]}-{_OTHER["slope_deg"]}))<=0.000001,
+    MIN(MOD({_TURN},360),MOD({_BACK},360))<=1)
+"""
+_NEIGHBOR = f"""
+    IF([array_row]="","",
+    IF([other_row]<>"",IF({_ARE_ALIKE},"{Neighbor.LIKE}","{Neighbor.UNLIKE}"),
+    IF(TRIM({_KIND})="","",
+    IF({_KIND}="edge with parapet",IF({_QUALIFIES},"{Neighbor.PARAPET}","{Neighbor.EDGE}"),
+    IF({_KIND}="edge without parapet","{Neighbor.EDGE}",{_KIND})))))
+"""
+_IMPORTANCE = f"""
+    IF([neighbor]="","",
+    IF(rule_importance="{IN_DISPLACEMENT}",1,
+    IF(LEFT([neighbor],4)="edge",live_i_e,
+    MAX(1,INDEX(arrays[i_p],[array_row]),
+    IF([other_row]="",MAX(1,INDEX(objects[i_p],[object_row])),
+    MAX(1,INDEX(arrays[i_p],[other_row])))))))
+"""
+
+
+def _required(unit: Unit) -> str:
+    at = "MATCH([neighbor],live_neighbors,0)"
+    return f"""
+        MAX(INDEX(live_separation_factors,{at})*[importance]*live_prescriptive_in,
+        INDEX(live_separation_minima_in,{at}))*{INCH_M!r}/{unit.si!r}
+    """
+
+
+def _demand_capacity(unit: Unit) -> str:
+    """Return required / provided, rounded up like `report.words.units.ratio`.
+
+    So that 1.00 never hides a failure.
+    """
+    ratio = f"[required]*{unit.si!r}/([provided_m]*unit_clearances_provided_m)"
+    return f"""
+        IF(OR([required]="",TRIM([provided_m])=""),"",
+        IF([provided_m]>0,MAX(0,ROUNDUP({ratio}-0.000000001,2)),"∞"))
+    """
+
+
+def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
+    return (
+        FormulaColumn(
+            name="neighbor",
+            heading="Neighbor",
+            note="as the rule set counts it",
+            formula=_NEIGHBOR,
+            width=29,
+        ),
+        FormulaColumn(
+            name="importance",
+            heading="I",
+            note="importance factor in the separation",
+            formula=_IMPORTANCE,
+            number_format="0.00",
+        ),
+        FormulaColumn(
+            name="required",
+            heading=f"Required, prescriptive [{unit.symbol}]",
+            note="separation for the prescriptive displacement",
+            formula=_required(unit),
+            number_format=_decimals(unit.decimals),
+            width=13,
+        ),
+        FormulaColumn(
+            name="demand_capacity",
+            heading="D/C, prescriptive",
+            note="required / provided, rounded up",
+            formula=_demand_capacity(unit),
+            number_format="0.00",
+            width=13,
+        ),
+        _row_of("array_row", "array", "array", "arrays"),
+        _row_of("other_row", "other array", "object", "arrays"),
+        _row_of("object_row", "object", "object", "objects"),
+    )
+
+
+def _row_of(name: str, what: str, field: str, section: str) -> FormulaColumn:
+    """Return the column that says where an id is in another table."""
+    return FormulaColumn(
+        name=name,
+        heading=f"Row of {what}",
+        note=f"in the table on {section.capitalize()}",
+        formula=f"MATCH({literal(f'[{field}]')},{section}[id],0)",
+        is_helper=True,
+    )
+
+
+SITE_FORMAT = "0.000"
+
+
+def site_answers() -> Mapping[str, tuple[str, str]]:
+    """Return the formula and the defined name of the answer beside each field of the site."""
+    return {
+        "i_e": ('IF(ISNUMBER(site_i_e),site_i_e,"")', "live_i_e"),
+        "edition_name": (
+            'IF(TRIM(site_edition_name)<>"",site_edition_name,rule_edition)',
+            "live_edition",
+        ),
+        "f_a": (_coefficient("site_s_s_g", "f_a"), "live_f_a"),
+        "f_v": (_coefficient("site_s_1_g", "f_v"), "live_f_v"),
+        "s_ms_g": (_maximum("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g"), "live_s_ms"),
+        "s_m1_g": (_maximum("site_s_m1_g", "site_s_1_g", "site_f_v", "site_s_d1_g"), "live_s_m1"),
+        "s_ds_g": (_design("site_s_ds_g", "live_s_ms"), "live_s_ds"),
+        "s_d1_g": (_design("site_s_d1_g", "live_s_m1"), "live_s_d1"),
+        "sdc": (_sdc(), "live_sdc"),
+    }
+
+
+def _coefficient(mapped: str, symbol: str) -> str:
+    """Return the site coefficient of the tables, interpolated along the row of the site class."""
+    heads, row = f"table_{symbol}_mapped", f"MATCH(site_site_class,table_{symbol}_classes,0)"
+    at = f"MIN(MAX({mapped},MIN({heads})),MAX({heads}))"
+    left = f"MIN(MATCH({at},{heads},1),5)"
+    start, end = f"INDEX({heads},1,{left})", f"INDEX({heads},1,{left}+1)"
+    low = f"INDEX(table_{symbol},{row},{left})"
+    high = f"INDEX(table_{symbol},{row},{left}+1)"
+    value = f"IF({at}={start},{low}+0,{low}+({at}-{start})/({end}-{start})*({high}-{low}))"
+    return (
+        f'IF(OR(TRIM({mapped})="",TRIM(site_site_class)="",live_edition=""),"",'
+        f'IF(live_edition<>table_{symbol}_edition,"none in "&live_edition,'
+        f'IFERROR({value},"site-specific")))'
+    )
+
+
+def _maximum(given: str, mapped: str, coefficient: str, design: str) -> str:
+    has_both = f"AND(live_edition=table_f_a_edition,ISNUMBER({mapped}),ISNUMBER({coefficient}))"
+    return (
+        f"IF(ISNUMBER({given}),{given},IF({has_both},{coefficient}*{mapped},"
+        f'IF(ISNUMBER({design}),1.5*{design},"")))'
+    )
+
+
+def _design(given: str, maximum: str) -> str:
+    return f'IF(ISNUMBER({given}),{given},IF(ISNUMBER({maximum}),2/3*{maximum},""))'
+
+
+def _sdc() -> str:
+    """Return the most severe category: by S_DS, by S_D1, and by S_1."""
+    steps = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
+    short, long = (
+        steps.format("live_s_ds", "sdc_limits_s_ds"),
+        steps.format("live_s_d1", "sdc_limits_s_d1"),
+    )
+    near = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'
+    return (
+        'IF(OR(live_s_ds="",TRIM(site_risk_category)=""),"",'
+        f'CHAR(MAX(CODE({short}),IF(live_s_d1="",0,CODE({long})),{near})))'
+    )
+
+
+def prescriptive_formula_in() -> str:
+    """Return the formula of the prescriptive displacement [in], before its minimum."""
+    inside = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
+    return _blank_on_error(f"rule_prescriptive_factor_in*MAX(live_s_ds-0.4,0)^2*{inside}")
+
+
+def prescriptive_in() -> str:
+    """Return the prescriptive displacement [in]."""
+    return _blank_on_error(
+        f'IF(AND(rule_low_sdc="{ONE_VALUE}",live_sdc_used<>"",ISNUMBER(FIND(live_sdc_used,"ABC"))),'
+        "rule_prescriptive_low_sdc_in+0,"
+        "IF(live_prescriptive_formula_in+0>=rule_prescriptive_minimum_in+0,"
+        "live_prescriptive_formula_in,rule_prescriptive_minimum_in))"
+    )
+
+
+def prescriptive_basis() -> str:
+    """Return what governs the prescriptive displacement, in words."""
+    return (
+        'IF(live_prescriptive_in="","",'
+        f'IF(AND(rule_low_sdc="{ONE_VALUE}",ISNUMBER(FIND(live_sdc_used,"ABC"))),"SDC A, B, C",'
+        'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
+    )
+
+
+ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
+    section: frozenset(
+        _label(heading)
+        for heading in (STATUS_HEADING, *(a.heading for a in table_answers(section, is_us=True)))
+    )
+    for section in ("arrays", "clearances", "outlines")
+}
+"""Headings of formulas by section, lowercase and without unit; other tables have only the first."""

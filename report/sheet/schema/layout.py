@@ -1,0 +1,131 @@
+"""Where the template has put the fields and the answers, and how formulas refer to them.
+
+Only the writing side uses positions: the reader finds cells by name and heading. Read `template`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from openpyxl import Workbook
+from openpyxl.utils import get_column_letter, quote_sheetname
+from openpyxl.workbook.defined_name import DefinedName
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.sheet.schema.fields import SheetSection
+
+LAST_ROW = 500
+"""Last row that dropdowns and conditional formats reach."""
+
+_SPECIAL = re.compile(r"(['#\[\]])")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TablePlace:
+    """A table as written.
+
+    Attributes
+    ----------
+    section : SheetSection
+    sheet : str
+        Title of its sheet in the workbook.
+    header, size : int
+        Row of its headings, and number of rows below it.
+    headings, letters : mapping of field or answer to str
+        Heading and column.
+    """
+
+    section: SheetSection
+    sheet: str
+    header: int
+    size: int
+    headings: Mapping[str, str]
+    letters: Mapping[str, str]
+
+    def this(self, name: str) -> str:
+        """Return the reference to a column in the row of the formula."""
+        return f"{self.section.table_name}[[#This Row],{self._column(name)}]"
+
+    def here(self, name: str) -> str:
+        """Return the reference to a column in the row of the cell that asks for a defined name.
+
+        References of a name that are not fixed are those of a cell of the first row.
+        """
+        return f"{quote_sheetname(self.sheet)}!${self.letters[name]}1"
+
+    def head(self, name: str) -> str:
+        """Return the reference to a heading."""
+        return f"{self.section.table_name}[[#Headers],{self._column(name)}]"
+
+    def all(self, name: str) -> str:
+        """Return the reference to a whole column."""
+        return f"{self.section.table_name}[{self._column(name)}]"
+
+    def cell(self, name: str) -> str:
+        """Return the reference to a column in the first row, as conditional formats need it."""
+        return f"${self.letters[name]}{self.header + 1}"
+
+    def cells(self, name: str) -> str:
+        """Return the range of a column, beyond the prepared rows."""
+        letter = self.letters[name]
+        return f"{letter}{self.header + 1}:{letter}{LAST_ROW}"
+
+    def heading_cell(self, name: str) -> str:
+        """Return the address of a heading, for use on other sheets."""
+        return f"{quote_sheetname(self.sheet)}!${self.letters[name]}${self.header}"
+
+    def _column(self, name: str) -> str:
+        escaped = _SPECIAL.sub(r"'\1", self.headings[name])
+        return f"[{escaped}]"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BlockPlace:
+    """A block as written: the row of each field; values are in column B."""
+
+    section: SheetSection
+    rows: Mapping[str, int]
+
+    def cell(self, name: str) -> str:
+        """Return the address of a value on its sheet."""
+        return f"$B${self.rows[name]}"
+
+
+@dataclass(slots=True)
+class Layout:
+    """All blocks and tables as far as they are written."""
+
+    tables: dict[str, TablePlace] = field(default_factory=dict)
+    blocks: dict[str, BlockPlace] = field(default_factory=dict)
+
+    def on(self, sheet: str) -> tuple[Sequence[BlockPlace], Sequence[TablePlace]]:
+        """Return the blocks and the tables of a sheet."""
+        return (
+            [place for place in self.blocks.values() if place.section.sheet == sheet],
+            [place for place in self.tables.values() if place.section.sheet == sheet],
+        )
+
+
+def literal(name: str) -> str:
+    """Return a name without the meaning that wildcards have for MATCH and COUNTIF."""
+    name = f"TRIM({name})"
+    for wildcard in "~*?":
+        name = f'SUBSTITUTE({name},"{wildcard}","~{wildcard}")'
+    return name
+
+
+def name_cell(book: Workbook, name: str, sheet: Worksheet, row: int, column: int) -> None:
+    """Give a cell a defined name."""
+    name_range(book, name, sheet, f"${get_column_letter(column)}${row}")
+
+
+def name_range(book: Workbook, name: str, sheet: Worksheet, area: str) -> None:
+    """Give a range, such as `$A$1:$B$2`, a defined name."""
+    name_formula(book, name, f"{quote_sheetname(sheet.title)}!{area}")
+
+
+def name_formula(book: Workbook, name: str, formula: str) -> None:
+    """Give a formula a defined name."""
+    book.defined_names[name] = DefinedName(name, attr_text=formula)

@@ -1,0 +1,1 @@
+"""The blank or filled workbook: sheets, formulas, formats and marks."""

@@ -1,0 +1,398 @@
+"""Writes blocks of single cells and tables of rows, with their hints, names and messages.
+
+Independent of what the sections mean. Read `write_block` and `write_table`; `template` calls them.
+"""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import date
+
+from openpyxl import Workbook
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyleInfo
+from openpyxl.worksheet.worksheet import Worksheet
+
+from report.sheet.schema import UnitsFirst, provision_name
+from report.sheet.schema.answers import (
+    SITE_FORMAT,
+    STATUS,
+    STATUS_FORMAT,
+    STATUS_HEADING,
+    FormulaColumn,
+    site_answers,
+    table_answers,
+)
+from report.sheet.schema.fields import Bounds, Entry, Frozen, SheetSection, entries
+from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
+from report.sheet.writing import style
+from report.sheet.writing.needs import row_status, status_name
+from report.words.units import Unit
+
+BLANK_ROWS = 20
+SPARE_ROWS = 5
+BLOCK_HEADS = ("", "Value", "Unit", "Computed", "Allowed", "Example", "Note")
+BLOCK_WIDTHS = (28, 30, 13, 16, 24, 20, 46)
+HINT_ROWS = ("", "Allowed", "Example")
+CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
+STATUS_WIDTH = 13  # "12 missing" in bold, in the wider type of a computer without Calibri too
+MANY, MANY_WIDTH = 6, 12
+_WIDER = 0.85
+"""Of a column for text that is typed, as fonts may be wider than Calibri."""
+
+DATA_LINES = 2
+"""Lines of text that a row of a table shows."""
+
+
+def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bool]:
+    """Write heading and hint of a section; return the next free row and whether it is the first."""
+    if sheet.max_row == 1:
+        style.put_title(sheet, section.title, section.instruction)
+        return 4, True
+    row = sheet.max_row + 3
+    style.put(sheet, row, 1, section.title, bold=True, size=13, wrap=False)
+    style.put(sheet, row + 1, 1, section.instruction, color=style.GRAY, wrap=False)
+    sheet.row_dimensions[row].height = 28
+    return row + 3, False
+
+
+def write_block(
+    book: Workbook, section: SheetSection, units: UnitsFirst, rows: Sequence[Frozen]
+) -> BlockPlace:
+    """Write a block, and return where its fields are."""
+    sheet = book[section.sheet]
+    top, is_first = _put_section_title(sheet, section)
+    computes = section.key == "site"
+    for column, (head, width) in enumerate(zip(BLOCK_HEADS, BLOCK_WIDTHS, strict=True), start=1):
+        if is_first:
+            sheet.column_dimensions[get_column_letter(column)].width = width
+        head = "" if head == "Computed" and not computes else head
+        style.put(sheet, top, column, head, bold=True).border = style.LINE
+    fields = entries(section.model)
+    for row, entry in enumerate(fields, start=top + 1):
+        value = getattr(rows[0], entry.name) if rows else _preset(entry, units)
+        style.put_input(sheet.cell(row, 2), entry, value, unit_of(entry, units))
+        _write_block_row(book, row, section, entry, unit_of(entry, units))
+    _level(sheet, range(top + 1, top + 1 + len(fields)))
+    if is_first:
+        sheet.freeze_panes = f"B{top + 1}"
+        sheet.print_title_rows = f"{top}:{top}"
+    return BlockPlace(
+        section=section, rows={entry.name: top + 1 + count for count, entry in enumerate(fields)}
+    )
+
+
+def _level(sheet: Worksheet, rows: Sequence[int]) -> None:
+    """Give rows the height of the tallest one."""
+    height = max(sheet.row_dimensions[row].height or 0 for row in rows)
+    for row in rows:
+        sheet.row_dimensions[row].height = height
+
+
+def _preset(entry: Entry, units: UnitsFirst) -> object:
+    return units if entry.kind is UnitsFirst else entry.default
+
+
+def _write_block_row(
+    book: Workbook, row: int, section: SheetSection, entry: Entry, unit: Unit | None
+) -> None:
+    sheet, needed = book[section.sheet], entry.is_required
+    style.put(sheet, row, 1, f"{entry.cell.label}{' *' if needed else ''}", bold=needed)
+    # Bounds of quantities are 0 or open, so they are valid in any unit.
+    texts = (_allowed(entry, unit), _example(entry, unit), entry.help)
+    for column, text in enumerate(texts, start=5):
+        style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
+    sheet.row_dimensions[row].height = 6 + 13 * _lines(texts, BLOCK_WIDTHS[4:])
+    name_cell(book, section.cell_name(entry.name), sheet, row, 2)
+    style.validate(sheet, f"B{row}", entry, 1.0)
+    if section.key == "site" and entry.name in site_answers():
+        formula, name = site_answers()[entry.name]
+        style.put_answer(sheet.cell(row, 4), formula, SITE_FORMAT)
+        name_cell(book, name, sheet, row, 4)
+    if entry.quantity is None or unit is None:
+        style.put(sheet, row, 3, str(entry.cell.unit), color=style.GRAY)
+        return
+    sheet.cell(row, 3).value = unit.symbol
+    style.style_input(sheet.cell(row, 3), str)
+    name_cell(book, section.unit_name(entry.name), sheet, row, 3)
+    style.offer(sheet, f"C{row}", entry.quantity.accepted, "Unit", "Unit of the value to the left.")
+
+
+@dataclass(frozen=True, slots=True)
+class GridColumn:
+    """A column of a table to write: a field, or an answer."""
+
+    name: str
+    heading: str
+    width: int
+    entry: Entry | None = None
+    answer: FormulaColumn | None = None
+
+    @property
+    def is_folded(self) -> bool:
+        """Whether it is folded at the right."""
+        if self.entry is not None:
+            return self.entry.cell.is_rare
+        return self.answer is not None and self.answer.is_helper
+
+
+def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
+    """Return the columns of a table: what is always needed, the answers, what is rarely needed."""
+    fields = [
+        GridColumn(entry.name, heading_of(entry, units), _width(entry), entry=entry)
+        for entry in entries(section.model)
+    ]
+    answers = [
+        GridColumn(answer.name, answer.heading, answer.width, answer=answer)
+        for answer in table_answers(section.key, is_us=units is UnitsFirst.US)
+    ]
+    status = GridColumn(STATUS, STATUS_HEADING, STATUS_WIDTH)
+    return [status, *sorted((*fields, *answers), key=_rank)]
+
+
+def _rank(column: GridColumn) -> int:
+    return 2 * column.is_folded + (column.answer is not None)
+
+
+def write_table(
+    book: Workbook, section: SheetSection, units: UnitsFirst, rows: Sequence[Frozen]
+) -> TablePlace:
+    """Write a table, and return where its columns are; `write_answers` adds the formulas."""
+    sheet = book[section.sheet]
+    top, is_first = _put_section_title(sheet, section)
+    header = top + len(HINT_ROWS)
+    columns = columns_of(section, units)
+    place = TablePlace(
+        section=section,
+        sheet=section.sheet,
+        header=header,
+        size=max(BLANK_ROWS, len(rows) + SPARE_ROWS),
+        headings={column.name: column.heading for column in columns},
+        letters={c.name: get_column_letter(count) for count, c in enumerate(columns, start=1)},
+    )
+    for number, column in enumerate(columns, start=1):
+        if is_first or number > len(BLOCK_WIDTHS):
+            sheet.column_dimensions[get_column_letter(number)].width = column.width
+    _write_hints(sheet, top, columns, units)
+    lines = 1
+    for number, column in enumerate(columns, start=1):
+        _write_heading(sheet, header, number, column)
+        if column.entry is None:
+            continue
+        width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
+        values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
+        unit = unit_of(column.entry, units)
+        first = None
+        for row in range(place.size):
+            value = _in_words(column.entry, values[row]) if row < len(values) else None
+            cell = sheet.cell(header + 1 + row, number)
+            style.put_input(cell, column.entry, value, unit, like=first)
+            first = first or cell
+            shown = style.in_cell(value, unit)
+            lines = max(lines, _lines([str(shown or "")], [_WIDER * width]))
+        _write_help(sheet, place, column.entry, unit)
+    for row in range(header + 1, header + 1 + place.size):
+        sheet.row_dimensions[row].height = 4 + 14 * min(lines, DATA_LINES)
+    _add_table(sheet, place)
+    if is_first:
+        _fold(sheet, columns, rows)
+        sheet.freeze_panes = f"C{header + 1}"
+        sheet.print_title_rows = f"{header}:{header}"
+    return place
+
+
+def _in_words(entry: Entry, value: object) -> object:
+    """Return a value as the sheet shows it: a provision by its name."""
+    return provision_name(str(value)) if entry.name == "provision" else value
+
+
+def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
+    """Group the columns that are rarely needed; closed unless one of them has a value."""
+    folded = [(count, c) for count, c in enumerate(columns, start=1) if c.is_folded]
+    used = any(
+        column.entry and _unless_default(getattr(row, column.name), column.entry) not in (None, "")
+        for row in rows
+        for _, column in folded
+    )
+    for count, column in folded:
+        dimension = sheet.column_dimensions[get_column_letter(count)]
+        dimension.outlineLevel = 1
+        dimension.hidden = not used or column.entry is None
+    # LibreOffice would close an open group that is said to be collapsed.
+    if folded and not used:
+        after = sheet.column_dimensions[get_column_letter(folded[-1][0] + 1)]
+        after.collapsed = True
+
+
+def _unless_default(value: object, entry: Entry) -> object:
+    """Return a value, or None if a blank cell means the same."""
+    return None if not entry.is_required and value == entry.default else value
+
+
+def _write_hints(
+    sheet: Worksheet, top: int, columns: Sequence[GridColumn], units: UnitsFirst
+) -> None:
+    for offset, name in enumerate(HINT_ROWS):
+        style.put(sheet, top + offset, 1, name, color=style.GRAY, size=9)
+    for number, column in enumerate(columns[1:], start=2):
+        for row, text in enumerate(_hints(column, units), start=top):
+            is_example = row == top + 2
+            hint = style.put(sheet, row, number, text, color=style.GRAY, size=9, italic=is_example)
+            hint.fill, hint.border = style.HINT_FILL, style.BOX
+    widths = [
+        int(sheet.column_dimensions[get_column_letter(number)].width)
+        for number, column in enumerate(columns[1:], start=2)
+        if not column.is_folded
+    ]
+    for row in range(top, top + len(HINT_ROWS)):
+        said = [
+            str(sheet.cell(row, number).value)
+            for number, column in enumerate(columns[1:], start=2)
+            if not column.is_folded
+        ]
+        lines = max(map(_wrapped, said, widths))
+        sheet.row_dimensions[row].height = 5 + 12.5 * lines
+
+
+def _hints(column: GridColumn, units: UnitsFirst) -> tuple[str, str, str]:
+    if column.entry is None:
+        return "computed", column.answer.note if column.answer else "", ""
+    unit = unit_of(column.entry, units)
+    return column.entry.need, _allowed(column.entry, unit), _example(column.entry, unit)
+
+
+def _write_heading(sheet: Worksheet, row: int, number: int, column: GridColumn) -> None:
+    is_input = column.entry is not None
+    color = style.WHITE if is_input else style.INK
+    cell = style.put(sheet, row, number, column.heading, bold=True, color=color)
+    cell.fill = style.ANSWER_HEAD_FILL
+    if column.entry is not None:
+        cell.fill = style.REQUIRED_FILL if column.entry.is_expected else style.OPTIONAL_FILL
+    cell.border = style.BOX
+    sheet.row_dimensions[row].height = 44
+
+
+def _write_help(sheet: Worksheet, place: TablePlace, entry: Entry, unit: Unit | None) -> None:
+    source = _source(place.section, entry)
+    if source:
+        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
+    else:
+        style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
+
+
+def _source(section: SheetSection, entry: Entry) -> str:
+    """Return the name of the range that supplies the dropdown of a column; empty for none."""
+    return {
+        ("overrides", "provision"): "rule_names",
+        ("clearances", "array"): "live_array_names",
+        ("clearances", "object"): "live_names",
+        ("links", "array"): "live_array_names",
+    }.get((section.key, entry.name), "")
+
+
+def _add_table(sheet: Worksheet, place: TablePlace) -> None:
+    last = list(place.letters.values())[-1]
+    area = f"A{place.header}:{last}{place.header + place.size}"
+    table = Table(displayName=place.section.table_name, ref=area)
+    # Columns are named here: openpyxl would add filter buttons.
+    table.tableColumns = [
+        TableColumn(id=count, name=name)
+        for count, name in enumerate(place.headings.values(), start=1)
+    ]
+    table.tableStyleInfo = TableStyleInfo(name="TableStyleLight1", showRowStripes=False)
+    sheet.add_table(table)
+
+
+def table_formulas(
+    layout: Layout, place: TablePlace, *, is_us: bool
+) -> Mapping[str, tuple[str, str]]:
+    """Return formula, without its equals sign, and number format of each column that computes."""
+    answers = table_answers(place.section.key, is_us=is_us)
+    return {STATUS: (status_name(place.section), STATUS_FORMAT)} | {
+        answer.name: (answer.written(layout, place.section.key), answer.number_format)
+        for answer in answers
+    }
+
+
+def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
+    """Write the formulas of a table; in Excel new rows get them by themselves."""
+    name_formula(book, status_name(place.section), row_status(place, layout))
+    sheet = book[place.section.sheet]
+    formulas = table_formulas(layout, place, is_us=is_us)
+    columns = sheet.tables[place.section.table_name].tableColumns
+    for count, name in enumerate(place.letters):
+        if name not in formulas:
+            continue
+        formula, number_format = formulas[name]
+        columns[count].calculatedColumnFormula = TableFormula(attr_text=formula)
+        first = None
+        for row in range(place.header + 1, place.header + 1 + place.size):
+            cell = sheet.cell(row, count + 1)
+            style.put_answer(cell, formula, number_format, like=first)
+            first = first or cell
+
+
+def unit_of(entry: Entry, units: UnitsFirst) -> Unit | None:
+    """Return the unit of a field in a system of units; None if it has no choice of units."""
+    if entry.quantity is None:
+        return None
+    return entry.quantity.us if units is UnitsFirst.US else entry.quantity.si
+
+
+def heading_of(entry: Entry, units: UnitsFirst) -> str:
+    """Return the heading of a column, with its unit."""
+    unit = unit_of(entry, units)
+    symbol = unit.symbol if unit else str(entry.cell.unit)
+    return f"{entry.cell.label} [{symbol}]" if symbol else entry.cell.label
+
+
+def _allowed(entry: Entry, unit: Unit | None) -> str:
+    if entry.choices:
+        return " / ".join(entry.choices)
+    if entry.kind in (int, float):
+        si = unit.si if unit else 1.0
+        words = entry.bounds.words(si) or "any number"
+        return f"{words}; usually {_rounded(entry.expected, si)}" if entry.cell.usual else words
+    return "a date" if entry.kind is date else "text"
+
+
+def _rounded(usual: Bounds, si: float) -> str:
+    low, high = (f"{bound / si:.3g}" for bound in (usual.low, usual.high))
+    return f"{float(low):g} to {float(high):g}"
+
+
+def _example(entry: Entry, unit: Unit | None) -> str:
+    value = entry.cell.example
+    if unit is not None and entry.quantity is not None and isinstance(value, float):
+        # 42000 lb keeps all digits; 186.825 kN becomes 187.
+        digits = 5 if unit == entry.quantity.us else 3
+        rounded = f"{value * entry.quantity.us.si / unit.si:.{digits}g}"
+        return f"{float(rounded):g}"  # 1020, not 1.02e+03
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _width(entry: Entry) -> int:
+    longest = max(map(len, entry.cell.label.split())) + 3
+    if entry.choices:
+        widest = max(map(len, entry.choices)) + 2
+        # Many long choices are listed above the heading in a few lines.
+        return max(CODE_WIDTH, longest, widest + (MANY_WIDTH if len(entry.choices) > MANY else 0))
+    if entry.kind is str and entry.max_length > 40:
+        return TEXT_WIDTH
+    return max(CODE_WIDTH if entry.kind is date else NUMBER_WIDTH, longest)
+
+
+def _wrapped(text: str, width: float) -> int:
+    """Return the number of lines of a hint, broken between words, in a type wider than Calibri."""
+    return max(1, len(textwrap.wrap(text, max(int(width) - 1, 1))))
+
+
+def _lines(texts: Sequence[str], widths: Sequence[float]) -> int:
+    """Return the number of lines of the tallest text at its column's width."""
+    return max(
+        math.ceil(max(len(text), 1) / (1.2 * width))
+        for text, width in zip(texts, widths, strict=True)
+    )

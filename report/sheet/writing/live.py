@@ -1,0 +1,254 @@
+"""The live formulas of a workbook as they should be, and the cells where others stand instead.
+
+The formulas are written again for the headings that the workbook has, and found in it by table and
+by defined name. Read `overwritten`; `report.sheet.reading.parts` writes them back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from openpyxl import Workbook
+from openpyxl.utils import get_column_letter
+
+from report.sheet.checking.findings import unanswered
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.cells import Found, plain
+from report.sheet.reading.formula_text import canonical, moved
+from report.sheet.reading.locate_tables import TableArea, table_area
+from report.sheet.reading.positions import (
+    FRESH,
+    CellPosition,
+    area_named,
+    found_at,
+    label_key,
+    labels_of,
+)
+from report.sheet.schema import SECTIONS, UnitsFirst
+from report.sheet.schema.answers import STATUS, site_answers
+from report.sheet.schema.fields import Finding, Place, SheetSection
+from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell
+from report.sheet.writing.counts import START, write_counts
+from report.sheet.writing.grids import GridColumn, columns_of, table_formulas
+from report.sheet.writing.lookups import write_lookups
+from report.sheet.writing.needs import status_in
+from report.sheet.writing.results_panel import write_panel
+from report.sheet.writing.rules import write_rules
+from report.words.letters import cut
+
+_PANEL = "live_prescriptive_in"
+_BROKEN = "#REF!"
+_SHOWN = 100
+_ASIDE = 20
+"""A column that nothing else is written to."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Overwritten:
+    """A cell that has lost its live formula.
+
+    Attributes
+    ----------
+    position : CellPosition
+    found : Found
+        What it contains instead.
+    title : str
+        What the formula computes.
+    formula : str
+        What it should be, with its equals sign.
+    """
+
+    position: CellPosition
+    found: Found
+    title: str
+    formula: str
+
+    @property
+    def can_be_restored(self) -> bool:
+        """Whether the workbook has all columns that the formula refers to."""
+        return _BROKEN not in self.formula
+
+
+def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
+    """Return the cells that have lost their live formula, by sheet, column and row.
+
+    A workbook without live formulas, as of 0.1, has none. Not watched: a part of a sheet in which
+    rows were inserted or deleted, unless it is a table.
+    """
+    lost = [
+        Overwritten(position=position, found=found, title=_title(book, position), formula=formula)
+        for position, formula in live_formulas(book).items()
+        if _differs(found := found_at(book, position), formula)
+    ]
+    titles = book.book.sheetnames
+    return tuple(
+        sorted(
+            lost, key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row)
+        )
+    )
+
+
+def _differs(found: Found, formula: str) -> bool:
+    if _BROKEN in formula:
+        return _BROKEN in found.formula
+    return found.formula != formula and canonical(found.formula) != canonical(formula)
+
+
+def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
+    """Yield a warning for each run of cells below each other."""
+    keys = {section.sheet: section.key for section in reversed(SECTIONS)}
+    for run in _runs(lost):
+        first, last = run[0], run[-1]
+        cell = first.position.address
+        cells = f"{cell}:{last.position.cell}" if len(run) > 1 else cell
+        place = Place(keys.get(first.position.sheet, SECTIONS[0].key))
+        yield unanswered(place, _text(first, len(run)), cells)
+
+
+def _runs(lost: Sequence[Overwritten]) -> Iterator[list[Overwritten]]:
+    run: list[Overwritten] = []
+    for item in lost:
+        at = item.position
+        follows = run and run[-1].position == CellPosition(at.sheet, at.row - 1, at.column)
+        if run and not (follows and run[-1].can_be_restored == item.can_be_restored):
+            yield run
+            run = []
+        run.append(item)
+    if run:
+        yield run
+
+
+def _text(item: Overwritten, count: int) -> str:
+    title = f"{item.title} ({count} cells)" if count > 1 else item.title
+    if not item.can_be_restored:
+        return f"{title} refers to a column that is missing; write its heading again, or {FRESH}"
+    formula, found = item.formula, item.found
+    if found.is_blank:
+        what = f"is blank, and its formula is gone: {cut(formula, _SHOWN)}"
+    elif found.formula:
+        start = _start_of_difference(found.formula, formula)
+        what = f"is {_from(found.formula, start)}, and its formula is {_from(formula, start)}"
+    else:
+        what = f"is {cut(plain(found.value))}, typed over its formula {cut(formula, _SHOWN)}"
+    return f"{title} {what}; roofslip check --repair restores it"
+
+
+def _start_of_difference(one: str, other: str) -> int:
+    """Return where two formulas are to be shown from, so that their difference is seen."""
+    same = next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), 0)
+    return max(same - _SHOWN // 2, 0)
+
+
+def _from(formula: str, start: int) -> str:
+    return cut(f"…{formula[start:]}" if start else formula, _SHOWN)
+
+
+def _title(book: OpenBook, position: CellPosition) -> str:
+    """Return what a cell computes: the heading of its column, or else the label of its row."""
+    sheet = book.book[position.sheet]
+    for section in SECTIONS:
+        area = table_area(book, section) if section.is_table else None
+        if area and area.sheet == position.sheet and area.header < position.row <= area.last:
+            return str(sheet.cell(area.header, position.column).value)
+    labels = (sheet.cell(position.row, column).value for column in range(1, position.column))
+    found = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
+    return f"{found.removesuffix(' *')}, computed," if position.sheet == "Site" else found
+
+
+def has_live_formulas(book: OpenBook) -> bool:
+    """Whether a workbook computes while it is filled in, as those of 0.1 do not."""
+    return area_named(book.book, _PANEL) is not None
+
+
+def live_formulas(book: OpenBook) -> Mapping[CellPosition, str]:
+    """Return every live formula that a workbook should have, with its equals sign.
+
+    A formula that refers to a column which the workbook lacks has `#REF!` in it.
+    """
+    panel = area_named(book.book, _PANEL)
+    if panel is None:
+        return {}
+    is_us = panel[1][0] == 2
+    units = UnitsFirst.US if is_us else UnitsFirst.SI
+    layout = Layout(
+        blocks={s.key: BlockPlace(section=s, rows={}) for s in SECTIONS if not s.is_table}
+    )
+    areas = {s.key: area for s in SECTIONS if s.is_table and (area := table_area(book, s))}
+    for section in (section for section in SECTIONS if section.is_table):
+        layout.tables[section.key] = _place(book, section, areas.get(section.key), units)
+    formulas = dict(_in_tables(book, layout, areas, is_us=is_us))
+    return formulas | dict(_named(book, _written(layout, is_us=is_us)))
+
+
+def _place(
+    book: OpenBook, section: SheetSection, area: TableArea | None, units: UnitsFirst
+) -> TablePlace:
+    headings, letters = {}, {}
+    for column in columns_of(section, units):
+        at = _heading(section, column, area) if area else None
+        headings[column.name] = str(found_at(book, at).value) if at else _BROKEN
+        letters[column.name] = get_column_letter(at.column) if at else _BROKEN
+    return TablePlace(
+        section=section,
+        sheet=area.sheet if area else section.sheet,
+        header=area.header if area else 0,
+        size=area.last - area.header if area else 0,
+        headings=headings,
+        letters=letters,
+    )
+
+
+def _heading(section: SheetSection, column: GridColumn, area: TableArea) -> CellPosition | None:
+    labels = labels_of(section, column.entry) if column.entry else {label_key(column.heading)}
+    return next((area.headings[label] for label in labels if label in area.headings), None)
+
+
+def _in_tables(
+    book: OpenBook, layout: Layout, areas: Mapping[str, TableArea], *, is_us: bool
+) -> Iterator[tuple[CellPosition, str]]:
+    for key, area in areas.items():
+        place = layout.tables[key]
+        for name, (formula, _) in table_formulas(layout, place, is_us=is_us).items():
+            heading = area.headings.get(label_key(place.headings[name]))
+            is_long = name == STATUS and formula not in book.book.defined_names
+            if heading is not None:
+                for row in range(area.header + 1, area.last + 1):
+                    text = status_in(row, place, layout) if is_long else formula
+                    yield CellPosition(area.sheet, row, heading.column), f"={text}"
+
+
+def _written(layout: Layout, *, is_us: bool) -> Workbook:
+    """Return a workbook that has the formulas outside of tables, at places of its own."""
+    book = Workbook()
+    for title in dict.fromkeys((START, *(section.sheet for section in SECTIONS))):
+        book.create_sheet(title)
+    for row, (formula, name) in enumerate(site_answers().values(), start=1):
+        book["Site"].cell(row, _ASIDE).value = f"={formula}"
+        name_cell(book, name, book["Site"], row, _ASIDE)
+    write_panel(book, is_us=is_us)
+    write_rules(book, layout)
+    write_lookups(book, layout)
+    write_counts(book, layout, 1)
+    return book
+
+
+def _named(book: OpenBook, written: Workbook) -> Iterator[tuple[CellPosition, str]]:
+    """Yield the formulas within named ranges, moved to where the workbook has these names."""
+    for name in written.defined_names:
+        here, there = area_named(written, name), area_named(book.book, name)
+        if here is None or there is None or _size(here[1]) != _size(there[1]):
+            continue
+        right, down = (there[1][side] - here[1][side] for side in (0, 1))
+        left, top, last_column, last_row = here[1]
+        for row, column in product(range(top, last_row + 1), range(left, last_column + 1)):
+            cell = written[here[0]].cell(row, column)
+            if cell.data_type == "f":
+                at = CellPosition(there[0], row + down, column + right)
+                yield at, moved(str(cell.value), down)
+
+
+def _size(bounds: tuple[int, int, int, int]) -> tuple[int, int]:
+    left, top, right, bottom = bounds
+    return right - left, bottom - top

@@ -1,0 +1,83 @@
+"""Rows of the sheets for a project that is written in Python, such as the example.
+
+Lengths are given in a unit of the caller's choice, with its size in meters. Read
+`report.sheet.writing.example` for their use.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from solver.synthesis import SuiteMotion
+
+Row = Mapping[str, object]
+Range = tuple[float, float]
+
+ENGINEER = "Engineer of record"
+
+
+def issued(
+    name: str, number: str, client: str, address: str, units: str, *,
+    date: dt.date, revision: str = "0", description: str = "Issued for plan check",
+) -> dict[str, object]:  # fmt: skip
+    """Return the sheet Project: its block, and its one revision."""
+    return {
+        "project": {
+            "name": name,
+            "number": number,
+            "client": client,
+            "address": address,
+            "prepared_by": ENGINEER,
+            "checked_by": "",
+            "date": date,
+            "revision": revision,
+            "units_first": units,
+        },
+        "revisions": [
+            {"revision": revision, "date": date, "description": description, "by": ENGINEER}
+        ],
+    }
+
+
+def rectangle(x: Range, y: Range, unit_m: float) -> dict[str, float]:
+    """Return the four sides of a rectangle in plan."""
+    sides = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
+    return {side: value * unit_m for side, value in zip(sides, (*x, *y), strict=True)}
+
+
+def roof_object(
+    name: str, kind: str, height_m: float | None, x: Range, y: Range, unit_m: float
+) -> Row:
+    """Return a row of the sheet Objects."""
+    return {"id": name, "kind": kind, "height_m": height_m, **rectangle(x, y, unit_m)}
+
+
+def clearance(array: str, other: str, direction: str, provided_m: float) -> Row:
+    """Return a row of the sheet Clearances."""
+    return {"array": array, "object": other, "direction": direction, "provided_m": provided_m}
+
+
+_COMPONENTS = {"x": "record", "y": "transverse", "z": "vertical"}
+
+
+def motion(name: str, components: str, source: str, **more: object) -> Row:
+    """Return a row of the sheet Motions, of the components among `xyz`, in files by their name."""
+    files = {_COMPONENTS[letter]: f"records/{name}-{letter}.csv" for letter in components}
+    return {"id": name, **files, "source": source, **more}
+
+
+def write_motions(
+    folder: Path, prefix: str, suite: Iterable[SuiteMotion], components: str = "xyz"
+) -> None:
+    """Write the records of motions to a folder, by the names that `motion` gives."""
+    from solver.records.record import write_record
+
+    folder.mkdir(parents=True, exist_ok=True)
+    for number, made in enumerate(suite, start=1):
+        for letter in components:
+            path = folder / f"{prefix}{number}-{letter}.csv"
+            write_record(path, getattr(made, letter), hold_s=made.hold_s)
