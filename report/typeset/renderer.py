@@ -1,7 +1,7 @@
-"""Loads the renderer and says what it may load. Beyond its documented interface only if tried.
+"""Loads the renderer, gives it its documents, and says which addresses it may load.
 
-This module, and `drawings` more so, use parts of it that a later version may change. They do so for
-the versions `TRIED`; any other makes the same pages more slowly. Read `is_tried`, then `load`.
+Here and in `drawings` it is used beyond its documentation, which a later version need not keep:
+only in the versions `TRIED`. Others make the same pages more slowly. Read `is_tried`, then `load`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,11 @@ from typing import Any
 from xml.etree import ElementTree
 
 TRIED = {"weasyprint": "70.0", "pydyf": "0.13.0"}
-"""Versions whose undocumented parts are as they are used here."""
+"""Versions whose undocumented parts are as they are used here.
+
+Without them `roofslip report projects/example` takes 1.22 times as long, and 33 MB more of 490:
+medians of whole processes in five pairs. What each saves is said where it is.
+"""
 
 SCHEME = "shipped:"
 """Of addresses of the files of a folder."""

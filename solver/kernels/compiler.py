@@ -27,7 +27,7 @@ TRIED = ("0.68.1",)
 UNCOUNTED = {"_nrt": False} if version("numba") in TRIED else {}
 """For functions that borrow their arrays: counts no references to them, which takes a lock.
 
-A report of the example takes 1.05 times as long without it: medians of five pairs of runs.
+`roofslip report projects/example` takes 1.05 times as long without it: medians of five pairs.
 """
 
 
