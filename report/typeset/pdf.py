@@ -1,4 +1,4 @@
-"""From finished HTML to tagged PDF/A-3a: knows the renderer, as do `drawings` and `finish` alone.
+"""From finished HTML to tagged PDF/A-3a, by the documented interface of the renderer.
 
 Reads only the HTML, `data:` addresses and the fonts and styles in the template folder. Any warning
 in the renderer's log is an internal error.
@@ -13,14 +13,12 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
 
-from report.typeset.drawings import Converted, DeferredPicture, convert, discard
+from report.typeset.drawings import Converted, DeferredPicture, convert
 from report.typeset.finish import Attached, finish
-from report.typeset.renderer import load
+from report.typeset.renderer import discard, document, is_tried, load, shipped
 from solver.model import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
@@ -31,7 +29,6 @@ TEMPLATES = next(
 )
 VARIANT = "pdf/a-3a"
 _NO_DATE = dt.datetime(1980, 1, 1)
-_SCHEME = "shipped:"
 _PICTURE = re.compile(r' src="(data:image/svg\+xml;base64,[^"]+)"')
 
 
@@ -41,13 +38,15 @@ def pictures(html: str) -> list[str]:
 
 
 def draw_ahead(sources: Sequence[str]) -> dict[str, Converted]:
-    """Convert pictures for `lay_out`, in any process.
+    """Convert pictures for `lay_out`, in any process; none where the renderer is not tried.
 
     Raises
     ------
     DefectError
         As `lay_out`.
     """
+    if not is_tried():
+        return {}
     with _clean_log():
         return convert(sources, TEMPLATES / "package.css")
 
@@ -81,20 +80,20 @@ def lay_out(
     with _clean_log(), warnings.catch_warnings():
         # The renderer leaves the file of its color profile to the garbage collector.
         warnings.simplefilter("ignore", ResourceWarning)
-        document = _document()(string=html, base_url=f"{_SCHEME}/", url_fetcher=shipped())
+        given = document(html, shipped(TEMPLATES))
         fonts = FontConfiguration()
         shown = (
             {source: DeferredPicture(source, drawn, fonts) for source in pictures(html)}
-            if drawn
+            if drawn and is_tried()
             else {}
         )
         try:
-            pages = document.render(font_config=fonts, cache=shown)
+            pages = given.render(font_config=fonts, cache=shown)
             files = sorted(attached(), key=lambda file: file.name)
             pdf: bytes = pages.write_pdf(
                 pdf_variant=VARIANT,
                 attachments=[_attachment(file, pages.metadata.created) for file in files],
-                finisher=lambda document, objects: finish(document, objects, files),
+                finisher=lambda pages, objects: finish(pages, objects, files),
             )
         finally:
             discard(fonts)
@@ -114,54 +113,6 @@ def _attachment(file: Attached, date: str | None) -> Any:
         created=day,
         modified=day,
     )
-
-
-@cache
-def _document() -> Any:
-    """Return the renderer's class of documents for HTML that is XML and has no notes on its pages.
-
-    The renderer reads any HTML, by a parser that takes fifteen times as long. Its own styles give
-    every element five pseudo-elements for notes and a marker: computing their styles takes a fifth
-    of the layout.
-    """
-    from cssselect2 import ElementWrapper
-    from weasyprint import CSS, HTML
-    from weasyprint.html import UA
-
-    ours = re.sub(r"^::(foot)?note-.*$", "", UA, flags=re.MULTILINE)
-    sheet = CSS(string=re.sub(r"^::marker", "li::marker", ours, flags=re.MULTILINE))
-
-    class LeanHtml(HTML):  # type: ignore[misc]
-        """A document with fewer styles to begin with, of well-formed markup."""
-
-        def __init__(self, string: str, **where: Any) -> None:
-            super().__init__(string="<html></html>", **where)
-            root = ElementTree.fromstring(string)
-            self.wrapper_element = ElementWrapper.from_html_root(root, content_language=None)
-            self.etree_element = self.wrapper_element.etree_element
-
-        def _ua_stylesheets(self, forms: bool = False) -> list[Any]:
-            return [sheet]
-
-    return LeanHtml
-
-
-def shipped() -> Any:
-    """Return what the renderer loads addresses with: the template folder and `data:`, no more."""
-    from weasyprint.urls import URLFetcher, URLFetcherResponse
-
-    class Shipped(URLFetcher):  # type: ignore[misc]
-        """Serves the template folder and `data:`; refuses everything else."""
-
-        def fetch(self, url: str, headers: dict[str, str] | None = None) -> Any:
-            if not url.startswith(_SCHEME):
-                return super().fetch(url, headers)
-            path = (TEMPLATES / url.removeprefix(_SCHEME).lstrip("/")).resolve()
-            if not path.is_relative_to(TEMPLATES):
-                raise ValueError(f"outside the templates: {url}")
-            return URLFetcherResponse(url, path.read_bytes())
-
-    return Shipped(allowed_protocols=("data",))
 
 
 @contextmanager

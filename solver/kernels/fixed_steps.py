@@ -8,8 +8,10 @@ import math
 
 from numba import njit
 
+from solver.kernels.compiler import KEPT
 
-@njit(cache=True)
+
+@njit(cache=KEPT)
 def slide_fixed(g, dt, cs, substeps, holds):
     """Solve the motion under G and mu N with `substeps` steps in each interval.
 

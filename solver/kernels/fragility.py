@@ -14,6 +14,8 @@ import math
 import numpy as np
 from numba import njit
 
+from solver.kernels.compiler import KEPT
+
 FITTED = 0
 NOT_FINITE = 1
 """Fewer than two different capacities are known."""
@@ -26,13 +28,13 @@ ROOT_TWO_PI = math.sqrt(2.0 * math.pi)
 FAR = 36.0
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def normal_cdf(z):
     """Standard normal distribution function, accurate in both tails."""
     return 0.5 * math.erfc(-z * ROOT_HALF)
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def inverse_mills(z):
     """Return phi(z) / Phi(z)."""
     if z < -FAR:
@@ -40,7 +42,7 @@ def inverse_mills(z):
     return math.exp(-0.5 * z * z) / (ROOT_TWO_PI * normal_cdf(z))
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def fit_censored(y, is_censored):
     """Return mean, deviation, standard errors of both, and the status of the most likely normal.
 
@@ -94,7 +96,7 @@ def fit_censored(y, is_censored):
     )
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def fit_many(y, is_censored, found):
     """Fit a normal distribution to each row.
 
@@ -110,7 +112,7 @@ def fit_many(y, is_censored, found):
         found[row, 2], found[row, 3] = of_mean, of_log
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def _log_likelihood(y, is_censored, mean, b):
     total = 0.0
     for i in range(y.size):
@@ -123,7 +125,7 @@ def _log_likelihood(y, is_censored, mean, b):
     return total
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def log_likelihood_at(y, is_censored, mean, deviation):
     """Return the greatest log-likelihood of a mean, over deviations, from a first guess of them.
 
@@ -146,7 +148,7 @@ def log_likelihood_at(y, is_censored, mean, deviation):
     return _log_likelihood(y, is_censored, mean, b)
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def deviances(y, is_censored, mean, found):
     """Fill twice the log of the likelihood ratio of a mean, for each row; NaN where there is none.
 

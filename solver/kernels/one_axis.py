@@ -20,6 +20,8 @@ import math
 import numpy as np
 from numba import config, njit, prange
 
+from solver.kernels.compiler import KEPT
+
 # GNU OpenMP, numba's default, takes 8 ms to start a sweep; workqueue takes 0.2 ms.
 config.THREADING_LAYER = "workqueue"
 
@@ -42,7 +44,7 @@ CHUNK = 64
 # Indices are np.uintp in inner loops: numba tests any other type for negative values first.
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def bounds(a):
     """Least and greatest sample over blocks of BLOCK, over blocks of BLOCK blocks, and over all.
 
@@ -65,7 +67,7 @@ def bounds(a):
     return extremes
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _net_driving(c, ax, az, i):
     """Acceleration in one direction at sample i; c holds the coefficients of 1, az and -ax."""
     if az is None:
@@ -73,7 +75,7 @@ def _net_driving(c, ax, az, i):
     return c[0] + c[1] * az[np.uintp(i)] - c[2] * ax[np.uintp(i)]
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _maximum_net_driving(c, x, z, block):
     """Upper bound of `_net_driving` over a block of samples."""
     across = min(c[2] * x[0, np.uintp(block)], c[2] * x[1, np.uintp(block)])
@@ -82,7 +84,7 @@ def _maximum_net_driving(c, x, z, block):
     return c[0] + max(c[1] * z[0, np.uintp(block)], c[1] * z[1, np.uintp(block)]) - across
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
     """Least N / (m g) over the record, and when N first falls below zero (NaN: never).
 
@@ -108,7 +110,7 @@ def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
     return -most / g, (i - 1 + before / (before - after)) * dt
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _resting_band(down, up):
     """Range of ax without slip, for a record without vertical; reduced by a few rounding errors."""
     low, high = -np.inf, np.inf
@@ -122,7 +124,7 @@ def _resting_band(down, up):
     return low, high
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _is_quiet(down, up, band, x, z, block):
     """Whether no sample of a block of samples can make the resting block slip."""
     if z is None:
@@ -133,7 +135,7 @@ def _is_quiet(down, up, band, x, z, block):
     )
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _next_slip(down, up, band, ax, az, x, z, i):
     """First sample from i on at which the resting block slips, or n."""
     n = ax.size
@@ -164,7 +166,7 @@ def _next_slip(down, up, band, ax, az, x, z, i):
     return n
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _first_stop(w, q, r, h):
     """First tau in (0, h] where the speed w + q tau + r tau^2 / 2 is zero, or -1.
 
@@ -182,7 +184,7 @@ def _first_stop(w, q, r, h):
     return min(tau, h)
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _onset(q_0, q_1, tau, dt):
     """Time in [tau, dt) when a push linear from q_0 to q_1 becomes positive; dt for never."""
     if q_0 <= 0.0 and q_1 <= 0.0:
@@ -193,7 +195,7 @@ def _onset(q_0, q_1, tau, dt):
     return tau if q_0 + r * tau > 0.0 else dt
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _move(w, q_0, q_1, tau, dt, rate):
     """Continue sliding from tau to the end of the interval, or until the speed is zero.
 
@@ -213,7 +215,7 @@ def _move(w, q_0, q_1, tau, dt, rate):
     return reached, step * (w + step * (0.5 * q + step * (r * SIXTH))), 0.0, peak
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _slide_on(c, ax, az, w, w_max, i, last, dt):
     """Slide through whole intervals, up to the first one in which the speed may become zero.
 
@@ -253,7 +255,7 @@ def _slide_on(c, ax, az, w, w_max, i, last, dt):
     return i, way, w, w_max
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _note(events, n, t, kind, s):
     """Write event n and return the number of events."""
     if events is not None:
@@ -261,7 +263,7 @@ def _note(events, n, t, kind, s):
     return n + 1
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     """Solve the motion under the linearly interpolated record exactly, event by event.
 
@@ -340,7 +342,7 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     return s_max, s_min, s, sigma * w, t_peak, n_stops, max(w_max, w), n_events
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
     """Evaluate the motion found by `slide_exact` at the samples: s and s' from slip to stop.
 
@@ -376,7 +378,7 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
             history[0, i:] = events[k + 1, 2]
 
 
-@njit(cache=True, forceinline=True)
+@njit(cache=KEPT, forceinline=True)
 def _run_scene(ax, az, x, z, dt, g, scene, out):
     """Fill `out` with the outcome of one scene of a sweep."""
     sn, cs = math.sin(scene[0]), math.cos(scene[0])
@@ -389,7 +391,7 @@ def _run_scene(ax, az, x, z, dt, g, scene, out):
         out[0], out[1], out[2], out[3] = s_max, s_min, s, w
 
 
-@njit(cache=True, parallel=True)
+@njit(cache=KEPT, parallel=True)
 def sweep_exact(ax, az, x, z, dt, g, scenes, out):
     """Run many scenes under one record, in parallel.
 
@@ -404,7 +406,7 @@ def sweep_exact(ax, az, x, z, dt, g, scenes, out):
         _run_scene(ax, az, x, z, dt, g, scenes[k], out[k])
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=KEPT, nogil=True)
 def sweep_alone(ax, az, x, z, dt, g, scenes, out):
     """Run many scenes under one record on one core, as `sweep_exact`; other threads go on."""
     for k in range(scenes.shape[0]):

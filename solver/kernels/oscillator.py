@@ -8,8 +8,10 @@ import math
 import numpy as np
 from numba import njit
 
+from solver.kernels.compiler import KEPT
 
-@njit(cache=True)
+
+@njit(cache=KEPT)
 def _step(p, zeta):
     """h, h', and h integrated once and twice, over one step p = omega dt of an oscillator.
 
@@ -35,7 +37,7 @@ def _step(p, zeta):
     return h, 1.0 - once - 2.0 * zeta * h, once, twice
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=KEPT, error_model="numpy")
 def peaks(a, dt, omega, zeta, peak, at):
     """Largest pseudo-acceleration of damped oscillators under the linearly interpolated record.
 
@@ -93,7 +95,7 @@ def peaks(a, dt, omega, zeta, peak, at):
             at[k] = i if higher else at[k]
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def histories(a, dt, omega, zeta, out):
     """Absolute acceleration of damped oscillators under the linearly interpolated record.
 

@@ -28,6 +28,8 @@ import math
 import numpy as np
 from numba import njit
 
+from solver.kernels.compiler import KEPT
+
 # Outcome codes; `solver.sliding.checked` maps them to `Status`.
 FOLLOWED = 0
 DIVERGED = 1
@@ -39,7 +41,7 @@ ITERATIONS = 25
 """Newton iterations in a sub-step before the run is abandoned."""
 
 
-@njit(cache=True, inline="always")
+@njit(cache=KEPT, inline="always")
 def _drive_and_cap(ax, az, i, sn, cs, mu, g, scale):
     """G and mu N at sample i; an empty vertical record means none."""
     x = scale * ax[i]
@@ -47,7 +49,7 @@ def _drive_and_cap(ax, az, i, sn, cs, mu, g, scale):
     return sn * z - cs * x, mu * (cs * z + sn * x)
 
 
-@njit(cache=True, inline="always")
+@njit(cache=KEPT, inline="always")
 def _seen(s, t, s_max, s_min, t_peak):
     """The extremes of s and the time of the largest |s|, updated with s at time t."""
     if abs(s) > max(s_max, -s_min):
@@ -55,7 +57,7 @@ def _seen(s, t, s_max, s_min, t_peak):
     return max(s_max, s), min(s_min, s), t_peak
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
     """The paper's algorithm: constant acceleration over each of `substeps` sub-steps.
 
@@ -115,7 +117,7 @@ def slide_constant(ax, az, dt, sn, cs, mu, g, scale, substeps, skips, history):
     return FOLLOWED, s_max, s_min, s, w, t_peak, n_stops
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
     """Linear acceleration of the plane and a fixed sliding direction in each sub-step.
 
@@ -155,7 +157,7 @@ def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
     return FOLLOWED, s_max, s_min, s, w, t_peak, n_stops
 
 
-@njit(cache=True, inline="always")
+@njit(cache=KEPT, inline="always")
 def _link(x, k, cap):
     """Force of the link at a stretch x, limited to its cap, and the direction in which it slips."""
     force = k * x
@@ -166,7 +168,7 @@ def _link(x, k, cap):
     return force, 0
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def _solve_sub_step(x, free, lever, k, cap):
     """Newton's method for x = free - lever F(x), where F is the capped force of the link.
 
@@ -188,7 +190,7 @@ def _solve_sub_step(x, free, lever, k, cap):
     return x, False
 
 
-@njit(cache=True)
+@njit(cache=KEPT)
 def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history):
     """A spring whose force is limited to mu N: friction as common in structural programs.
 

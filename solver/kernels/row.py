@@ -28,8 +28,10 @@ from functools import partial
 import numpy as np
 from numba import njit
 
+from solver.kernels.compiler import KEPT, UNCOUNTED
+
 # Functions that borrow arrays count no references: locked counters took a quarter of the time.
-jit = partial(njit, cache=True, _nrt=False)
+jit = partial(njit, cache=KEPT, **UNCOUNTED)
 
 ORDER = 22
 """Degree of the series. Steps are so short that term j is below 1 / j! of the motion."""
@@ -262,7 +264,7 @@ def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
     return n_stops, lost
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=KEPT, nogil=True)
 def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, energy, samples):
     """Solve the motion of a row of blocks from rest, with unstretched links, event by event.
 

@@ -46,11 +46,13 @@ from functools import partial
 import numpy as np
 from numba import njit
 
+from solver.kernels.compiler import KEPT, UNCOUNTED
+
 # Division by zero gives infinity, as in IEEE arithmetic: numba adds no test and raises nothing.
 # Without `_nrt` no reference is counted: every function but `slide_plane` borrows its arrays, and
 # locked counters took a tenth of the time.
 ieee = partial(njit, error_model="numpy")
-jit = partial(ieee, _nrt=False)
+jit = partial(ieee, **UNCOUNTED)
 
 # How a run ends.
 FOLLOWED = 0
@@ -898,7 +900,7 @@ def _fill(history, i, end, sx, sy, vx, vy):
         history[0, k], history[1, k], history[2, k], history[3, k] = sx, sy, vx, vy
 
 
-@ieee(cache=True, nogil=True)
+@ieee(cache=KEPT, nogil=True)
 def slide_plane(
     ax, ay, az, x, y, z, dt, sn, cs, mu, g, scale, tolerance, maximum_degree, maximum_steps, law,
     events, history, top, end,

@@ -1,19 +1,27 @@
-"""Compiled kernels on disk: an edited one never runs stale, and a closed folder does no harm."""
+"""Compiled kernels on disk: an edited one never runs stale, and a closed folder does no harm.
+
+Nor does a numba that is not among the versions tried.
+"""
 
 import os
+import re
 import resource
 import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+import test_row_kernel
+import test_two_axes_kernel
 
 from places import ROOT
+from solver.kernels import row
 
-pytestmark = pytest.mark.nightly("solver/kernels/cache.py")
+pytestmark = pytest.mark.nightly("solver/kernels/compiler.py")
 
 RUN = (
-    "import numpy as np; from copied import one_axis as kernels; "
+    "import numpy as np; from solver.kernels import one_axis as kernels; "
     "a = np.array([0.0, 4.0, 0.0, 0.0]); a.setflags(write=False); "
     "x = np.array([[0.0] * 3, [4.0] * 3]); "  # its bounds: one kernel less to compile
     "print(kernels.minimum_normal(a, None, x, None, 0.1, 0.0, 1.0, 9.8, 1.0)[0])"
@@ -23,22 +31,20 @@ NO_FOLDER = "a file where the folder would be: nothing can be written there"
 
 @pytest.fixture
 def copied(tmp_path):
-    """A package of the kernels alone, and what runs one of them in a fresh process."""
-    folder = tmp_path / "copied"
-    folder.mkdir()
-    (folder / "__init__.py").write_text("from copied import cache")
-    for name in ("cache", "one_axis"):
-        shutil.copy(ROOT / "solver" / "kernels" / f"{name}.py", folder)
+    """A copy of the solver, and what runs one of them in a fresh process."""
+    without_cache = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(ROOT / "solver", tmp_path / "solver", ignore=without_cache)
+    folder = tmp_path / "solver" / "kernels"
 
-    def run(warns="", *flags, **options):
+    def run(warns="", *flags, program=RUN, **options):
         done = subprocess.run(
-            [sys.executable, *flags, "-c", RUN],
+            [sys.executable, *flags, "-c", program],
             cwd=tmp_path,
             env=os.environ | {"HOME": str(tmp_path), "XDG_CACHE_HOME": str(tmp_path / "cache")},
             capture_output=True,
             text=True,
             check=True,
-            timeout=60,
+            timeout=120,
             **options,
         )
         assert warns in done.stderr
@@ -81,3 +87,27 @@ def test_on_a_full_disk_a_run_goes_on_and_says_how_to_keep_its_cache(copied):
     # -B: bytecode that Python itself keeps on a full disk may be cut short (CPython gh-126606).
     assert run("(File too large), so every run compiles it again; set the", "-B", **full) == 1.0
     assert (run(), run()) == (1.0, 1.0)
+
+
+UNTRIED = """
+import sys
+sys.path += {paths}
+import numpy as np, test_row_kernel, test_two_axes_kernel
+from solver.kernels import compiler, row
+assert not compiler.UNCOUNTED
+np.save("row.npy", test_row_kernel.run_all(row.slide_row))
+np.save("plane.npy", test_two_axes_kernel.run_all())
+print(1.0)
+"""
+
+
+def test_a_numba_that_was_not_tried_finds_the_same_motions(copied, tmp_path):
+    """Its functions count references, and no undocumented option is asked for."""
+    folder, run = copied
+    source = folder / "compiler.py"
+    tried = re.sub(r"^TRIED = .*$", 'TRIED = ("0.1",)', source.read_text(), flags=re.MULTILINE)
+    source.write_text(tried)
+    run(program=UNTRIED.format(paths=sys.path))
+    found = test_row_kernel.run_all(row.slide_row), test_two_axes_kernel.run_all()
+    np.testing.assert_allclose(np.load(tmp_path / "row.npy"), found[0], rtol=1e-11, atol=1e-13)
+    np.testing.assert_array_equal(np.load(tmp_path / "plane.npy"), found[1])
