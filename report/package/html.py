@@ -28,7 +28,13 @@ from report.workers import SameProcess
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PendingPictures:
-    """What is drawn and typeset beside the computation."""
+    """What is drawn and typeset beside the computation.
+
+    Attributes
+    ----------
+    package : PackageData
+        What the worker is given; nothing else may use it, because it caches what it is asked for.
+    """
 
     package: PackageData
     worker: Executor
@@ -73,11 +79,11 @@ def pages(
         What `begin` returned, and then its `plot`.
     """
     pending = pending or begin(assessment, changes, SameProcess()).plot(evidence)
-    package = pending.package
     drawn = (
         *pending.pictures,
-        pending.worker.submit(draw_uncertainty, package, evidence.uncertainty),
+        pending.worker.submit(draw_uncertainty, pending.package, evidence.uncertainty),
     )
+    package = package_data(assessment, changes)
     ids = (*_FRONT, *(page.id for page in pages_of(package)))
     content = _content(package, evidence, ids)
     drawings = {id: some for done in drawn for id, some in done.result().items()}

@@ -1,5 +1,6 @@
 """What a second process draws and typesets before the evidence is there."""
 
+import pickle
 import re
 from collections import defaultdict
 from xml.etree import ElementTree
@@ -25,6 +26,24 @@ def test_every_equation_of_a_package_is_typeset_before_its_evidence_is_there():
     printed = set(re.findall(r'<div class="symbols"><img src="([^"]+)"', html))
     assert len(printed) > 15
     assert printed == ready
+
+
+class Apart(SameProcess):
+    """Runs each function on copies, as a second process does."""
+
+    def submit(self, fn, /, *given):
+        return super().submit(fn, *pickle.loads(pickle.dumps(given)))
+
+
+def test_nothing_that_a_second_process_is_given_changes_while_the_pages_are_made():
+    # It is pickled beside them: what it caches meanwhile ended a report, now and then.
+    assessment = scenes.package().assessment
+    with packages.undrawn():
+        begun = begin(assessment, NO_FORMER, Apart())
+        before = pickle.dumps(begun.package)
+        evidence = support(assessment)
+        pages(assessment, evidence, NO_FORMER, begun.plot(evidence))
+    assert pickle.dumps(begun.package) == before
 
 
 def test_numbers_stand_below_an_equation_where_there_is_no_room_beside_it():
