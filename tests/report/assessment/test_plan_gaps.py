@@ -10,9 +10,9 @@ import stand_in
 from report.assessment.plan_gaps import parapet_note, plan_gaps
 from report.drawing.layers import Layer
 from report.drawing.plan import plan_drawing
+from report.drawing.sheet import LANDSCAPE
 from report.entities.columns import UnitFormat
 from report.figures import charts
-from report.figures.plan_sheet import LANDSCAPE
 from report.pages.pictures import load_charts
 from report.web.plan import plan
 from report.web.tables import stamp

@@ -15,9 +15,9 @@ from report.assessment.evidence import support
 from report.assessment.spectra import spectra
 from report.assessment.verdict import Verdict
 from report.drawing.plan import plan_drawing
+from report.drawing.sheet import LANDSCAPE
 from report.figures.base import load_fonts, style
 from report.figures.plan import plan_figure
-from report.figures.plan_sheet import LANDSCAPE
 from report.pages.summary import summary
 from report.results.json import results_json
 from report.results.xlsx import results_xlsx
