@@ -6,10 +6,10 @@ Pure data from an assessment, with no file format (`report.drawing.dxf`). Read `
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from report.assessment.arrays import NOT_PERMITTED
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
 from report.assessment.envelopes import (
     Outline,
     design_envelope,
@@ -35,7 +35,11 @@ def plan_drawing(assessment: Assessment) -> PlanDrawing:
     """Return the plan of an assessment."""
     is_feet = assessment.project.project.units_first.is_us
     unit = Quantity.PLAN.us if is_feet else Quantity.PLAN.si
-    lines = tuple(_in_unit(line, unit) for line in _lines(assessment))
+    gaps = (
+        PlanLine(layer=gap.layer, name=gap.name, points=gap.ends, is_closed=False)
+        for gap in gap_lines(assessment)
+    )
+    lines = tuple(_in_unit(line, unit) for line in (*outlines(assessment), *gaps))
     points = [point for line in lines for point in line.points]
     spans = [max(axis) - min(axis) for axis in zip(*points, strict=True)]
     height = max(spans) * TEXT_SHARE
@@ -53,8 +57,16 @@ def _closed(layer: Layer, name: str, points: Outline) -> PlanLine:
     return PlanLine(layer=layer, name=name, points=points, is_closed=True)
 
 
-def _lines(assessment: Assessment) -> Iterator[PlanLine]:
-    """Yield the lines, in m."""
+_ENVELOPES: Mapping[Layer, Callable[[ArrayAssessment], Outline]] = {
+    Layer.DESIGN: design_envelope,
+    Layer.RUNS: runs_envelope,
+}
+
+
+def outlines(
+    assessment: Assessment, envelopes: Collection[Layer] = tuple(_ENVELOPES)
+) -> Iterator[PlanLine]:
+    """Yield what is on the plan, and how far it may move, by the envelopes asked for [m]."""
     data = assessment.project
     if data.roof.placed is not None:
         yield _closed(Layer.OUTLINE, ROOF, data.roof.placed.points)
@@ -65,14 +77,9 @@ def _lines(assessment: Assessment) -> Iterator[PlanLine]:
             yield _closed(_layer(item), item.id, item.placed.points)
     for array in assessment.arrays:
         yield _closed(Layer.ARRAY, array.id, array.array.shape.points)
-        for layer, outline in (
-            (Layer.DESIGN, design_envelope(array)),
-            (Layer.RUNS, runs_envelope(array)),
-        ):
-            if outline:
+        for layer in envelopes:
+            if outline := _ENVELOPES[layer](array):
                 yield _closed(layer, array.id, outline)
-    for gap in gap_lines(assessment):
-        yield PlanLine(layer=gap.layer, name=gap.name, points=gap.ends, is_closed=False)
 
 
 def _layer(item: RoofObject) -> Layer:

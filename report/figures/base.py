@@ -24,6 +24,8 @@ INK, GRAY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
 ACROSS = "#c8651b"  # distinct from ACCENT with color blindness and in gray
 FAMILY = "Source Sans 3"
 
+Range = tuple[float, float]
+
 # Coordinates in points: the renderer spends time on decimals that print cannot show.
 _DIGITS = re.compile(r"(?<=[\d-])(\.\d\d)\d{4}(?=[\s\"])")
 _STYLE: Any = {
@@ -92,6 +94,16 @@ def framed(height: float, left: float, right: float, top: float, bottom: float) 
     return figure, figure.add_axes(box)
 
 
+def canvas(wide: float, tall: float, x: Range, y: Range) -> tuple[Figure, Axes]:
+    """Return a figure, and axes with these limits over all of it that are not drawn."""
+    figure = Figure(figsize=(wide, tall))
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_axis_off()
+    axes.set_xlim(*x)
+    axes.set_ylim(*y)
+    return figure, axes
+
+
 def bare(axes: Axes) -> None:
     """Hide the top and right spines."""
     axes.spines[["top", "right"]].set_visible(False)
@@ -151,8 +163,3 @@ class Broken:
         """Append a segment."""
         self.x += [*x, math.nan]
         self.y += [*y, math.nan]
-
-
-def tick_text(name: str) -> str:
-    """Return a name truncated to the width of a tick label."""
-    return name if len(name) <= 14 else f"{name[:13]}…"

@@ -15,39 +15,25 @@ from matplotlib.axes import Axes
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
+from report.drawing.widths import tick_text
 from report.figures.accelerations import accelerations
-from report.figures.base import (
-    ACCENT,
-    FAMILY,
-    GRAY,
-    INK,
-    framed,
-    load_fonts,
-    style,
-    svg_text,
-    tick_text,
-)
+from report.figures.base import ACCENT, FAMILY, GRAY, INK, framed, load_fonts, style, svg_text
 from report.figures.history import MAX_POINTS, envelope, histories
 from report.figures.hodograph import hodographs
-from report.figures.plan import is_wide, roof_plan
-from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
+from report.figures.plan import roof_plan
 from report.figures.spectra import spectra
 from report.memoized import memoized
 from report.words.units import Quantity, Unit
 
 __all__ = [
     "FAMILY",
-    "LANDSCAPE",
     "MAX_POINTS",
-    "PORTRAIT",
-    "SMALL",
     "accelerations",
     "clearances",
     "comparison",
     "envelope",
     "histories",
     "hodographs",
-    "is_wide",
     "load_fonts",
     "roof_plan",
     "spectra",

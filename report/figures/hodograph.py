@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from report.assessment.runs import MotionRun
-from report.figures.base import GRAY, INK, WIDTH_IN, style, svg_text, tick_text
+from report.drawing.widths import tick_text
+from report.figures.base import GRAY, INK, WIDTH_IN, canvas, style, svg_text
 from report.memoized import memoized
 from report.words.units import Quantity, round_below
 from solver.model import Floats, SlideHistory
@@ -40,11 +40,7 @@ def hodographs(
     rows = math.ceil(len(paths) / columns)
     tall = rows * (panel.tall_in + TITLE_IN) + FOOT_IN
     with style():
-        figure = Figure(figsize=(WIDTH_IN, tall))
-        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.set_axis_off()
-        axes.set_xlim(0.0, WIDTH_IN)
-        axes.set_ylim(0.0, tall)
+        figure, axes = canvas(WIDTH_IN, tall, (0.0, WIDTH_IN), (0.0, tall))
         for index, (run, path) in enumerate(zip(motions, paths, strict=True)):
             left = index % columns * panel.wide_in
             top = tall - index // columns * (panel.tall_in + TITLE_IN)

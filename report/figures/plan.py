@@ -1,41 +1,66 @@
-"""The roof plan, to scale: what is on the roof, how far it may move, and every clearance.
+"""The roof plan as a picture: paints what `report.drawing.on_paper` places, and decides nothing.
 
-Draws finished numbers; read `plan_figure` first. `report.drawing` writes the same plan as DXF.
+Read `plan_figure` first.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
+from matplotlib.artist import Artist
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle as Round
+from matplotlib.patches import FancyArrowPatch, Polygon
+from matplotlib.text import Text as Words
 
 from report.assessment.project import Assessment
-from report.figures.base import style, svg_text
-from report.figures.labels import Frame
-from report.figures.paper_plan import PlanPaper, round_scale
-from report.figures.plan_dimensions import draw_callout, draw_gap
-from report.figures.plan_key import draw_key
-from report.figures.plan_labels import (
-    label_array,
-    label_edges,
-    label_object,
-    name_spot,
-    reserve_name,
-)
-from report.figures.plan_notes import key_of
-from report.figures.plan_shapes import draw_arrays, draw_coordinates, draw_objects, draw_roof
-from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, PlanSheet, PlanSize, is_us_first
-from report.sheet.schema import Rectangle
-from report.sheet.schema.shapes import around
+from report.drawing.items import Arrow, Circle, Item, Lines, Look, Mark, Outline
+from report.drawing.layers import Layer
+from report.drawing.on_paper import plan_on_paper
+from report.drawing.sheet import PlanSize
+from report.drawing.widths import TYPE_PT
+from report.figures.base import ACCENT, GRAY, INK, PALE, Broken, canvas, style, svg_text
 
-
-def is_wide(assessment: Assessment) -> bool:
-    """Whether the large plan goes on a page in landscape: for a larger scale, or a wide roof."""
-    extent, us_first = _extent(assessment), is_us_first(assessment)
-    flat, tall = (
-        round_scale(_needed(extent, size), us_first).m_per_in for size in (LANDSCAPE, PORTRAIT)
-    )
-    if flat == tall:
-        return extent.x_to_m - extent.x_from_m >= extent.y_to_m - extent.y_from_m
-    return flat < tall
+_LOOKS: Mapping[Look, dict[str, Any]] = {
+    Layer.OUTLINE: {"facecolor": "white", "edgecolor": GRAY, "linewidth": 0.7},
+    Layer.BARE_EDGE: {"linewidth": 1.4, "dashes": (1, 2)},
+    Layer.RUNS: {"facecolor": "#f0d2b6", "edgecolor": "#c8651b", "linewidth": 0.5},
+    Layer.DESIGN: {
+        "facecolor": "none",
+        "edgecolor": INK,
+        "linewidth": 0.7,
+        "linestyle": (0, (4, 2)),
+    },
+    Layer.ARRAY: {"facecolor": "#e8eef5", "edgecolor": ACCENT, "linewidth": 1.2},
+    Layer.OBJECT: {"facecolor": PALE, "edgecolor": INK, "hatch": "///", "linewidth": 0.8},
+    Layer.UNLIKE: {"facecolor": "white", "edgecolor": GRAY, "hatch": "\\\\\\", "linewidth": 0.8},
+    Layer.PARAPET: {"linewidth": 3.2, "solid_capstyle": "butt"},
+    Layer.EDGE: {"linewidth": 1.4, "dashes": (5, 2)},
+    Layer.CLEARANCE: {"linewidth": 1.0},
+    Layer.CLEARANCE_NG: {"linewidth": 1.0},
+    Mark.FAILED: {"facecolor": "white", "edgecolor": INK, "hatch": "xxxxxx", "linewidth": 1.6},
+    Mark.LEADER: {"linewidth": 0.6, "color": GRAY},
+    Mark.FRAME: {"facecolor": "white", "edgecolor": GRAY, "linewidth": 0.4},
+    Mark.BACKING: {"facecolor": "white", "edgecolor": "none"},
+    Mark.NUMBER: {"facecolor": "white", "edgecolor": INK, "linewidth": 0.7},
+    Mark.NUMBER_SAMPLE: {"facecolor": "white", "edgecolor": INK, "linewidth": 0.6},
+    Mark.NG: {"facecolor": INK, "edgecolor": "none"},
+    Mark.SLOPE: {"linewidth": 1.0},
+    Mark.SLOPE_SAMPLE: {"linewidth": 0.8},
+    Layer.NORTH: {"linewidth": 1.1},
+    Mark.TICK: {"linewidth": 0.6},
+    Mark.DARK: {"facecolor": INK, "edgecolor": INK, "linewidth": 0.6},
+    Mark.LIGHT: {"facecolor": "white", "edgecolor": INK, "linewidth": 0.6},
+}
+_ARROW: dict[str, Any] = {
+    "arrowstyle": "-|>",
+    "mutation_scale": 8,
+    "color": INK,
+    "shrinkA": 0,
+    "shrinkB": 0,
+}
 
 
 def roof_plan(assessment: Assessment, size: PlanSize) -> str:
@@ -45,65 +70,34 @@ def roof_plan(assessment: Assessment, size: PlanSize) -> str:
 
 
 def plan_figure(assessment: Assessment, size: PlanSize) -> Figure:
-    """Draw the plan at a round scale."""
-    extent = _extent(assessment)
-    us_first = is_us_first(assessment)
-    scale = round_scale(_needed(extent, size), us_first)
-    left, right, bottom, top = size.fringe
-    wide = (extent.x_to_m - extent.x_from_m) / scale.m_per_in
-    tall = (extent.y_to_m - extent.y_from_m) / scale.m_per_in
-    below = size.key_tall if size.is_key_below else 0.0
-    height = max(tall + bottom + top + below, size.key_tall)
-    room = size.wide - (0.0 if size.is_key_below else size.key_wide) - left - right
-    origin = (
-        left + max(room - wide, 0.0) / 2 - extent.x_from_m / scale.m_per_in,
-        below + bottom + (height - below - bottom - top - tall) / 2
-        - extent.y_from_m / scale.m_per_in,
-    )  # fmt: skip
-    paper = PlanPaper(size.wide, height, scale, origin)
-    plan = PlanSheet.of(assessment, size, paper)
-    key = Frame(size.wide - size.key_wide, 0.0, size.wide, size.key_tall if below else height)
-    paper.placer.take(key)
-    _draw(plan, extent)
-    draw_key(paper, key, key_of(plan))
-    return paper.figure
+    """Paint the plan."""
+    paper = plan_on_paper(assessment, size)
+    figure, axes = canvas(paper.wide, paper.tall, (0.0, paper.wide), (0.0, paper.tall))
+    for order, item in enumerate(paper.items):
+        axes.add_artist(_artist(item)).set_zorder(order)
+    return figure
 
 
-def _draw(plan: PlanSheet, extent: Rectangle) -> None:
-    """Draw everything; labels last, the least movable first."""
-    draw_roof(plan)
-    draw_arrays(plan)
-    draw_objects(plan)
-    for gap in plan.gaps:
-        draw_gap(plan, gap)
-    if plan.size.is_full:
-        draw_coordinates(plan, extent)
-    label_edges(plan, extent)
-    names = [reserve_name(plan, array) for array in plan.assessment.arrays]
-    spots = [spot for item in plan.placed if (spot := name_spot(plan, item)) is not None]
-    for spot in spots:
-        plan.paper.placer.take(spot)
-    for gap in sorted(plan.gaps, key=lambda gap: not gap.of.is_ng):
-        draw_callout(plan, gap)
-    for array, name in zip(plan.assessment.arrays, names, strict=True):
-        plan.paper.placer.release(name)
-        label_array(plan, array, name)
-    for spot in spots:
-        plan.paper.placer.release(spot)
-    for item in plan.placed:
-        label_object(plan, item)
-
-
-def _extent(assessment: Assessment) -> Rectangle:
-    """Return what the plan must show, in plan."""
-    data = assessment.project
-    rows = (*data.arrays, *data.objects, data.roof)
-    return around(row.placed for row in rows if row.placed is not None)
-
-
-def _needed(extent: Rectangle, size: PlanSize) -> float:
-    """Return the least plan length [m] per inch of paper that lets the plan fit."""
-    left, right, bottom, top = size.fringe
-    wide = size.wide - left - right - (0.0 if size.is_key_below else size.key_wide)
-    tall = size.tall - bottom - top - (size.key_tall if size.is_key_below else 0.0)
-    return max((extent.x_to_m - extent.x_from_m) / wide, (extent.y_to_m - extent.y_from_m) / tall)
+def _artist(item: Item) -> Artist:
+    if isinstance(item, Outline):
+        return Polygon(item.points, closed=True, gid=item.name or None, **_LOOKS[item.look])
+    if isinstance(item, Circle):
+        return Round(item.center, item.radius, **_LOOKS[item.look])
+    if isinstance(item, Lines):
+        path = Broken()
+        for points in item.lines:
+            path.add(*zip(*points, strict=True))
+        return Line2D(path.x, path.y, **({"color": INK} | _LOOKS[item.look]))
+    if isinstance(item, Arrow):
+        return FancyArrowPatch(item.tail, item.tip, **(_ARROW | _LOOKS[item.look]))
+    return Words(
+        *item.at,
+        item.words,
+        fontsize=TYPE_PT,
+        color="white" if item.is_light else INK,
+        weight="semibold" if item.is_bold else "regular",
+        ha="center" if item.is_centered else "left",
+        rotation=90 if item.is_upright else 0,
+        rotation_mode="anchor",
+        clip_on=False,
+    )

@@ -13,10 +13,11 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+from matplotlib.ticker import MaxNLocator
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, style, svg_text
 from report.figures.history import envelope
+from report.figures.scales import ticks
 from report.words.units import G_MPS2
 from solver.model import Floats
 from solver.records.record import Record
@@ -108,10 +109,7 @@ def _history(axes: Axes, record: Record) -> None:
     axes.set_title(_cut(record.name, 70), loc="left", weight="semibold", pad=2.0)
     peak = f"PGA {abs(a_g[top]):.3g} g at {t[top]:.2f} s"
     axes.set_title(peak, loc="right", pad=2.0)
-    axes.set_ylabel("a [g]")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    labeled(axes, y="a [g]")
 
 
 def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> None:
@@ -124,16 +122,9 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
     axes.set_xscale("log")
     axes.set_xlim(periods_s[0], periods_s[-1])
     axes.set_ylim(0.0, None)
-    axes.xaxis.set_major_locator(FixedLocator(_TICKS_S))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel("Period T [s]")
-    axes.set_ylabel("Pseudo-acceleration [g]")
+    ticks(axes.xaxis, _TICKS_S)
     word = "spectrum" if len(records) == 1 else "spectra"
-    axes.set_title(f"Response {word}, 5 % damping", loc="left", weight="semibold")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", f"Response {word}, 5 % damping")
 
 
 def _cut(name: str, maximum: int) -> str:

@@ -7,11 +7,10 @@ from typing import Any, NamedTuple
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Polygon
 
 from report.assessment.friction import mu_words
-from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, canvas, style, svg_text
 from report.memoized import memoized
 from report.sheet.schema import Array
 from report.words.units import Quantity, number, pair
@@ -43,11 +42,7 @@ def array_section(array: Array, us_first: bool) -> str:
     """Return the section with b, c, slope and friction, and the forces during downslope slip."""
     drawn = math.radians(drawn_slope_deg(array))
     with style(), mpl.rc_context(_TYPE):
-        figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN))
-        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.set_xlim(0.0, WIDTH_IN)
-        axes.set_ylim(0.0, _HEIGHT_IN)
-        axes.set_axis_off()
+        figure, axes = canvas(WIDTH_IN, _HEIGHT_IN, (0.0, WIDTH_IN), (0.0, _HEIGHT_IN))
         rise = math.tan(drawn)
         _section(axes, _Roof(0.15, 0.58 + 3.0 * rise, drawn), array, us_first)
         _free_body(axes, _Roof(_SPLIT_IN + 0.45, 0.72 + 2.0 * rise, drawn))

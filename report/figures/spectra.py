@@ -10,10 +10,11 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+from matplotlib.ticker import MaxNLocator
 
 from report.assessment.spectra import Spectra
 from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, Broken, bare, style, svg_text
+from report.figures.scales import ticks
 from report.memoized import memoized
 from solver.model import Floats
 
@@ -72,14 +73,8 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
     axes.plot(
         part.periods_s, part.target_g, color=INK, linewidth=1.4, linestyle=_DASHES, label="target"
     )
-    _plain_levels(axes, _LEVELS if high < 30.0 * low else _LEVELS[::3])
+    ticks(axes.yaxis, _LEVELS if high < 30.0 * low else _LEVELS[::3])
     axes.set_title(f"{part.title} [g]", loc="left", weight="semibold", pad=3)
-
-
-def _plain_levels(axes: Axes, levels: Sequence[float]) -> None:
-    axes.yaxis.set_major_locator(FixedLocator(levels))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.yaxis.set_minor_locator(NullLocator())
 
 
 def _ratios(axes: Axes, part: Spectra) -> None:
@@ -90,7 +85,7 @@ def _ratios(axes: Axes, part: Spectra) -> None:
     if high > _FACTOR:
         axes.set_ylim(0.85 * min(low, 1.0), 1.2 * high)
         axes.set_yscale("log")
-        _plain_levels(axes, _LEVELS if high < 20.0 else _LEVELS[::3])
+        ticks(axes.yaxis, _LEVELS if high < 20.0 else _LEVELS[::3])
     else:
         axes.set_ylim(min(low, 1.0) - 0.04, max(high, 1.0) + 0.04)
         axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
@@ -110,12 +105,10 @@ def _lines(axes: Axes, periods_s: Floats, rows: Floats) -> None:
     axes.plot(periods_s, rows.mean(axis=0), color=ACCENT, linewidth=1.8, label="mean")
 
 
-def _finish(axes: Axes, part: Spectra, ticks: Sequence[float], *, is_last: bool) -> None:
+def _finish(axes: Axes, part: Spectra, marked: Sequence[float], *, is_last: bool) -> None:
     axes.set_xscale("log")
-    axes.set_xlim(ticks[0], part.periods_s[-1])
-    axes.xaxis.set_major_locator(FixedLocator(ticks))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set_xlim(marked[0], part.periods_s[-1])
+    ticks(axes.xaxis, marked)
     if is_last:
         axes.set_xlabel("Period T [s]")
     else:

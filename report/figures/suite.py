@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, Broken, bare, style
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, Broken, labeled, style
+from report.figures.scales import ticks
 from solver.synthesis import SpectrumFit
 
 _DPI = 200
@@ -87,12 +87,8 @@ def _spectra(axes: Axes, panel: Panel) -> None:
         label="target",
     )
     axes.set_yscale("log")
-    low, high = axes.get_ylim()
-    axes.yaxis.set_major_locator(FixedLocator([tick for tick in _TICKS_G if low < tick < high]))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.set_ylabel("Pseudo-acceleration [g]")
-    axes.set_title(panel.title, loc="left", weight="semibold")
+    ticks(axes.yaxis, _TICKS_G)
+    labeled(axes, y="Pseudo-acceleration [g]", title=panel.title)
     _periods(axes, periods[-1], periods[0])
 
 
@@ -113,16 +109,11 @@ def _ratios(axes: Axes, panel: Panel) -> None:
     axes.axvspan(slow, periods[0], color=PALE, alpha=0.5, linewidth=0, label=beyond)
     axes.axvspan(periods[-1], fast, color=PALE, alpha=0.5, linewidth=0)
     axes.set_ylim(*_RATIO_RANGE)
-    axes.set_ylabel("Achieved / target")
+    labeled(axes, y="Achieved / target")
     _periods(axes, periods[-1], periods[0])
 
 
 def _periods(axes: Axes, shortest_s: float, longest_s: float) -> None:
     axes.set_xscale("log")
     axes.set_xlim(shortest_s, longest_s)
-    axes.xaxis.set_major_locator(FixedLocator(_TICKS_S))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    ticks(axes.xaxis, _TICKS_S)

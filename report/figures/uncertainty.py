@@ -14,7 +14,8 @@ from matplotlib.ticker import FuncFormatter
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.uncertainty import ResponseSurface
-from report.figures.base import GRAY, INK, bare, framed, style, svg_text, tick_text
+from report.drawing.widths import tick_text
+from report.figures.base import GRAY, INK, bare, framed, style, svg_text
 from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
 from report.memoized import memoized
 from report.words.units import Quantity

@@ -14,6 +14,7 @@ from report.assessment.friction_rows import tested
 from report.assessment.overrides import LOWERING
 from report.assessment.spectra import departures
 from report.document.templates import sentence
+from report.drawing.on_paper import is_wide
 from report.pages.limits import troubles
 from report.pages.parts import PackageData, statistic
 from report.pages.remedies import answers
@@ -69,8 +70,6 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 def plan(package: PackageData) -> Mapping[str, object]:
     """Return how the page of the roof plan lies."""
-    from report.figures.plan import is_wide  # loads the plotting library
-
     return {"page": "landscape" if is_wide(package.assessment) else "portrait"}
 
 

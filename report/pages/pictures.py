@@ -15,6 +15,8 @@ from report.assessment.evidence import Plotted
 from report.assessment.spectra import Spectra, departures
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Requirement, Verdict
+from report.drawing.on_paper import is_wide
+from report.drawing.sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.pages import friction_tests, limits
 from report.pages.parts import PackageData
 from report.typeset.pdf import TEMPLATES
@@ -46,7 +48,7 @@ def draw_assessment(package: PackageData) -> Drawings:
 
     load_charts()
     us_first, assessment = package.fmt.us_first, package.assessment
-    lies = figures.LANDSCAPE if figures.is_wide(assessment) else figures.PORTRAIT
+    lies = LANDSCAPE if is_wide(assessment) else PORTRAIT
     return {
         "inputs-friction": friction_tests.drawings(package),
         "method-motion": [array_section(package.governing.array, us_first)],
@@ -69,9 +71,9 @@ def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[st
     """Yield the plan for the summary in the room that its tables leave; none on a full sheet."""
     from report.figures import charts as figures
 
-    tall = min(_summary_room_in(package, spectra), figures.SMALL.tall)
+    tall = min(_summary_room_in(package, spectra), SMALL.tall)
     if tall >= LEAST_PLAN_IN:
-        yield figures.roof_plan(package.assessment, replace(figures.SMALL, tall=tall))
+        yield figures.roof_plan(package.assessment, replace(SMALL, tall=tall))
 
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, labeled, style, svg_text
 from report.study.results import LimitState
 from report.words.units import Unit, digits_down
 from solver.model import Floats
@@ -67,10 +67,7 @@ def curves(
 def _finish(axes: Axes, x: Floats, along: str, up: str) -> None:
     axes.set_xlim(min(0.0, x[0]), x[-1])
     axes.set_ylim(0.0, None)
-    axes.set_xlabel(along)
-    axes.set_ylabel(up)
-    axes.grid(True)
-    axes.set_axisbelow(True)
+    labeled(axes, along, up)
     axes.legend(
         loc="upper center",
         bbox_to_anchor=(0.5, -0.16),
@@ -78,7 +75,6 @@ def _finish(axes: Axes, x: Floats, along: str, up: str) -> None:
         handlelength=2.4,
         columnspacing=1.0,
     )
-    bare(axes)
 
 
 def contours(
@@ -113,11 +109,7 @@ def contours(
         _contour(axes, grid, design_m, others, unit, height=0.6, colors=INK, linewidths=0.8)
         thick = {"colors": ACCENT, "linewidths": 2.2}
         _contour(axes, grid, design_m, (allowed,), unit, height=0.85, **thick)
-        axes.set_xlabel(along)
-        axes.set_ylabel("Slope [deg]")
-        axes.grid(True)
-        axes.set_axisbelow(True)
-        bare(axes)
+        labeled(axes, along, "Slope [deg]")
         return svg_text(figure)
 
 
@@ -209,10 +201,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
                 )
         axes.set_xlim(0.0, levels[-1])
         axes.set_ylim(0.0, 1.02)
-        axes.set_xlabel(along)
-        axes.set_ylabel("Chance of exceedance")
-        axes.grid(True)
-        axes.set_axisbelow(True)
+        labeled(axes, along, "Chance of exceedance")
         axes.legend(
             loc="upper center",
             bbox_to_anchor=(0.5, -0.22),
@@ -220,7 +209,6 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
             handlelength=2.0,
             columnspacing=0.8,
         )
-        bare(axes)
         return svg_text(figure)
 
 

@@ -22,7 +22,7 @@ from report.entities.marks import Marked
 from report.pages.front import verdict_sentence
 from report.pages.registry import package_data
 from report.pages.summary import attention
-from report.web.plan import NO_VALUE, plan
+from report.web.plan import NO_VALUE, USUAL_PX, plan
 from report.web.tables import Cell, cells, heads, stamp
 
 ONE_AXIS, FULL = "one axis", "full"
@@ -37,8 +37,16 @@ _PROVISIONAL = (
 )
 
 
-def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
-    """Return what the page shows; values that are provisional have no verdict."""
+def answer(
+    assessment: Assessment, *, is_provisional: bool, room_px: int = USUAL_PX
+) -> dict[str, Any]:
+    """Return what the page shows; values that are provisional have no verdict.
+
+    Parameters
+    ----------
+    room_px : int
+        Width that the page has for the plan.
+    """
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = UnitFormat(us_first=marked.fmt.us_first, none=NO_VALUE)
     arrays = list(array_results(marked))
@@ -79,7 +87,7 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
                 for item, assessed in zip(arrays, assessment.arrays, strict=True)
             },
         },
-        "plan": plan(assessment, designs, gaps, fmt, verdict),
+        "plan": plan(assessment, designs, gaps, fmt, verdict, room_px),
     }
 
 

@@ -170,6 +170,7 @@ async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
 async def _assess(request: Request) -> Response:
     asked = await receive_json(request)
     job = {"do": "assess", "values": asked["values"], "moving": bool(asked.get("moving"))}
+    job |= {"room": asked["room"]} if "room" in asked else {}
     rank = Rank.MOVING if job["moving"] else Rank.AT_REST
     return JSONResponse(await desk_of(request).ask(session_of(request), job, rank, asked))
 

@@ -19,6 +19,7 @@ from report.web import views
 from report.web.answers import answer
 from report.web.controls import check, controls, shown
 from report.web.opened import Opened, opened, with_values
+from report.web.plan import USUAL_PX
 from report.web.problems import problems
 from report.web.values import Values, typed
 from solver.model import InputError
@@ -87,7 +88,8 @@ def answer_at(workbook: Path, job: Json) -> Json:
         found = anticipate(start, given.sheet.project)
     else:
         found = _at_rest(workbook, job["values"])
-    return {**answer(found, is_provisional=job["moving"]), "shown": shown(given)}
+    shows = answer(found, is_provisional=job["moving"], room_px=job.get("room", USUAL_PX))
+    return {**shows, "shown": shown(given)}
 
 
 def write(workbook: Path, job: Json) -> Json:

@@ -1,27 +1,57 @@
-"""The roof plan as outlines for the page: what is on the roof, how far it may move, the gaps.
+"""The roof plan for the page: what `report.drawing.on_paper` places, as elements of SVG.
 
-Points are in plan [m], y upward. Reads finished numbers; the package draws the same in
-`report.figures.plan`.
+Placed on the widest sheet that the page has room for; the page places nothing. Reads finished
+numbers; the package paints the same in `report.figures.plan`.
 """
 
 from __future__ import annotations
 
+from bisect import bisect
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from report.assessment.envelopes import design_envelope
-from report.assessment.neighbors import EDGES
-from report.assessment.plan_gaps import PlanGap, plan_gaps
 from report.assessment.project import Assessment
-from report.entities.clearance import ClearanceResult, callout
+from report.assessment.verdict import Verdict
+from report.drawing.items import Arrow, Circle, Item, Look, Mark, Outline, Point, Text
+from report.drawing.layers import Layer
+from report.drawing.on_paper import plan_on_paper
+from report.drawing.paper import Paper
+from report.drawing.sheet import PlanSize
+from report.drawing.widths import TYPE_PT
+from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
-from report.sheet.schema import ObjectKind, ProjectInput, Shape
-from report.sheet.schema.shapes import Point, around, label_point
 from report.web.tables import Cell, ShowVerdict
-from report.words.units import Quantity, round_below
 
 NO_VALUE = "no value"
 """In place of a length that no run gives: nothing is required only where it is zero."""
+
+_TYPE_PX = 13.0  # of the page
+_PX = _TYPE_PX / (TYPE_PT / 72.0)  # in an inch
+_WIDE_PX, _TALL_PX, _KEY_PX = (344, 560, 780), 450.0, 52.0
+USUAL_PX = _WIDE_PX[-1]
+"""Width of the plan on a page that has not said how wide it is."""
+_MOST_PX = 1_000_000
+_CLASSES: Mapping[Look, str] = {
+    Layer.OUTLINE: "roof",
+    Layer.BARE_EDGE: "edge is-bare",
+    Layer.DESIGN: "envelope",
+    Layer.ARRAY: "array",
+    Layer.OBJECT: "object",
+    Layer.UNLIKE: "object is-unlike",
+    Layer.PARAPET: "edge has-parapet",
+    Layer.EDGE: "edge",
+    Layer.CLEARANCE: "gap",
+    Layer.CLEARANCE_NG: "gap",
+    Mark.FAILED: "ng-area",
+    Mark.LEADER: "leader",
+    Mark.FRAME: "backing",
+    Mark.BACKING: "backing",
+    Mark.NUMBER: "number",
+    Mark.NG: "ng-back",
+    Mark.DARK: "dark",
+    Mark.LIGHT: "light",
+}
+"""What begins with `ng-` is a verdict."""
 
 
 def plan(
@@ -30,55 +60,33 @@ def plan(
     clearances: Sequence[ClearanceResult],
     fmt: UnitFormat,
     verdict: ShowVerdict,
+    room_px: int = USUAL_PX,
 ) -> Mapping[str, Any]:
     """Return the plan, with its design displacements and clearances as they are shown."""
-    data = assessment.project
-    extent = _extent(data)
+    words = {name: str(cell["text"]) for name, cell in designs.items()}
+    has_verdicts = verdict(Verdict.OK) is not None
+    wide_px, more_px = _sheet_px(room_px)
+    paper = plan_on_paper(assessment, _size(wide_px), words, has_verdicts=has_verdicts)
     return {
-        "extent": extent,
-        "north_deg": data.roof.north_deg,
-        "roof": _outline(data.roof.placed),
-        "arrays": [
-            {
-                "id": item.id,
-                "outline": _outline(item.array.shape),
-                "downslope_deg": item.array.downslope_deg,
-                "envelope": _points(design_envelope(item)),
-                "center": _point(label_point(item.array.shape)),
-                "label": f"Δ {designs[item.id]['text']}",
-            }
-            for item in assessment.arrays
-        ],
-        "objects": [
-            {
-                "id": item.id,
-                "outline": _outline(item.placed),
-                "is_edge": item.kind in EDGES,
-                "has_parapet": item.kind is ObjectKind.EDGE_WITH_PARAPET,
-            }
-            for item in data.objects
-            if item.placed is not None
-        ],
         "title": "Roof plan to scale",
         "described": [
             {"text": _sentence(row, fmt), "verdict": verdict(row.verdict)} for row in clearances
         ],
-        "gaps": [_gap(gap, fmt, verdict) for gap in plan_gaps(assessment)],
-        "scale_bar": _scale_bar(extent[2] - extent[0], fmt),
+        "size_px": [round(paper.wide * _PX), round(paper.tall * _PX)],
+        "rooms_px": [0 if wide_px == _WIDE_PX[0] else wide_px, more_px],
+        "items": [_element(paper, item) for item in paper.items],
     }
 
 
-def _extent(data: ProjectInput) -> Sequence[float]:
-    rows = (*data.arrays, *data.objects, data.roof)
-    box = around(row.placed for row in rows if row.placed is not None)
-    return [box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m]
+def _sheet_px(room_px: int) -> tuple[int, int]:
+    """Return the width of the widest sheet that there is room for, and from where on none is."""
+    more = bisect(_WIDE_PX[1:], room_px)
+    return _WIDE_PX[more], (*_WIDE_PX[1:], _MOST_PX)[more]
 
 
-def _scale_bar(width_m: float, fmt: UnitFormat) -> Mapping[str, Any]:
-    """Return a round length, about a seventh of the width."""
-    unit = fmt.units(Quantity.PLAN)[0]
-    length = round_below(width_m / 6.0 / unit.si)
-    return {"length_m": length * unit.si, "text": f"{length:g} {unit.symbol}"}
+def _size(wide_px: float) -> PlanSize:
+    wide, tall, key = wide_px / _PX, _TALL_PX / _PX, _KEY_PX / _PX
+    return PlanSize(wide=wide, tall=tall, key_wide=wide, key_tall=key, is_screen=True)
 
 
 def _sentence(row: ClearanceResult, fmt: UnitFormat) -> str:
@@ -87,24 +95,31 @@ def _sentence(row: ClearanceResult, fmt: UnitFormat) -> str:
     return f"{name}: provided {provided}, required {required}"
 
 
-def _gap(gap: PlanGap, fmt: UnitFormat, verdict: ShowVerdict) -> Mapping[str, Any]:
-    start, end = gap.ends
-    return {
-        "number": f"{gap.number}" if gap.is_given else None,
-        "from": _point(start),
-        "to": _point(end),
-        "lines": callout(gap, fmt),
-        "verdict": verdict(gap.verdict),
-    }
+def _element(paper: Paper, item: Item) -> Mapping[str, Any]:
+    """Return an element: its kind, its attributes, its text, and its title as `name`."""
 
+    def at(point: Point) -> tuple[float, float]:
+        return round(point[0] * _PX, 1), round((paper.tall - point[1]) * _PX, 1)
 
-def _outline(shape: Shape | None) -> Sequence[Sequence[float]]:
-    return [] if shape is None else _points(shape.points)
+    def path(points: Sequence[Point]) -> str:
+        return "M" + "L".join(f"{x:g} {y:g}" for x, y in map(at, points))
 
-
-def _points(points: Sequence[Point]) -> Sequence[Sequence[float]]:
-    return [_point(point) for point in points]
-
-
-def _point(point: Point) -> Sequence[float]:
-    return [round(value, 4) for value in point]
+    if isinstance(item, Text):
+        x, y = at(item.at)
+        look = ("strong" if item.is_bold else "label") + (" middle" if item.is_centered else "")
+        return {
+            "kind": "text",
+            "class": "ng-box" if item.is_light else look,
+            "x": x,
+            "y": y,
+            "transform": f"rotate(-90 {x:g} {y:g})" if item.is_upright else None,
+            "text": item.words,
+        }
+    if isinstance(item, Circle):
+        x, y = at(item.center)
+        radius = round(item.radius * _PX, 1)
+        return {"kind": "circle", "class": _CLASSES[item.look], "cx": x, "cy": y, "r": radius}
+    if isinstance(item, Arrow):
+        return {"kind": "path", "class": "arrow", "d": path((item.tail, item.tip))}
+    d = f"{path(item.points)}Z" if isinstance(item, Outline) else "".join(map(path, item.lines))
+    return {"kind": "path", "class": _CLASSES[item.look], "d": d, "name": item.name}

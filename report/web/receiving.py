@@ -54,11 +54,13 @@ def _is_request(asked: object) -> bool:
     if not isinstance(asked, dict):
         return False
     page, number, values = asked.get("page", ""), asked.get("n", 0), asked.get("values", {})
+    room = asked.get("room", 0)
     return (
         isinstance(page, str)
         and len(page) <= 100
         and isinstance(number, int)
         and abs(number) <= _MOST_NUMBER
+        and isinstance(room, int)
         and isinstance(values, dict)
         and len(values) <= _MOST_VALUES
         and all(isinstance(value, int | float | str) for value in values.values())

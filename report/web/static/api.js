@@ -33,8 +33,11 @@ const PATIENCE_MS = 20_000; // with a server that says how far a package is
 const UNREACHABLE =
   "The server does not answer. Check that `roofslip serve` is running, then move a slider or reload the page.";
 
-/** Return the calls of the server; `announce` says a sentence to a screen reader. */
-export function createApi(announce) {
+/**
+ * Return the calls of the server; `announce` says a sentence to a screen reader, and `room` gives
+ * the width that there is for the plan.
+ */
+export function createApi(announce, room) {
   const page = crypto.getRandomValues(new Uint32Array(2)).join("-");
   const newest = new Map();
   let n = 0;
@@ -72,7 +75,7 @@ export function createApi(announce) {
     state: () => open("/api/state"),
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
-    assess: (moving, values) => computed("assess", { moving, values }),
+    assess: (moving, values) => computed("assess", { moving, values, room: room() }),
     slide: (body) => computed("slide", body),
     contour: (body) => computed("contour", body),
     paths: (body) => computed("paths", body),

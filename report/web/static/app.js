@@ -26,9 +26,9 @@ const announce = (sentence) => {
   part("live").textContent = sentence;
 };
 
-const api = createApi(announce);
+const plan = mountPlan(part("plan-drawing"), () => session.again());
+const api = createApi(announce, plan.room);
 const session = createSession(api.assess, show, failAnswer);
-const plan = mountPlan(part("plan-drawing"));
 const views = createViews(api);
 const takeaway = mountTakeaway(
   {

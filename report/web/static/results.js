@@ -1,6 +1,7 @@
 // The verdict, the arrays and the clearances, as the server words them.
 
 import { button, headings, html, note, replace, words } from "./make.js";
+import { withoutMarks } from "./plan.js";
 
 /** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
 function tag(verdict) {
@@ -9,18 +10,13 @@ function tag(verdict) {
 
 /** Return an answer whose values stay while others are computed: no verdict of it does. */
 export function withoutVerdicts({ plan, arrays, clearances, ...rest }) {
-  const { gaps, described } = plan;
   return {
     ...rest,
     verdict: null,
     arrays: withoutTags(arrays),
     clearances: withoutTags(clearances),
-    plan: { ...plan, gaps: gaps.map(withoutVerdict), described: described.map(withoutVerdict) },
+    plan: withoutMarks(plan),
   };
-}
-
-function withoutVerdict(item) {
-  return { ...item, verdict: null };
 }
 
 function withoutTags({ rows, ...table }) {

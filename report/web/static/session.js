@@ -72,6 +72,8 @@ export function createSession(assess, show, fail) {
       rest();
     },
     rest,
+    /** Ask for the full answer again where there is one, which stays until then. */
+    again: () => isMoving || askFull(),
   };
 }
 

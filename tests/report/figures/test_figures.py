@@ -7,6 +7,7 @@ import pytest
 import scenes
 import stand_in
 from report.assessment.spectra import spectra
+from report.drawing.sheet import LANDSCAPE, SMALL
 from report.figures import charts as figures
 
 
@@ -24,8 +25,8 @@ def drawn(assessment):
     """Every chart of the package."""
     parts = spectra(assessment)
     return [
-        figures.roof_plan(assessment, figures.SMALL),
-        figures.roof_plan(assessment, figures.LANDSCAPE),
+        figures.roof_plan(assessment, SMALL),
+        figures.roof_plan(assessment, LANDSCAPE),
         figures.spectra(parts),
         histories(assessment.arrays[0]),
         figures.comparison(assessment.arrays, True),

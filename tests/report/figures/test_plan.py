@@ -13,11 +13,12 @@ import scenes
 import stand_in
 from inputs import NO_SIDES, sides
 from report.assessment.envelopes import keep_clear_words
+from report.drawing.on_paper import is_wide
+from report.drawing.paper import FOOT_M, round_scale, wrapped
+from report.drawing.sheet import LANDSCAPE, PORTRAIT, SMALL
+from report.drawing.widths import TYPE_PT, width_in
 from report.figures.base import style
-from report.figures.labels import TYPE_PT, width_in
-from report.figures.paper_plan import FOOT_M, nice_length, round_scale, wrapped
-from report.figures.plan import is_wide, plan_figure, roof_plan
-from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
+from report.figures.plan import plan_figure, roof_plan
 from report.sheet.schema import Roof
 from sketch import L_FT
 from solver.model import INCH_M
@@ -96,6 +97,12 @@ def patches(drawn):
     return {patch.get_gid(): patch for patch in drawn.axes[0].patches if patch.get_gid()}
 
 
+def place(drawn, name):
+    """Lower left corner and size on paper [in]."""
+    points = patches(drawn)[name].get_xy()
+    return points.min(axis=0), np.ptp(points, axis=0)
+
+
 def extents(drawn):
     """The texts and their extents on paper [in]."""
     renderer = drawn.canvas.get_renderer()
@@ -130,9 +137,8 @@ def test_the_picture_is_at_the_scale_that_it_states(done, size):
     stated = next(t.get_text() for t in drawn.axes[0].texts if t.get_text().startswith("1 in ="))
     feet_per_inch = int(re.fullmatch(r"1 in = (\d+) ft", stated).group(1))
     for name, wide, tall in (("A1", 80, 60), ("T-1", 53, 30)):
-        box = patches(drawn)[name]
-        assert box.get_width() * feet_per_inch == pytest.approx(wide)
-        assert box.get_height() * feet_per_inch == pytest.approx(tall)
+        _, size_in = place(drawn, name)
+        assert size_in * feet_per_inch == pytest.approx([wide, tall])
     svg = roof_plan(done, size)
     points = float(re.search(r'width="([\d.]+)pt"', svg).group(1))
     assert points == pytest.approx(72.0 * size.wide)
@@ -155,17 +161,15 @@ def test_the_name_of_an_upright_edge_is_at_its_middle():
     objects = [*stand_in.project().objects, west]
     drawn = figure(scenes.package(objects=objects).assessment, LANDSCAPE)
     box = next(box for text, box in extents(drawn) if text.get_text().startswith("W: "))
-    array = patches(drawn)["A2"]
-    per_ft = array.get_height() / 60.0
-    _, middle = array.get_xy() + np.array([0.0, (85.0 - 15.0) * per_ft])
+    (_, low), (_, tall) = place(drawn, "A2")
+    middle = low + (85.0 - 15.0) * tall / 60.0
     assert (box.y0 + box.y1) / 2 == pytest.approx(middle, abs=0.02)
 
 
 def on_roof(drawn, points):
     """Points on paper as points of the plan [ft]."""
-    box = patches(drawn)["A2"]
-    x0, y0 = box.get_xy()
-    per_ft = box.get_width() / 60.0
+    (x0, y0), (wide, _) = place(drawn, "A2")
+    per_ft = wide / 60.0
     return [(120.0 + (x - x0) / per_ft, 20.0 + (y - y0) / per_ft) for x, y in points]
 
 
@@ -279,15 +283,11 @@ def test_keep_clear_is_never_rounded_down(inches, us, si):
     assert keep_clear_words(inches * INCH_M, False) == f"keep clear {si} mm"
 
 
-def test_lengths_of_bars_are_nice():
-    assert [nice_length(most) for most in (0.9, 1.0, 4.9, 26.0)] == [0.5, 1.0, 2.0, 20.0]
-
-
 def test_text_is_as_wide_as_it_is_drawn(done):
     for text, box in extents(figure(done, LANDSCAPE)):
         if text.get_rotation() == 0 and text.get_fontsize() == TYPE_PT and text.get_text() != "N":
-            weight = "semibold" if text.get_weight() == "semibold" else "regular"
-            assert width_in(text.get_text(), weight) == pytest.approx(box.width, abs=0.02)
+            is_bold = text.get_weight() == "semibold"
+            assert width_in(text.get_text(), is_bold=is_bold) == pytest.approx(box.width, abs=0.02)
 
 
 def test_wrapped_lines_keep_every_word():

@@ -15,9 +15,9 @@ from report.assessment.evidence import support
 from report.assessment.spectra import spectra
 from report.assessment.verdict import Verdict
 from report.drawing.plan import plan_drawing
+from report.drawing.sheet import LANDSCAPE
 from report.figures.base import load_fonts, style
 from report.figures.plan import plan_figure
-from report.figures.plan_sheet import LANDSCAPE
 from report.pages.summary import summary
 from report.results.json import results_json
 from report.results.xlsx import results_xlsx
@@ -107,5 +107,8 @@ def test_terminal_and_page_mark_it(done, tmp_path):
             row = dict(zip(shown[table]["heads"], cells, strict=True))
             assert all(row[column]["text"].endswith("‡") for column in columns)
             assert all("‡" in row[column].get("title", "‡") for column in columns)
-    assert all(gap["lines"][1].endswith("‡") for gap in shown["plan"]["gaps"])
+    said = {item.get("text", "") for item in shown["plan"]["items"]}
+    required = [words for words in said if words.startswith("required")]
+    assert required
+    assert all(words.endswith("‡") for words in required)
     assert "‡: changed by an override" in shown["model_text"]

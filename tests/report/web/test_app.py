@@ -97,13 +97,28 @@ def test_values_that_no_page_sends_are_refused(client, values, sentence):
 def test_values_of_a_slider_that_moves_are_provisional_and_carry_no_verdict(client):
     found = asked(client, {"friction": 0.95}, moving=True).json()
     assert (found["model"], found["reasons"]) == ("one axis", [])
-    of = [found, *found["plan"]["gaps"], *found["plan"]["described"]]
-    verdicts = [item["verdict"] for item in of]
+    verdicts = [item["verdict"] for item in (found, *found["plan"]["described"])]
     verdicts += [cells[-1] for name in ("arrays", "clearances") for cells in found[name]["rows"]]
     assert set(verdicts) == {None}
+    assert not [item for item in found["plan"]["items"] if item["class"].startswith("ng-")]
 
 
-@pytest.mark.parametrize("body", [b"", b"[]", b"{", b'{"values": 3}', b'{"n": "1"}', b"[" * 90000])
+@pytest.mark.parametrize(
+    ("room", "wide"), [(0, 344), (559, 344), (560, 560), (779, 560), (9999, 780)]
+)
+def test_the_plan_is_placed_on_the_widest_sheet_that_the_page_has_room_for(client, room, wide):
+    body = {"page": "p", "n": 1, "values": {}, "room": room}
+    found = client.post("/api/assess", content=json.dumps(body), headers=JSON).json()["plan"]
+    least, most = found["rooms_px"]
+    assert least <= room < most
+    assert found["size_px"] == [wide, 450]
+    words = [item["text"] for item in found["items"] if item["kind"] == "text"]
+    assert {"A1", "A2", "A3", "1", "6"} <= set(words)
+
+
+@pytest.mark.parametrize(
+    "body", [b"", b"[]", b"{", b'{"values": 3}', b'{"n": "1"}', b'{"room": "1"}', b"[" * 90000]
+)
 def test_a_request_that_is_not_one_of_the_page_is_refused(client, body):
     answer = client.post("/api/assess", content=body, headers=JSON)
     assert error_of(answer).endswith("load the page again")

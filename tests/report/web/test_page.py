@@ -79,7 +79,7 @@ def test_a_first_visit_shows_the_example_running_and_says_what_to_do(untouched):
     # The project and its arrays, whose friction is not tested at their velocities; clearances.
     assert verdicts(page) == ["OK with conditions"] + ["Condition"] * 3 + ["OK"] * 6
     assert page.locator("#plan-drawing .array").count() == 3
-    assert page.locator("#plan-drawing .callout").count() == 6
+    assert page.locator("#plan-drawing .number").count() == 6
     assert page.locator("#bars tbody tr").count() == 7
     assert page.evaluate("document.fonts.check('13px \"Source Sans 3\"')")
     assert page.evaluate("document.body.scrollWidth <= innerWidth")
@@ -131,7 +131,7 @@ def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(
     assert verdicts(page)[0] == "NG"
     failing = numbers(page, "clearances", 6).count("NG")
     assert failing > 0
-    assert page.locator("#plan-drawing .gap.is-ng").count() == failing
+    assert page.locator("#plan-drawing .ng-area").count() == failing
     assert page.locator("#plan-drawing .ng-box").all_text_contents() == ["NG"] * failing
 
 
@@ -145,7 +145,7 @@ WATCH = """() => {
     said: document.querySelector("#live").textContent + document.querySelector("desc").textContent,
     captions: [...document.querySelectorAll(".results caption")]
       .map((caption) => getComputedStyle(caption, "::after").content),
-    heavy: document.querySelectorAll(".gap.is-ng").length,
+    heavy: document.querySelectorAll(".ng-area").length,
   });
   const ofSlider = (event) => event.target.type === "range" && look();
   for (const kind of ["change", "click"]) document.addEventListener(kind, look);
@@ -363,7 +363,7 @@ def test_on_a_tablet_nothing_is_cut_off_and_in_print_no_control_is_left(page):
     assert page.locator("#controls output").first.is_visible()
     assert page.locator("#controls .print-only").first.is_visible()
     page.set_viewport_size({"width": 400, "height": 1100})
-    page.wait_for_selector("#plan-drawing > svg[viewBox^='0 0 400 ']")
+    page.wait_for_selector("#plan-drawing > svg[viewBox^='0 0 344 ']")
     assert page.locator("#plan-drawing").evaluate("(one) => one.clientHeight") > 300
 
 

@@ -284,29 +284,6 @@ def test_without_the_server_no_bar_is_left_and_the_package_can_be_asked_for_agai
     assert takeaway(page, steps) == [["The server does not answer."], None, False]
 
 
-def test_labels_are_placed_near_free_of_one_another_and_inside(page):
-    body = """
-        const frame = { x: 0, y: 0, wide: 300, tall: 200 };
-        const taken = m.along([0, 100], [300, 100]);
-        const boxes = [];
-        for (let k = 0; k < 40; k += 1) {
-          const box = m.place(60, 30, [150, 100], [...taken, ...boxes], frame);
-          if (box) boxes.push(box);
-        }
-        return [boxes, taken];"""
-    boxes, taken = called(page, "place", body)
-    assert len(boxes) > 6
-    for k, box in enumerate(boxes):
-        assert 0 <= box["x"] <= 300 - 60
-        assert 0 <= box["y"] <= 200 - 30
-        for other in [*taken, *boxes[:k]]:
-            apart_x = max(box["x"] - other["x"] - other["wide"], other["x"] - box["x"] - 60)
-            apart_y = max(box["y"] - other["y"] - other["tall"], other["y"] - box["y"] - 30)
-            assert max(apart_x, apart_y) >= 3
-    middles = [abs(box["y"] + 15 - 100) for box in boxes]
-    assert min(middles) == middles[0] < 30
-
-
 def test_hidden_files_and_excels_lock_are_not_sent(page):
     names = ["p/input.xlsx", "p/~$input.xlsx", "p/.DS_Store", "p/records/a.csv", "__MACOSX/p/x"]
     body = "return m.visible(g.map((path) => ({ path }))).map(({ path }) => path);"
@@ -344,7 +321,7 @@ def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_fi
           answers.push((state) => done(new Response(JSON.stringify(state))));
         });
         const tick = () => new Promise((done) => setTimeout(done, 0));
-        const api = m.createApi(() => {}), states = [];
+        const api = m.createApi(() => {}, () => 560), states = [];
         for (const k of [1, 2]) api.upload([]).then((state) => states.push(state));
         for (const k of [1, 0]) {
           answers[k]({ opened: `upload-${k + 1}` });

@@ -1,6 +1,6 @@
-"""What the legend of the roof plan shows: the symbols on it and the field notes.
+"""The field notes in the legend of the roof plan.
 
-Read `report.figures.plan` first.
+Read `report.drawing.on_paper` first.
 """
 
 from __future__ import annotations
@@ -9,53 +9,25 @@ from collections.abc import Iterator, Sequence
 
 from report.assessment.envelopes import (
     KEEP_CLEAR_UNKNOWN,
-    design_envelope,
     keep_clear_m,
     keep_clear_mark,
     keep_clear_words,
-    runs_envelope,
 )
 from report.assessment.friction import mus_words
-from report.assessment.neighbors import bare_edges
 from report.assessment.overrides import MEANING
 from report.assessment.verdict import Verdict
-from report.figures.plan_key import Key, Symbol
-from report.figures.plan_sheet import PlanSheet
-from report.sheet.schema import ObjectKind
+from report.drawing.sheet import PlanSheet
 
 MOST_NAMES = 6
 
 
-def key_of(plan: PlanSheet) -> Key:
-    """Return the legend of what is on the plan."""
-    assessment, full = plan.assessment, plan.size.is_full
-    kinds = {item.kind for item in assessment.project.objects if item.id in plan.shapes}
-    shown = {
-        Symbol.ARRAY: True,
-        Symbol.FIXED: ObjectKind.FIXED in kinds,
-        Symbol.UNLIKE: ObjectKind.UNLIKE_ARRAY in kinds,
-        Symbol.PARAPET: ObjectKind.EDGE_WITH_PARAPET in kinds,
-        Symbol.EDGE: ObjectKind.EDGE_WITHOUT_PARAPET in kinds,
-        Symbol.BARE: bool(bare_edges(assessment.project)),
-        Symbol.DESIGN: any(map(design_envelope, assessment.arrays)),
-        Symbol.RUNS: any(map(runs_envelope, assessment.arrays)),
-        Symbol.GAP: any(gap.of.is_given for gap in plan.gaps),
-        Symbol.FAILED: any(gap.of.is_ng for gap in plan.gaps),
-    }
-    return Key(
-        north_deg=assessment.project.roof.north_deg,
-        us_first=plan.us_first,
-        symbols=tuple(symbol for symbol, is_shown in shown.items() if is_shown and full),
-        notes=tuple(_notes(plan)) if full else (),
-    )
-
-
-def _notes(plan: PlanSheet) -> Iterator[str]:
+def notes_of(plan: PlanSheet) -> Iterator[str]:
+    """Yield the finished sentences of the legend."""
     yield "Δ: design displacement. It may occur in any direction."
     yield f"μ as run: {mus_words(plan.assessment.project.arrays)}."
     distances: dict[str, list[str]] = {}
     for array in plan.assessment.arrays:
-        words = keep_clear_words(keep_clear_m(plan.assessment, array), plan.us_first)
+        words = keep_clear_words(keep_clear_m(plan.assessment, array), plan.fmt.us_first)
         words += keep_clear_mark(plan.assessment, array)
         distances.setdefault(words, []).append(array.id)
     if len(distances) > 3:

@@ -1,0 +1,167 @@
+"""The names on the roof plan: of arrays with their displacement, of objects and of edges.
+
+Read `report.drawing.on_paper` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import product
+
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
+from report.assessment.envelopes import keep_clear_m, keep_clear_mark, keep_clear_words
+from report.assessment.plan_gaps import parapet_note
+from report.drawing.items import Mark
+from report.drawing.paper import LINE_IN, PAD_IN, text_size
+from report.drawing.placer import Frame, centered
+from report.drawing.sheet import PlanSheet
+from report.drawing.widths import tick_text, width_in
+from report.sheet.schema import ObjectKind, Rectangle, RoofObject
+from report.sheet.schema.shapes import Point
+from report.words.units import Quantity, number, pair
+
+ARROW_IN, SCREEN_ARROW_IN = 0.3, 0.2
+_BASE_IN = 0.0625  # from the middle of a line along an edge to its baseline
+
+
+def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
+    """Write the name and height of each edge along it, outside of the roof."""
+    middle = plan.paper.frame(extent).middle
+    for item in plan.edges:
+        shape, words = plan.shapes[item.id], _edge_words(plan, item)
+        if not isinstance(shape, Rectangle):
+            plan.beside(plan.room(item.id), words)
+            continue
+        frame = plan.paper.frame(shape)
+        if width_in(words) > max(frame.wide, frame.tall) or not plan.size.is_full:
+            words = tick_text(item.id)
+        _write_along(plan, frame, middle, words)
+
+
+def _write_along(plan: PlanSheet, frame: Frame, middle: Point, words: str) -> None:
+    """Write words beside a strip, away from the middle of the roof."""
+    (x, y), wide = frame.middle, width_in(words)
+    is_upright = frame.tall > frame.wide
+    aside = 0.05 + LINE_IN / 2
+    if is_upright:
+        x = frame.x1 + aside if x > middle[0] else frame.x0 - aside
+        label, base = centered(x, y, LINE_IN, wide), (x + _BASE_IN, y)
+    else:
+        y = frame.y1 + aside if y > middle[1] else frame.y0 - aside
+        label, base = centered(x, y, wide, LINE_IN), (x, y - _BASE_IN)
+    plan.paper.placer.take(label)
+    plan.paper.text(*base, words, is_centered=True, is_upright=is_upright)
+
+
+def _edge_words(plan: PlanSheet, item: RoofObject) -> str:
+    if item.kind is ObjectKind.EDGE_WITHOUT_PARAPET:
+        return f"{tick_text(item.id)}: no parapet"
+    height = math.nan if item.height_m is None else item.height_m
+    note = parapet_note(plan.assessment, item)
+    return f"{tick_text(item.id)}: parapet {pair(height, Quantity.SIZE, plan.fmt.us_first)}{note}"
+
+
+def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
+    """Keep room for the name of an array, and where possible for all of its label.
+
+    None where the label is written already: on a screen it comes before the clearances.
+    """
+    if plan.size.is_screen and _label_in_middle(plan, array):
+        return None
+    shown = list(_array_labels(plan, array))
+    (wide, tall), name = (text_size(lines, first_bold=True) for lines in (shown[0], shown[-1]))
+    middle = plan.room(array.id).middle
+    plan.paper.placer.avoid(centered(*middle, wide, tall + ARROW_IN))
+    reserved = centered(*middle, *name)
+    plan.paper.placer.take(reserved)
+    return reserved
+
+
+def _label_in_middle(plan: PlanSheet, array: ArrayAssessment) -> bool:
+    """Write as much of a label as has room in the middle of its array; return whether any has."""
+    frame = plan.room(array.id)
+    for lines, arrow in product(_array_labels(plan, array), (SCREEN_ARROW_IN, 0.0)):
+        wide, tall = text_size(lines, first_bold=True)
+        if wide - PAD_IN < frame.wide and tall + arrow < frame.tall:
+            label = centered(*frame.middle, wide, tall + arrow)
+            _write(plan, array, label, lines, arrow)
+            foot = label.y0 + arrow
+            plan.paper.placer.take(Frame(label.x0, foot, label.x1, label.y1))
+            plan.paper.placer.take(centered(label.middle[0], foot - arrow / 2, PAD_IN, arrow))
+            return True
+    return False
+
+
+def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
+    """Label an array inside of it with as many lines as there is room for, or outside."""
+    frame = plan.room(array.id)
+    shown = [(lines, ARROW_IN) for lines in _array_labels(plan, array)]
+    for lines, arrow in (*shown, (shown[-1][0], 0.0)):
+        wide, tall = text_size(lines, first_bold=True)
+        label = plan.paper.placer.place(wide, tall + arrow, frame.middle, _inner(frame))
+        if label is not None:
+            _write(plan, array, label, lines, arrow)
+            return
+    if frame.wide < name.wide or frame.tall < name.tall:
+        plan.beside(frame, tick_text(array.id))
+    else:
+        plan.paper.placer.take(name)
+        plan.paper.label(name, [tick_text(array.id)], first_bold=True)
+
+
+def _write(
+    plan: PlanSheet, array: ArrayAssessment, label: Frame, lines: Sequence[str], arrow: float
+) -> None:
+    """Write the lines of a label, above its arrow if it has one."""
+    above = Frame(label.x0, label.y0 + arrow, label.x1, label.y1)
+    plan.paper.label(above, lines, first_bold=True)
+    if arrow:
+        downslope = math.radians(array.array.downslope_deg)
+        foot = label.middle[0], label.y0 + arrow / 2
+        plan.paper.arrow(Mark.SLOPE, foot, downslope, 0.45 * arrow)
+
+
+def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
+    """Yield the lines of an array's label, then fewer where there is less room."""
+    name, slope = tick_text(array.id), math.degrees(array.array.slope_rad)
+    if plan.designs:
+        yield [name, f"Δ {plan.designs[array.id]}"]
+        yield [name]
+        return
+    if math.isnan(array.permitted_m):
+        yield [name, f"Δ {NOT_PERMITTED}" if array.has_unpermitted_value else "no value"]
+    elif plan.size.is_full:
+        moves = f"Δ {plan.fmt.both(array.design_m, Quantity.SIZE)}{array.design_mark}"
+        keep = keep_clear_words(keep_clear_m(plan.assessment, array), plan.fmt.us_first)
+        keep += keep_clear_mark(plan.assessment, array)
+        yield [name, moves, keep, "no conduit", f"slope {number(slope, 2)}°"]
+        yield [name, moves, keep]
+    if not math.isnan(array.permitted_m):
+        yield [name, f"Δ {plan.fmt.short(array.design_m, Quantity.SIZE)}{array.design_mark}"]
+    yield [name]
+
+
+def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
+    """Return where the name of an object fits in the middle of it, if it does."""
+    frame = plan.room(item.id)
+    wide, tall = text_size([tick_text(item.id)])
+    is_room = wide < frame.wide and tall < frame.tall
+    return centered(*frame.middle, wide, tall) if is_room else None
+
+
+def label_object(plan: PlanSheet, item: RoofObject) -> None:
+    """Name an object inside of it, or beside it with a leader."""
+    frame = plan.room(item.id)
+    words = tick_text(item.id)
+    wide, tall = text_size([words])
+    label = plan.paper.placer.place(wide, tall, frame.middle, _inner(frame))
+    if label is None:
+        plan.beside(frame, words)
+        return
+    plan.paper.box(Mark.BACKING, label)
+    plan.paper.label(label, [words])
+
+
+def _inner(frame: Frame) -> Frame:
+    return Frame(frame.x0 + 0.03, frame.y0 + 0.03, frame.x1 - 0.03, frame.y1 - 0.03)

@@ -1,0 +1,124 @@
+"""The roof plan on paper, to scale: what is on the roof, how far it may move, every clearance.
+
+Places finished numbers and words; `report.figures.plan` and `report.web.plan` paint them. Read
+`plan_on_paper` first. `report.drawing.plan` has the same plan on layers, for CAD.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from report.assessment.project import Assessment
+from report.drawing.callouts import draw_callout, draw_gap
+from report.drawing.items import level
+from report.drawing.key import draw_key
+from report.drawing.labels import (
+    label_array,
+    label_edges,
+    label_object,
+    name_spot,
+    reserve_name,
+)
+from report.drawing.paper import Paper, Scale, round_scale
+from report.drawing.placer import Frame, Placer
+from report.drawing.shapes import draw_coordinates, draw_outlines
+from report.drawing.sheet import LANDSCAPE, PORTRAIT, PlanSheet, PlanSize, is_us_first
+from report.sheet.schema import Rectangle
+from report.sheet.schema.shapes import around
+
+
+def is_wide(assessment: Assessment) -> bool:
+    """Whether the large plan goes on a page in landscape: for a larger scale, or a wide roof."""
+    extent = _extent(assessment)
+    flat, tall = (_scale(assessment, extent, size).m_per_in for size in (LANDSCAPE, PORTRAIT))
+    if flat == tall:
+        return extent.x_to_m - extent.x_from_m >= extent.y_to_m - extent.y_from_m
+    return flat < tall
+
+
+def plan_on_paper(
+    assessment: Assessment,
+    size: PlanSize,
+    designs: Mapping[str, str] | None = None,
+    *,
+    has_verdicts: bool = True,
+) -> Paper:
+    """Return the plan with its labels, at a round scale, or on a screen as large as it can be.
+
+    Parameters
+    ----------
+    designs : mapping of str to str, optional
+        The design displacement of each array in words.
+    """
+    extent = _extent(assessment)
+    paper, key = _empty(extent, size, _scale(assessment, extent, size))
+    paper.placer.take(key)
+    plan = PlanSheet(
+        assessment=assessment,
+        size=size,
+        paper=paper,
+        designs=designs or {},
+        has_verdicts=has_verdicts,
+    )
+    _draw(plan, extent)
+    draw_key(plan, key)
+    paper.items.sort(key=level)
+    return paper
+
+
+def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Frame]:
+    """Return the paper with the plan in the middle of what the legend leaves, and its frame."""
+    left, right, bottom, top = size.fringe
+    wide = (extent.x_to_m - extent.x_from_m) / scale.m_per_in
+    tall = (extent.y_to_m - extent.y_from_m) / scale.m_per_in
+    below = size.key_tall if size.is_key_below else 0.0
+    height = size.tall if size.is_screen else max(tall + bottom + top + below, size.key_tall)
+    room = size.wide - (0.0 if size.is_key_below else size.key_wide) - left - right
+    origin = (
+        left + max(room - wide, 0.0) / 2 - extent.x_from_m / scale.m_per_in,
+        below + bottom + (height - below - bottom - top - tall) / 2
+        - extent.y_from_m / scale.m_per_in,
+    )  # fmt: skip
+    placer = Placer(Frame(0.01, 0.01, size.wide - 0.01, height - 0.01))
+    key = Frame(size.wide - size.key_wide, 0.0, size.wide, size.key_tall if below else height)
+    return Paper(size.wide, height, scale, origin, placer), key
+
+
+def _draw(plan: PlanSheet, extent: Rectangle) -> None:
+    """Draw everything; labels last, the least movable first."""
+    draw_outlines(plan)
+    for gap in plan.gaps:
+        draw_gap(plan, gap)
+    if plan.size.is_full:
+        draw_coordinates(plan, extent)
+    label_edges(plan, extent)
+    names = [reserve_name(plan, array) for array in plan.assessment.arrays]
+    spots = [spot for item in plan.placed if (spot := name_spot(plan, item)) is not None]
+    for spot in spots:
+        plan.paper.placer.take(spot)
+    for gap in sorted(plan.gaps, key=lambda gap: not (gap.of.is_ng or plan.size.is_screen)):
+        draw_callout(plan, gap)
+    for array, name in zip(plan.assessment.arrays, names, strict=True):
+        if name is not None:
+            plan.paper.placer.release(name)
+            label_array(plan, array, name)
+    for spot in spots:
+        plan.paper.placer.release(spot)
+    for item in plan.placed:
+        label_object(plan, item)
+
+
+def _extent(assessment: Assessment) -> Rectangle:
+    """Return what the plan must show, in plan."""
+    data = assessment.project
+    rows = (*data.arrays, *data.objects, data.roof)
+    return around(row.placed for row in rows if row.placed is not None)
+
+
+def _scale(assessment: Assessment, extent: Rectangle, size: PlanSize) -> Scale:
+    """Return the largest scale that lets the plan fit; on paper, a round one."""
+    left, right, bottom, top = size.fringe
+    wide = size.wide - left - right - (0.0 if size.is_key_below else size.key_wide)
+    tall = size.tall - bottom - top - (size.key_tall if size.is_key_below else 0.0)
+    least = max((extent.x_to_m - extent.x_from_m) / wide, (extent.y_to_m - extent.y_from_m) / tall)
+    return Scale("", least) if size.is_screen else round_scale(least, is_us_first(assessment))

@@ -1,0 +1,193 @@
+"""Places labels on a drawing so that none touches another.
+
+Sizes and positions are in inches on paper; draws nothing. Read `Placer` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+_CLEAR_IN = 0.035  # between labels
+_RINGS_IN = np.concatenate((np.arange(0.0, 1.6, 0.06), np.arange(1.6, 4.0, 0.2)))
+_TURNS = np.deg2rad(np.arange(0.0, 360.0, 10.0))
+_OFFSETS = np.column_stack(
+    (np.outer(_RINGS_IN, np.cos(_TURNS)).ravel(), np.outer(_RINGS_IN, np.sin(_TURNS)).ravel())
+)
+_DISTANCES_IN = np.hypot(*_OFFSETS.T)
+_NEAR_IN = 0.4  # tried first
+_TRIED = 200  # candidates whose leaders are checked, the nearest ones
+_AT_START_IN = 0.12  # length of a leader within the mark that it leads from
+
+Point = tuple[float, float]
+
+
+class Frame(NamedTuple):
+    """A rectangle on paper [in]."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+    @property
+    def middle(self) -> Point:
+        """Its center."""
+        return (self.x0 + self.x1) / 2, (self.y0 + self.y1) / 2
+
+    @property
+    def wide(self) -> float:
+        """Its width [in]."""
+        return self.x1 - self.x0
+
+    @property
+    def tall(self) -> float:
+        """Its height [in]."""
+        return self.y1 - self.y0
+
+    @property
+    def corners(self) -> tuple[Point, ...]:
+        """Its corners, counterclockwise from the lower left."""
+        return (self.x0, self.y0), (self.x1, self.y0), (self.x1, self.y1), (self.x0, self.y1)
+
+
+def centered(x: float, y: float, wide: float, tall: float) -> Frame:
+    """Return a frame about a point."""
+    return Frame(x - wide / 2, y - tall / 2, x + wide / 2, y + tall / 2)
+
+
+Corners = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
+
+
+class Placer:
+    """Labels placed so far, and what they should not cover: each a table with a row for a frame."""
+
+    def __init__(self, page: Frame) -> None:
+        self._page = page
+        self._taken, self._threads, self._lines = (np.empty((0, 4)) for _ in range(3))
+
+    def take(self, frame: Frame) -> None:
+        """Reserve a frame: no label will touch it."""
+        self._taken = np.vstack((self._taken, frame))
+
+    def release(self, frame: Frame) -> None:
+        """Give a reserved frame back."""
+        first = int(np.flatnonzero((self._taken == frame).all(axis=1))[0])
+        self._taken = np.delete(self._taken, first, axis=0)
+
+    def avoid(self, frame: Frame) -> None:
+        """Mark a line or a small object, covered only where there is no other room."""
+        self._lines = np.vstack((self._lines, frame))
+
+    def take_segment(self, a: Point, b: Point) -> None:
+        """Reserve a line between two points: no label will touch it, leaders may cross it."""
+        points = np.linspace(a, b, max(2, math.ceil(math.dist(a, b) / 0.06)))
+        self._threads = np.vstack((self._threads, np.hstack((points - 0.01, points + 0.01))))
+
+    def place(
+        self,
+        wide: float,
+        tall: float,
+        near: Point,
+        within: Frame | None = None,
+        maximum: float = 4.0,
+    ) -> Frame | None:
+        """Reserve and return the frame of a label nearest to a point; None if there is no room.
+
+        A straight leader from the point to the label crosses no other label.
+
+        Parameters
+        ----------
+        within : Frame, optional
+            Where it must lie; the page if not given.
+        maximum : float
+            Largest distance of its center from the point [in].
+        """
+        page = self._page if within is None else within
+        frame = _placed(
+            _Label(wide=wide, tall=tall, near=near, page=page, maximum=maximum),
+            *(table.tobytes() for table in (self._taken, self._threads, self._lines)),
+        )
+        if frame is not None:
+            self.take(frame)
+        return frame
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Label:
+    """What is to be placed: the arguments of `Placer.place`."""
+
+    wide: float
+    tall: float
+    near: Point
+    page: Frame
+    maximum: float
+
+
+# While a slider moves, sizes of labels stay: most are placed again where they were.
+@lru_cache(500)
+def _placed(label: _Label, *tables: bytes) -> Frame | None:
+    """Return the frame of a label among what is taken, threads and lines."""
+    rows = [np.frombuffer(table).reshape(-1, 4) for table in tables]
+    # Most labels find room near; what is farther away costs more than its distance.
+    cost, frame = _best(label, min(_NEAR_IN, label.maximum), rows)
+    if cost > _NEAR_IN:
+        _, frame = _best(label, label.maximum, rows)
+    return frame
+
+
+def _best(label: _Label, maximum: float, tables: Sequence[Corners]) -> tuple[float, Frame | None]:
+    """Return the frame that costs least, with its cost; infinity if there is none."""
+    near, page, size = label.near, label.page, np.array((label.wide, label.tall))
+    low = _OFFSETS[maximum >= _DISTANCES_IN] + near - size / 2
+    low = low[np.all(low >= (page.x0, page.y0), axis=1)]
+    low = low[np.all(low + size <= (page.x1, page.y1), axis=1)]
+    if not len(low):
+        return np.inf, None
+    # What no candidate and no leader comes near makes no difference.
+    reach = np.hstack((np.minimum(low.min(axis=0), near), np.maximum(low.max(axis=0) + size, near)))
+    taken, threads, lines = (
+        table[_touches(table[:, :2], table[:, 2:], reach[None], _CLEAR_IN)[:, 0]]
+        for table in tables
+    )
+    everything = np.vstack((taken, threads))
+    low = low[~_touches(low, low + size, everything, _CLEAR_IN).any(axis=1)]
+    if not len(low):
+        return np.inf, None
+    cost = np.hypot(*(low + size / 2 - near).T)
+    cost += 0.6 * _touches(low, low + size, lines, 0.015).sum(axis=1)
+    first = np.argsort(cost, kind="stable")[:_TRIED]
+    low, cost = low[first], cost[first]
+    total = cost + 0.5 * _crossings(low, low + size, near, threads)
+    total[_crossings(low, low + size, near, taken) > 0.0] = np.inf
+    best = int(np.argmin(total))
+    if total[best] == np.inf:
+        return np.inf, None
+    x0, y0 = (float(v) for v in low[best])
+    return float(total[best]), Frame(x0, y0, x0 + label.wide, y0 + label.tall)
+
+
+def _touches(low: Corners, high: Corners, frames: Corners, clear: float) -> Corners:
+    """Return for each candidate and frame whether they come nearer than a distance."""
+    apart = np.zeros((len(low), len(frames)), dtype=bool)
+    for axis in (0, 1):
+        apart |= low[:, axis, None] > frames[None, :, 2 + axis] + clear
+        apart |= high[:, axis, None] < frames[None, :, axis] - clear
+    return ~apart
+
+
+def _crossings(low: Corners, high: Corners, near: Point, frames: Corners) -> Corners:
+    """Return for each candidate how many frames its leader would cross."""
+    start = np.asarray(near)
+    ends = np.clip(start, low, high)
+    at = np.linspace(0.0, 1.0, 16)[:, None, None]
+    flat = (start + at * (ends - start)[None]).reshape(-1, 2)
+    touched = _touches(flat, flat, frames, 0.0)
+    far = np.hypot(*(flat - start).T) > _AT_START_IN
+    crossed = (touched & far[:, None]).reshape(len(at), len(low), -1).any(axis=0)
+    return np.asarray(crossed.sum(axis=1), dtype=float)
