@@ -10,13 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Polygon
 
 from report.assessment.friction import mu_words
+from report.drawing.section import drawn_slope_deg
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, canvas, style, svg_text
 from report.memoized import memoized
 from report.sheet.schema import Array
 from report.words.units import Quantity, number, pair
-
-DRAWN_DEG = (8.0, 15.0)
-"""Flatter roofs are drawn at the first slope, so that it shows; steeper ones at the second."""
 
 _HEIGHT_IN, _SPLIT_IN = 2.0, 3.75
 _TYPE: Any = {"font.size": 9.0}
@@ -49,12 +47,6 @@ def array_section(array: Array, us_first: bool) -> str:
         for x, text in ((0.1, "Section, not to scale"), (_SPLIT_IN + 0.1, "Free body")):
             axes.text(x, _HEIGHT_IN - 0.08, text, va="top", weight="semibold")
         return svg_text(figure)
-
-
-def drawn_slope_deg(array: Array) -> float:
-    """Return the slope at which the roof is drawn [deg]."""
-    least, most = DRAWN_DEG
-    return min(max(math.degrees(array.slope_rad), least), most)
 
 
 def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:

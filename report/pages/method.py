@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from report.drawing.section import drawn_slope_deg
 from report.pages.parts import PackageData, nan_is_worst, statistic
 from report.pages.site import site_force
 from report.sheet.schema import Array, Direction
@@ -54,8 +55,6 @@ def _demand(package: PackageData) -> Mapping[str, object]:
 
 def _motion(package: PackageData) -> Mapping[str, object]:
     """Return the forces with the roof at rest / m g, and the accelerations that begin sliding."""
-    from report.figures.section import drawn_slope_deg  # loads the plotting library
-
     array = package.governing.array
     theta, law, drawn_deg = array.slope_rad, array.friction, drawn_slope_deg(array)
     phi = math.atan(law.mu_static)

@@ -11,9 +11,10 @@ from printed import printed
 from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_rows import tested as series_of
 from report.assessment.verdict import Verdict
+from report.drawing.section import drawn_slope_deg
 from report.figures.base import load_fonts
 from report.figures.friction import friction_by_velocity
-from report.figures.section import array_section, drawn_slope_deg
+from report.figures.section import array_section
 from report.pages.method import weight_per_area_pa
 from report.typeset.pdf import TEMPLATES
 from scenes import TESTS as REPORT
