@@ -33,12 +33,12 @@ from report.sheet.schema import Array
 from solver.model import (
     Floats,
     HorizontalComponent,
-    Motion,
     Orientation,
     Scene,
     SlideResult,
     Status,
 )
+from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes
 
 N_MUS, N_SLOPES = 8, 6
@@ -158,12 +158,13 @@ def uncertainty(given: Assessment) -> Uncertainty:
     """Return how the governing array and every clearance react to what is not known exactly."""
     governing = given.governing
     motion = governing.worst
+    angles = ANGLES_DEG if motion.motion.has_transverse else ()
     with ThreadPoolExecutor(THREADS) as pool:
         return Uncertainty(
-            surface=surface(given, given.governing, pool),
+            surface=surface(given, governing, pool),
             margins=tuple(_margins(given, pool)),
             motion=motion,
-            turned=tuple(pool.map(partial(_turned, governing), _angles(motion.motion))),
+            turned=tuple(pool.map(partial(_turned, governing), angles)),
             reversed_m=_reversed_m(governing),
         )
 
@@ -268,17 +269,12 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
     )
 
 
-def _angles(motion: Motion) -> tuple[float, ...]:
-    return ANGLES_DEG if motion.has_transverse else ()
-
-
 def _turned(array: ArrayAssessment, angle_deg: float) -> RotatedRun:
     motion, angle = array.worst.motion, math.radians(angle_deg)
     cs, sn = math.cos(angle), math.sin(angle)
     along = cs * motion.ax_mps2 - sn * motion.ay_mps2
     across = sn * motion.ax_mps2 + cs * motion.ay_mps2
-    across.setflags(write=False)
-    turned = replace(motion, ax_mps2=along, ay_mps2=across)
+    turned = replace(motion, ax_mps2=read_only(along), ay_mps2=read_only(across))
     run = run_oriented(
         array.array, turned, Orientation(component=HorizontalComponent.RECORD, polarity=1)
     )
@@ -289,6 +285,5 @@ def _reversed_m(array: ArrayAssessment) -> float:
     motion = array.worst.motion
     if not motion.has_vertical:
         return math.nan
-    down = -motion.az_mps2
-    down.setflags(write=False)
-    return run_motion(array.array, replace(motion, az_mps2=down)).governing.result.prd_m
+    mirrored = replace(motion, az_mps2=read_only(-motion.az_mps2))
+    return run_motion(array.array, mirrored).governing.result.prd_m

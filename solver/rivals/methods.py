@@ -17,10 +17,10 @@ import numpy as np
 
 from solver.kernels import one_axis, rivals
 from solver.model import Floats
+from solver.records.record import read_only
 from solver.rivals import regularized
 
-NO_RECORD = np.empty(0)
-NO_RECORD.setflags(write=False)
+NO_RECORD = read_only(np.empty(0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,8 +175,7 @@ def _frozen(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcom
     normal force constant, and a' = -G preserves the drive, vertical shaking included.
     """
     drive, _ = drive_and_cap(scene)
-    a = -drive
-    a.setflags(write=False)
+    a = read_only(-drive)
     x = one_axis.bounds(a)
     none = replace(scene, az=NO_RECORD, z=one_axis.bounds(NO_RECORD))
     flat = replace(none, ax=a, x=x, sn=0.0, cs=1.0, g=scene.g * scene.cs, scale=1.0)
