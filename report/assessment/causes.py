@@ -38,6 +38,7 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     if verdict is not Verdict.NG:
         return of_rows
     statuses = {run.result.status for motion in item.motions for run in motion.runs}
+    is_rigid = all(linked.is_rigid_enough for linked in assessment.linked_of(item))
     on_motions = item.governs is not item.governs.PRESCRIPTIVE
     return [
         *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
@@ -45,7 +46,7 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
         *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
         *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
-        *(["one rigid block"] if _is_not_rigid(assessment, item) else []),
+        *([] if is_rigid else ["one rigid block"]),
         *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
         *of_rows,
     ]
@@ -54,7 +55,3 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
 def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
     words = f"clearance to {gap.across_from(item.id)}"
     return words if gap.is_permitted else f"{words}, no verdict"
-
-
-def _is_not_rigid(assessment: Assessment, item: ArrayAssessment) -> bool:
-    return any(not linked.is_rigid_enough for linked in assessment.linked_of(item))

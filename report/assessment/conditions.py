@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.friction import SHIFT
 from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
@@ -75,9 +76,9 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
 def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Requirement]:
     us_first = data.project.units_first.is_us
     for index, motion in enumerate(prepared):
-        largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
-        more, most = compared(largest, DRIFT_M)
         if drifts(motion):
+            largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
+            more, most = compared(largest, DRIFT_M)
             yield Requirement(
                 id="drift",
                 title="Final displacement of the record",
@@ -251,41 +252,34 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
     )
 
 
-def friction_row(given: ClearanceCheck, reduced: ClearanceCheck, share: float) -> Requirement:
-    """Return whether a clearance that is satisfied stays so with less friction.
-
-    Parameters
-    ----------
-    share : float
-        Fraction by which the friction coefficients are smaller in `reduced`.
-    """
+def friction_row(given: ClearanceCheck, reduced: ClearanceCheck) -> Requirement:
+    """Return whether a clearance that is satisfied stays so with less friction."""
     row = given.clearance
     return _reduced_friction_row(
         row.array,
         f"Clearance {row.array} to {row.object}",
-        (given.verdict, reduced.verdict),
-        share,
+        given.verdict,
+        reduced.verdict,
         "this clearance is NG: confirm the friction coefficient, or provide more clearance",
     )
 
 
-def route_row(given: ArrayAssessment, reduced: ArrayAssessment, share: float) -> Requirement:
+def route_row(given: ArrayAssessment, reduced: ArrayAssessment) -> Requirement:
     """Return whether the route of an array that is permitted stays so with less friction."""
     before, after = (Verdict.OK if item.is_permitted else Verdict.NG for item in (given, reduced))
     return _reduced_friction_row(
         given.id,
         f"The {given.route} route",
-        (before, after),
-        share,
+        before,
+        after,
         "no route is permitted: confirm the friction coefficient",
     )
 
 
 def _reduced_friction_row(
-    subject: str, title: str, verdicts: tuple[Verdict, Verdict], share: float, effect: str
+    subject: str, title: str, given: Verdict, reduced: Verdict, effect: str
 ) -> Requirement:
-    given, reduced = verdicts
-    friction = f"{number(100.0 * share, 0)} % less friction"
+    friction = f"{number(100.0 * SHIFT, 0)} % less friction"
     return Requirement(
         id="less_friction",
         title=f"{title} with {friction}",

@@ -176,9 +176,8 @@ def assess_linked(
 ) -> LinkedArray:
     """Run an array under all its motions as a row of linked blocks and as one rigid block."""
     row = links.row(design.array.weight_n)
-    motions = tuple(
-        pool.map(partial(_run_motion, design.array, row), [run.motion for run in design.motions])
-    )
+    run = partial(_run_motion, design.array, row)
+    motions = tuple(pool.map(run, [run.motion for run in design.motions]))
     basis = design.analysis.basis
     return LinkedArray(
         links=links,
@@ -191,10 +190,9 @@ def assess_linked(
 
 
 def _run_motion(array: Array, row: BlockRow, motion: Motion) -> LinkedMotion:
-    runs = tuple(_run(array, row, motion, orientation) for orientation in motion.orientations)
-    return LinkedMotion(motion=motion, runs=runs)
-
-
-def _run(array: Array, row: BlockRow, motion: Motion, orientation: Orientation) -> LinkedRun:
-    scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    return LinkedRun(orientation=orientation, rigid=one_axis.run(scene), row=slide_row(scene, row))
+    runs = []
+    for orientation in motion.orientations:
+        scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
+        rigid, linked = one_axis.run(scene), slide_row(scene, row)
+        runs.append(LinkedRun(orientation=orientation, rigid=rigid, row=linked))
+    return LinkedMotion(motion=motion, runs=tuple(runs))

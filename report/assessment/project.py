@@ -37,7 +37,7 @@ from report.assessment.friction_velocity import (
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
-from report.assessment.precheck import rule_set_of
+from report.assessment.precheck import building_limits, rule_set_of
 from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
@@ -48,7 +48,6 @@ from report.sheet.reading.read import Sheet
 from report.sheet.schema import Array, ProjectInput
 from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance
-from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import RuleSet
 from solver.rules.spectra import RequiredSpectrum
@@ -302,7 +301,6 @@ def _assess(
         Assesses the same with less friction. With it, one rigid block is compared with a row of
         linked blocks, and the verdicts with those for less friction.
     """
-    site = data.site
     rules = rule_set_of(data)
     started = time.perf_counter()
     runs = [wait() for wait in begun]
@@ -320,19 +318,16 @@ def _assess(
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     required = partial(minimum_gap, data, rules, arrays)
     nearby = neighbors(data, arrays, sheet.addresses, required)
+    horizontal, vertical = ac156(data)
     return Assessment(
         sheet=sheet,
         shaking=shaking,
         project=data,
         rules=rules,
-        horizontal_target=ac156(data)[0],
-        vertical_target=ac156(data)[1],
+        horizontal_target=horizontal,
+        vertical_target=vertical,
         targets=targets(data),
-        building_checks=provisions.building_checks(
-            rules,
-            risk_category=list(type(site.risk_category)).index(site.risk_category) + 1,
-            stories=site.stories,
-        ),
+        building_checks=building_limits(data, rules),
         arrays=arrays,
         clearances=clearances,
         linked=linked,
@@ -359,8 +354,8 @@ def _friction_rows(
     routes = zip(arrays, reduced.arrays, strict=True)
     gaps = zip(clearances, reduced.clearances, strict=True)
     rows = (
-        *(route_row(before, after, SHIFT) for before, after in routes),
-        *(friction_row(before, after, SHIFT) for before, after in gaps),
+        *(route_row(before, after) for before, after in routes),
+        *(friction_row(before, after) for before, after in gaps),
     )
     return [row for row in rows if not row.is_satisfied]
 
