@@ -104,6 +104,11 @@ class ArrayAssessment:
         return self.array.id
 
     @property
+    def runs(self) -> tuple[OrientedRun, ...]:
+        """Every run under every motion."""
+        return tuple(run for motion in self.motions for run in motion.runs)
+
+    @property
     def governs(self) -> DesignBasis:
         """Source of the design displacement."""
         if math.isnan(self.design_m):
@@ -195,6 +200,7 @@ class ArrayAssessment:
     def is_model_enough(self) -> bool:
         """Whether the adequate models require no larger displacement in any direction."""
         pairs = ((self.chosen_toward_m(d), self.design_toward_m(d)) for d in Direction)
+        # A design without a value is NG for that, whatever its model.
         return all(math.isnan(b) or a <= b + least_model.DEFAULT.bound_m(b) for a, b in pairs)
 
     @property
@@ -214,8 +220,7 @@ class ArrayAssessment:
     @property
     def fastest_mps(self) -> float:
         """Largest sliding velocity of all runs [m/s]; NaN where a run gives none."""
-        speeds = (run.result.peak_speed_mps for motion in self.motions for run in motion.runs)
-        return max(speeds, key=nan_is_worst)
+        return max((run.result.peak_speed_mps for run in self.runs), key=nan_is_worst)
 
     @property
     def worst(self) -> MotionRun:
@@ -334,6 +339,7 @@ def assess_array(
         motions=runs,
         analysis=analysis,
         directions=directions,
+        # One object where no model is requested: most arrays need the statistics once.
         chosen=directions if needed is runs else _by_direction(rules, needed, basis),
         needed=needed,
         prescriptive=prescriptive,
@@ -348,10 +354,8 @@ def assess_array(
         checks=limits.both,
         analysis_checks=limits.analysis,
         prescriptive_checks=limits.prescriptive,
-        # The lighter side of a section is at most half of the array.
-        interconnection_n=provisions.interconnection_strength_n(
-            rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
-        ),
+        interconnection_n=interconnection_n(data, rules, array),
+        # The input itself, if it has no override and no departure.
         adopted=None
         if adopted is data
         else assess_array(
@@ -365,9 +369,17 @@ def assess_array(
     )
 
 
+def interconnection_n(data: ProjectInput, rules: RuleSet, array: Array) -> float:
+    """Return the required strength between the parts of an array [N]."""
+    # The lighter side of a section is at most half of the array.
+    return provisions.interconnection_strength_n(
+        rules, s_ds_g=data.site.s_ds, w1_n=array.weight_n / 2.0
+    )
+
+
 def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
-    """Return the check of the run that demands most friction: both of its ratios rise with it."""
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
+    # Both ratios of the check rise with the friction that a run demands.
     worst = max(runs, key=lambda run: run.solution.friction_demand)
     return tipping(worst.scene, supports)
 

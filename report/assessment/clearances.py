@@ -162,7 +162,6 @@ def check_clearance(
 def _marked(
     found: ClearanceCheck, data: ProjectInput, arrays: Sequence[ArrayAssessment]
 ) -> ClearanceCheck:
-    """Return a clearance with its marks."""
     adopted = as_adopted(data)
     if adopted is data:
         return found

@@ -188,7 +188,6 @@ def rows_before_runs(
 
 
 def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
-    """Return whether an array fits between fire lanes."""
     us_first = data.project.units_first.is_us
     plan = array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
@@ -199,28 +198,27 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
         found=pair(largest, Quantity.PLAN, us_first),
         limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, us_first)}",
         basis="fire code†",
-        is_satisfied=largest <= FIRE_LANE_M * (1.0 + 1e-9),
+        is_satisfied=largest <= FIRE_LANE_M * (1.0 + 1e-9),  # 150 ft given in meters is no more
         consequence=Consequence.CONDITION,
         remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
         place=_place(data, array, "x_from_m"),
     )
 
 
-def _interconnection(data: ProjectInput, array: Array, required: float) -> Requirement:
-    """Return whether the strength between the parts of an array is as required [N]."""
+def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
     us_first = data.project.units_first.is_us
     provided = array.interconnection_n
     given = math.nan if provided is None else provided
-    shown, had = compared(required, given)
+    shown, had = compared(required_n, given)
     return Requirement(
         id="interconnection",
         title="Interconnection strength provided",
         subject=array.id,
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first, had),
-        limit=f"≥ {pair(required, Quantity.WEIGHT, us_first, shown)}"
-        + rounding(required, given, Quantity.WEIGHT),
+        limit=f"≥ {pair(required_n, Quantity.WEIGHT, us_first, shown)}"
+        + rounding(required_n, given, Quantity.WEIGHT),
         basis=data.site.rule_set,
-        is_satisfied=provided is not None and provided >= required,
+        is_satisfied=provided is not None and provided >= required_n,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Show that the racking provides the required strength between its parts.",
         place=_place(data, array, "interconnection_n"),
@@ -228,7 +226,6 @@ def _interconnection(data: ProjectInput, array: Array, required: float) -> Requi
 
 
 def _place(data: ProjectInput, array: Array, field: str) -> Place:
-    """Return the cell of a field of an array."""
     return Place("arrays", [each.id for each in data.arrays].index(array.id), field)
 
 

@@ -52,7 +52,6 @@ def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
 
 
 def _sum_m(array: ArrayAssessment, run: MotionRun, factors: tuple[float, ...]) -> float:
-    """Return the sum of the PRDs of a motion as run, and scaled by each factor."""
     # Equal events have equal PRDs: each factor is run once.
     smaller = {
         factor: run_motion(

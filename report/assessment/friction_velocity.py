@@ -52,6 +52,7 @@ class VelocityCheck:
         An array that never slides is not beyond.
         """
         tested_mps = self.tests.velocity_mps
+        # A run without a velocity, NaN, is beyond.
         return not self.fastest_mps <= (0.0 if math.isnan(tested_mps) else tested_mps)
 
     @property
@@ -190,7 +191,6 @@ def _row(
 
 
 def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
-    """Yield the largest velocities of runs and of tests, and the friction used beyond."""
     yield _slides(check.fastest_mps, us_first)
     tested_mps = check.tests.velocity_mps
     if math.isnan(tested_mps):
@@ -210,7 +210,6 @@ def _slides(fastest_mps: float, us_first: bool) -> str:
 
 
 def _outcome(alone: ArrayAssessment, slow: LowVelocityAssessment, us_first: bool) -> Iterator[str]:
-    """Yield the design displacement and the verdicts on the clearances of an array."""
     design_m = alone.design_m
     yield (
         "no design displacement"

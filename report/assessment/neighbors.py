@@ -117,6 +117,7 @@ class PlanNeighbor:
     @property
     def is_short(self) -> bool:
         """Whether no clearance is given and the gap of the plan is not known to be sufficient."""
+        # Where the required separation is NaN, the gap is not known to be sufficient.
         return self.is_missing and not self.gap_m >= self.required_m
 
     @property

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 
 from report.assessment.acceptance import shaking_acceptance
-from report.assessment.arrays import Route, limits_of, statistic_basis
+from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
 from report.assessment.conditions import motion_rows, project_rows, rows_before_runs
 from report.assessment.verdict import Requirement, Verdict
 from report.motions.plausible import record_findings
@@ -113,6 +113,7 @@ def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Findin
         yield from _limit(check, "site", 0, us_first)
     acceptance = shaking_acceptance(shaking, targets(data))
     basis = statistic_basis(data)
+    # Only the statistic counts, not its value, which the runs give.
     few = provisions.analysis_value(rules, [0.0] * len(shaking.motions), basis).basis
     lacking = _lacking(rules, basis, len(shaking.motions)) if few is Basis.TOO_FEW else ""
     routes = [
@@ -154,10 +155,7 @@ def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
 
 
 def _of_array(data: ProjectInput, rules: RuleSet, index: int, array: Array) -> Iterator[Finding]:
-    """Yield what an array alone requires."""
-    required_n = provisions.interconnection_strength_n(
-        rules, s_ds_g=data.site.s_ds, w1_n=array.weight_n / 2.0
-    )
+    required_n = interconnection_n(data, rules, array)
     yield from _requirements(rows_before_runs(data, array, required_n))
     if array.slack_m is None:
         text = f"{array.id}, electrical slack: not given; provide at least the design displacement"

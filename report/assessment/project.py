@@ -150,7 +150,7 @@ class Assessment:
             and item.tipping.is_ok
             and all(check.ok for check in item.limits)
             and item.is_permitted
-            and all(run.result.status is Status.OK for m in item.motions for run in m.runs)
+            and all(run.result.status is Status.OK for run in item.runs)
         )
 
     @property

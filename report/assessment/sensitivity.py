@@ -122,6 +122,7 @@ class Accuracy:
             (after, check)
             for before, after in pairs
             if all(check.ok for check in before.limits)
+            # With less friction another route may be taken, whose limits are other ones.
             for check in replace(after, route=before.route).limits
             if not check.ok
         )
@@ -155,13 +156,12 @@ def accuracy(given: Assessment) -> Accuracy:
 
 
 def _seconds(scene: dict[str, Any]) -> float:
-    """Return the smallest time of several runs: disturbances only lengthen a run."""
     times = []
     for _ in range(7):
         started = time.perf_counter()
         slide(**scene)
         times.append(time.perf_counter() - started)
-    return min(times)
+    return min(times)  # disturbances only lengthen a run
 
 
 def _scene(run: MotionRun) -> dict[str, Any]:
@@ -194,7 +194,12 @@ def _midway(samples: Floats) -> Floats:
 
 
 def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
-    for method in _shown(with_vertical=scene["az_mps2"] is not None):
+    # Regularized friction is too slow. `adaptive` gives the numbers of `paper`, and stands for both
+    # with vertical shaking, which `paper` does not accept.
+    with_vertical = scene["az_mps2"] is not None
+    omitted = {"exact", "regularized", "paper" if with_vertical else "adaptive"}
+    shown = [method for method in METHODS.values() if method.name not in omitted]
+    for method in shown:
         default = dict(method.parameters)
         settings = [method.settings(v, scene["dt_s"], STANDARD_GRAVITY_MPS2) for v in method.sweep]
         for parameters in [default, *(s for s in settings if s != default)]:
@@ -210,13 +215,3 @@ def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
                 result=result,
                 error=abs(result.prd_m / peak_m - 1.0) if has_value else math.nan,
             )
-
-
-def _shown(with_vertical: bool) -> Iterator[Method]:
-    """Yield the methods that apply to the scene, except regularized friction, which is too slow.
-
-    `adaptive` gives the numbers of `paper` and represents both with vertical shaking, which
-    `paper` does not accept.
-    """
-    omitted = {"exact", "regularized", "paper" if with_vertical else "adaptive"}
-    return (method for method in METHODS.values() if method.name not in omitted)

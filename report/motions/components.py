@@ -130,19 +130,17 @@ def read_components(
                 faults += _faults(index, field, error)
     if "record" not in components:
         return faults
+    to_s = row.get("to_s")
+    # Cut to the end time first: beyond it the components of one recording often differ in length.
+    up_to = Processing(to_s=math.inf if to_s is None else to_s)
     try:
-        records = _cut(components, row.get("to_s"))
+        records = {field: process(each.record, up_to) for field, each in components.items()}
     except InputError as error:
         return [*faults, *_faults(index, "record", error)]
     faults += [*_mismatches(index, records), *_unscalable(index, row, records)]
     if faults or any(name not in row for name in MotionInput.model_fields):
         return faults
     return _processed(index, MotionInput(**row), components, records)
-
-
-def _shortest(records: Mapping[str, Record]) -> int:
-    """Return the number of samples that all components have."""
-    return min(len(record.a_mps2) for record in records.values())
 
 
 def _faults(index: int, field: str, error: InputError) -> list[Finding]:
@@ -163,14 +161,7 @@ def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> I
         find_file(book, name)
 
 
-def _cut(components: Mapping[str, Component], to_s: float | None) -> dict[str, Record]:
-    """Return the records up to the end time: components often differ slightly in length."""
-    kept = Processing(to_s=math.inf if to_s is None else to_s)
-    return {field: process(component.record, kept) for field, component in components.items()}
-
-
 def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
-    """Yield components that do not match the horizontal one in time step."""
     horizontal = records["record"]
     for field, record in records.items():
         label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
@@ -223,7 +214,7 @@ def _processed(
 ) -> Components | list[Finding]:
     # Time steps that differ by rounding error are equal from here on, and so are lengths: the
     # components of one recording often differ by a few samples at the end.
-    count = _shortest(records)
+    count = min(len(record.a_mps2) for record in records.values())
     raw = [
         replace(record, dt_s=records["record"].dt_s, a_mps2=record.a_mps2[:count])
         for record in records.values()

@@ -72,9 +72,10 @@ def targets(data: ProjectInput) -> Targets:
     own = data.spectrum
     across = _own(own, [row.horizontal_g for row in own]) if own else None
     upward = [row.vertical_g for row in own if row.vertical_g is not None]
+    has_ground = any(row.recorded_at is RecordedAt.GROUND for row in data.motions)
     return Targets(
         # If there are ground motions, the project-specific spectrum applies at the ground.
-        roof=across if across and not _any_ground(data) else _ac156(roof),
+        roof=across if across and not has_ground else _ac156(roof),
         vertical=_own(own, upward) if upward else _ac156(vertical),
         ground=across or _design(data),
     )
@@ -90,10 +91,6 @@ def ac156(data: ProjectInput) -> tuple[RequiredSpectrum, RequiredSpectrum]:
         tail=tail,
     )
     return horizontal, ac156_vertical(s_ds_g=site.s_ds, tail=tail)
-
-
-def _any_ground(data: ProjectInput) -> bool:
-    return any(row.recorded_at is RecordedAt.GROUND for row in data.motions)
 
 
 def _ac156(spectrum: RequiredSpectrum) -> TargetSpectrum:
