@@ -43,59 +43,35 @@ class Route(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayAssessment:
-    """One array: its runs, the value from analysis, the prescriptive value, the design value.
-
-    Attributes
-    ----------
-    floor_m : float
-        Minimum design displacement without peer review [m]; 0 with peer review.
-    route : Route
-        By which the design displacement is obtained.
-    is_permitted : bool
-        Whether the route is permitted: its limits are satisfied, and by analysis those on the
-        motions.
-    design_m : float
-        Design displacement [m]. By analysis: the larger of the value from analysis and the floor.
-        By the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where
-        a run has no final displacement, or neither route gives a value.
-    by_direction : bool
-        Whether clearances take the displacement toward them, a departure from the rule sets.
-    directions : mapping
-        Value from analysis of the excursions in each direction; `analysis` is that for any.
-    chosen : mapping
-        The same with the adequate models; differs from it where a model is requested.
-    needed : tuple of MotionRun
-        The runs for `chosen`, in the order of `motions`.
-    tipping, uplift : Tipping, Uplift
-        For the run nearest to tipping, and for the run with the smallest normal force.
-    checks : tuple of Check
-        Limits that apply to both routes.
-    analysis_checks, prescriptive_checks : tuple of Check
-        Limits of each route.
-    interconnection_n : float
-        Required strength between the parts of the array [N].
-    adopted : ArrayAssessment or None
-        The same under the rule set as adopted, where the workbook overrides it or departs from it.
-    """
+    """One array: its runs, the value from analysis, the prescriptive value, the design value."""
 
     array: Array
     motions: tuple[MotionRun, ...]
     analysis: AnalysisValue
+    # value from analysis of the excursions in each direction; `analysis` is that for any
     directions: Mapping[Direction, AnalysisValue]
+    # the same with the adequate models; differs from it where a model is requested
     chosen: Mapping[Direction, AnalysisValue]
-    needed: tuple[MotionRun, ...]
+    needed: tuple[MotionRun, ...]  # the runs for `chosen`, in the order of `motions`
     prescriptive: Prescriptive
-    floor_m: float
-    route: Route
+    floor_m: float  # minimum design displacement without peer review [m]; 0 with peer review
+    route: Route  # by which the design displacement is obtained
+    # whether the route is permitted: its limits are satisfied, and by analysis those on the motions
     is_permitted: bool
+    # design displacement [m]. By analysis: the larger of the value from analysis and the floor. By
+    # the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where a run
+    # has no final displacement, or neither route gives a value
     design_m: float
+    # whether clearances take the displacement toward them, a departure from the rule sets
     by_direction: bool
-    tipping: Tipping
-    uplift: Uplift
-    checks: tuple[Limit, ...]
+    tipping: Tipping  # of the run nearest to tipping
+    uplift: Uplift  # of the run with the smallest normal force
+    checks: tuple[Limit, ...]  # limits that apply to both routes
+    # limits of each route
     analysis_checks: tuple[Limit, ...]
     prescriptive_checks: tuple[Limit, ...]
-    interconnection_n: float
+    interconnection_n: float  # required strength between the parts of the array [N]
+    # the same under the rule set as adopted, where the workbook overrides it or departs from it
     adopted: ArrayAssessment | None
 
     @property
@@ -230,15 +206,9 @@ class ArrayAssessment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RouteLimits:
-    """The limits of an array that follow from the input alone, and the route that they leave.
+    """The limits of an array that follow from the input alone, and the route that they leave."""
 
-    Attributes
-    ----------
-    both, analysis, prescriptive : tuple of Check
-        Limits of both routes, and of each.
-    route : Route
-    """
-
+    # limits of both routes, and of each
     both: tuple[Limit, ...]
     analysis: tuple[Limit, ...]
     prescriptive: tuple[Limit, ...]

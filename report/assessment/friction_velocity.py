@@ -30,20 +30,12 @@ VELOCITY_ROW = "friction_velocity"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VelocityCheck:
-    """The friction of an array beyond the velocities tested.
-
-    Attributes
-    ----------
-    friction : Friction
-    fastest_mps : float
-        Largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none.
-    tests : Series
-        The runs of friction tests that govern for the array.
-    """
+    """The friction of an array beyond the velocities tested."""
 
     friction: Friction
+    # largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none
     fastest_mps: float
-    tests: Series
+    tests: Series  # the runs of friction tests that govern for the array
 
     @property
     def is_beyond(self) -> bool:
@@ -90,17 +82,10 @@ def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityChe
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LowVelocityAssessment:
-    """The arrays whose friction depends on velocity, with the low-velocity coefficient alone.
+    """The arrays whose friction depends on velocity, with the low-velocity coefficient alone."""
 
-    Attributes
-    ----------
-    arrays : tuple of ArrayAssessment
-        Empty where no friction depends on velocity.
-    clearances : mapping
-        The clearances of these arrays, by their number in the workbook, from 1.
-    """
-
-    arrays: tuple[ArrayAssessment, ...]
+    arrays: tuple[ArrayAssessment, ...]  # empty where no friction depends on velocity
+    # the clearances of these arrays, by their number in the workbook, from 1
     clearances: Mapping[int, ClearanceCheck]
 
     def of(self, array_id: str) -> ArrayAssessment | None:

@@ -23,19 +23,11 @@ from solver.sliding.row import BlockRow, RowResult, slide_row
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkedRun:
-    """One motion with one horizontal component along the slope: as a row, and as one block.
-
-    Attributes
-    ----------
-    rigid : SlideResult
-        One block with the friction coefficient of the array.
-    row : RowResult
-        The linked blocks, each with its own coefficient.
-    """
+    """One motion with one horizontal component along the slope: as a row, and as one block."""
 
     orientation: Orientation
-    rigid: SlideResult
-    row: RowResult
+    rigid: SlideResult  # one block with the friction coefficient of the array
+    row: RowResult  # the linked blocks, each with its own coefficient
 
     @property
     def prd_m(self) -> float:
@@ -73,25 +65,14 @@ class LinkedMotion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkedArray:
-    """An array as a row of linked blocks, with its design as one rigid block.
+    """An array as a row of linked blocks, with its design as one rigid block."""
 
-    Attributes
-    ----------
-    links : Links
-        As entered in the workbook.
-    design : ArrayAssessment
-        The array as designed.
-    row : BlockRow
-    motions : tuple of LinkedMotion
-    rigid, linked : AnalysisValue
-        Of the single block and of the blocks with the largest PRD, by the statistic of the
-        array; both in one axis with the vertical.
-    """
-
-    links: Links
-    design: ArrayAssessment
+    links: Links  # as entered in the workbook
+    design: ArrayAssessment  # the array as designed
     row: BlockRow
     motions: tuple[LinkedMotion, ...]
+    # of the single block and of the blocks with the largest PRD, by the statistic of the array;
+    # both in one axis with the vertical
     rigid: AnalysisValue
     linked: AnalysisValue
 

@@ -41,16 +41,9 @@ class NearbyKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class BareEdge:
-    """A side of the roof outline, or a part of it, along which no object is an edge.
+    """A side of the roof outline, or a part of it, along which no object is an edge."""
 
-    Attributes
-    ----------
-    name : str
-        As in `west edge of the roof`.
-    ends : tuple of Point
-    """
-
-    name: str
+    name: str  # as in `west edge of the roof`
     ends: tuple[Point, Point]
 
     @property
@@ -69,40 +62,24 @@ class GivenGap:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanNeighbor:
-    """An array, an object or a roof edge near an array, or to which a clearance is given.
+    """An array, an object or a roof edge near an array, or to which a clearance is given."""
 
-    Attributes
-    ----------
-    array, other : str
-        Ids, in the order of the workbook between arrays; `other` names a bare edge in words.
-    near, far : Shape
-        The array, and the other.
-    gap_m : float
-        Smallest distance in plan [m]; negative if they overlap.
-    reach_m : float
-        `REACH_FACTOR` times the larger design displacement of the two [m], or the prescriptive
-        one where none is permitted.
-    required_m : float
-        Required separation between them [m]; NaN without a permitted displacement.
-    mark : str
-        Of the required separation.
-    given : tuple of GivenGap
-        Clearances between them, from either side.
-    to_add : str
-        Cell of the table to which a missing row is to be added.
-    """
-
+    # ids, in the order of the workbook between arrays; `other` names a bare edge in words
     array: str
     other: str
     kind: NearbyKind
+    # of the array, and of the other
     near: Shape
     far: Shape
-    gap_m: float
+    gap_m: float  # smallest distance in plan [m]; negative if they overlap
+    # `REACH_FACTOR` times the larger design displacement of the two [m], or the prescriptive one
+    # where none is permitted
     reach_m: float
-    given: tuple[GivenGap, ...]
-    to_add: str
+    given: tuple[GivenGap, ...]  # clearances between them, from either side
+    to_add: str  # cell of the table to which a missing row is to be added
+    # required separation between them [m]; NaN without a permitted displacement
     required_m: float = math.nan
-    mark: str = ""
+    mark: str = ""  # of the required separation
 
     @property
     def is_near(self) -> bool:

@@ -57,49 +57,30 @@ THREADS = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
-    """Everything that was computed for a project.
-
-    Attributes
-    ----------
-    sheet : Sheet
-    shaking : Shaking
-    project : ProjectInput
-        As assessed: that of the sheet, except for runs with changed friction.
-    horizontal_target, vertical_target : RequiredSpectrum
-        AC156 at the roof.
-    targets : Targets
-        Target spectra of the motions: AC156 or project-specific.
-    linked : tuple of LinkedArray
-        The arrays for which the workbook requests a check of the rigid-block model.
-    neighbors : tuple of PlanNeighbor
-        What the plan shows near each array, with its clearances.
-    acceptance : Acceptance
-        Limits on the motions as run, at the roof.
-    rows : tuple of Requirement
-        Requirements beside the numeric limits, of the project, its motions and its arrays.
-    at_reduced_friction : Assessment or None
-        The same with less friction, from runs that tell whether clearances are satisfied
-        (`report.assessment.rough`); None in that one itself.
-    low_velocity : LowVelocityAssessment
-        Arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`,
-        and in what `reassess` and `anticipate` give.
-    """
+    """Everything that was computed for a project."""
 
     sheet: Sheet
     shaking: Shaking
-    project: ProjectInput
+    project: ProjectInput  # as assessed: that of the sheet, except for runs with changed friction
     rules: RuleSet
+    # AC156 at the roof
     horizontal_target: RequiredSpectrum
     vertical_target: RequiredSpectrum
-    targets: Targets
+    targets: Targets  # target spectra of the motions: AC156 or project-specific
     building_checks: tuple[Limit, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
+    # the arrays for which the workbook requests a check of the rigid-block model
     linked: tuple[LinkedArray, ...]
-    neighbors: tuple[PlanNeighbor, ...]
-    acceptance: Acceptance
+    neighbors: tuple[PlanNeighbor, ...]  # what the plan shows near each array, with its clearances
+    acceptance: Acceptance  # limits on the motions as run, at the roof
+    # requirements beside the numeric limits, of the project, its motions and its arrays
     rows: tuple[Requirement, ...]
+    # the same with less friction, from runs that tell whether clearances are satisfied
+    # (`report.assessment.rough`); None in that one itself
     at_reduced_friction: Assessment | None
+    # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
+    # what `reassess` and `anticipate` give
     low_velocity: LowVelocityAssessment
     solver_seconds: float
 

@@ -31,26 +31,14 @@ MOST_STEPS = 64
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MethodRun:
-    """One method with one setting on the governing run.
+    """One method with one setting on the governing run."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the method.
-    steps : float
-        Steps in each sampling interval.
-    is_default : bool
-        Whether the parameters are the defaults of the method.
-    error : float
-        |PRD / exact PRD - 1|; NaN where the method failed.
-    """
-
-    name: str
+    name: str  # name of the method
     parameters: dict[str, float]
-    steps: float
-    is_default: bool
+    steps: float  # steps in each sampling interval
+    is_default: bool  # whether the parameters are the defaults of the method
     result: SlideResult
-    error: float
+    error: float  # |PRD / exact PRD - 1|; NaN where the method failed
 
     @property
     def method(self) -> Method:
@@ -65,45 +53,24 @@ class MethodRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rivals:
-    """The governing run along the slope alone, by every method.
+    """The governing run along the slope alone, by every method."""
 
-    Attributes
-    ----------
-    array : ArrayAssessment
-        The one with the largest design displacement.
-    motion : MotionRun
-        Its motion with the largest PRD.
-    exact : SlideResult
-        Exact result of its governing run along the slope alone.
-    doubled : float
-        |PRD / PRD - 1| of the exact method with a sample added midway between adjacent samples:
-        the motion is the same, so the change is rounding error. NaN without a displacement.
-    seconds : float
-        Time of the exact run, the smallest of several [s].
-    runs : tuple of MethodRun
-        Empty where nothing slides or the block lifts off.
-    """
-
-    array: ArrayAssessment
-    motion: MotionRun
-    exact: SlideResult
+    array: ArrayAssessment  # the one with the largest design displacement
+    motion: MotionRun  # its motion with the largest PRD
+    exact: SlideResult  # exact result of its governing run along the slope alone
+    # |PRD / PRD - 1| of the exact method with a sample added midway between adjacent samples: the
+    # motion is the same, so the change is rounding error. NaN without a displacement
     doubled: float
-    seconds: float
-    runs: tuple[MethodRun, ...]
+    seconds: float  # time of the exact run, the smallest of several [s]
+    runs: tuple[MethodRun, ...]  # empty where nothing slides or the block lifts off
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Accuracy:
-    """The governing run by every method, and the design with 5 % less and 5 % more friction.
-
-    Attributes
-    ----------
-    rivals : Rivals
-    at_reduced_friction, given, at_increased_friction : Assessment
-        With the friction coefficients decreased, as given, and increased.
-    """
+    """The governing run by every method, and the design with 5 % less and 5 % more friction."""
 
     rivals: Rivals
+    # with the friction coefficients decreased, as given, and increased
     at_reduced_friction: Assessment
     given: Assessment
     at_increased_friction: Assessment

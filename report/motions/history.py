@@ -37,33 +37,18 @@ SIGNS = {Polarity.BOTH: (1, -1), Polarity.AS_RECORDED: (1,), Polarity.REVERSED: 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PreparedMotion:
-    """Processing and scaling of the records of one motion before the runs.
-
-    Attributes
-    ----------
-    motion_id : str
-    recorded_at : RecordedAt
-    done : str
-        Processing, in words.
-    scaling : str
-        In words, without the factor.
-    measures : mapping of str to Measures
-        By name of the component, processed and scaled, at the recording level.
-    scaled : mapping of str to Record
-        The same components as records.
-    roof : mapping of str to RoofMotion
-        Unscaled, by name of the horizontal component; empty for a motion recorded at the roof.
-    unfiltered : tuple of Motion
-        The motion without its high-pass filter; empty if there is none.
-    """
+    """Processing and scaling of the records of one motion before the runs."""
 
     motion_id: str
     recorded_at: RecordedAt
-    done: str
-    scaling: str
+    done: str  # processing, in words
+    scaling: str  # in words, without the factor
+    # by name of the component, processed and scaled, at the recording level
     measures: Mapping[str, Measures]
-    scaled: Mapping[str, Record]
+    scaled: Mapping[str, Record]  # the same components as records
+    # unscaled, by name of the horizontal component; empty for a motion recorded at the roof
     roof: Mapping[str, RoofMotion]
+    # the motion without its high-pass filter; empty if there is none
     unfiltered: tuple[Motion, ...]
 
 

@@ -22,21 +22,13 @@ OWN = "project-specific"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetSpectrum:
-    """A target spectrum, 5 % damping.
+    """A target spectrum, 5 % damping."""
 
-    Attributes
-    ----------
-    name : str
-        Empty if there is no target; the ordinates are then NaN.
-    at : callable
-        Spectral acceleration [g] at frequencies [Hz]; a target given by points is constant
-        beyond them. Not a closure, so that it can be pickled.
-    from_s, to_s : float
-        Range of periods for which it is given [s].
-    """
-
-    name: str
+    name: str  # empty if there is no target; the ordinates are then NaN
+    # spectral acceleration [g] at frequencies [Hz]; a target given by points is constant beyond
+    # them. Not a closure, so that it can be pickled
     at: Target
+    # range of periods for which it is given [s]
     from_s: float
     to_s: float
 

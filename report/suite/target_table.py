@@ -52,22 +52,12 @@ _ROUNDED = 0.01
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetTable:
-    """A target spectrum as read.
+    """A target spectrum as read."""
 
-    Attributes
-    ----------
-    source : str
-        File and sheet.
-    freq_hz, horizontal_g : array, shape (m,)
-        Increasing frequencies [Hz], accelerations [g].
-    vertical_g : array, shape (m,) or (0,)
-        Empty if the table has no vertical.
-    """
-
-    source: str
-    freq_hz: Floats
-    horizontal_g: Floats
-    vertical_g: Floats
+    source: str  # file and sheet
+    freq_hz: Floats  # shape (m,): increasing frequencies [Hz]
+    horizontal_g: Floats  # shape (m,): accelerations [g]
+    vertical_g: Floats  # shape (m,) or (0,): empty if the table has no vertical
 
     @property
     def has_vertical(self) -> bool:
