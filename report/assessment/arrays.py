@@ -43,65 +43,46 @@ class Route(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayAssessment:
-    """One array: its runs, the value from analysis, the prescriptive value, the design value.
-
-    Attributes
-    ----------
-    floor_m : float
-        Minimum design displacement without peer review [m]; 0 with peer review.
-    route : Route
-        By which the design displacement is obtained.
-    is_permitted : bool
-        Whether the route is permitted: its limits are satisfied, and by analysis those on the
-        motions.
-    design_m : float
-        Design displacement [m]. By analysis: the larger of the value from analysis and the floor.
-        By the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where
-        a run has no final displacement, or neither route gives a value.
-    by_direction : bool
-        Whether clearances take the displacement toward them, a departure from the rule sets.
-    directions : mapping
-        Value from analysis of the excursions in each direction; `analysis` is that for any.
-    chosen : mapping
-        The same with the adequate models; differs from it where a model is requested.
-    needed : tuple of MotionRun
-        The runs for `chosen`, in the order of `motions`.
-    tipping, uplift : Tipping, Uplift
-        For the run nearest to tipping, and for the run with the smallest normal force.
-    checks : tuple of Check
-        Limits that apply to both routes.
-    analysis_checks, prescriptive_checks : tuple of Check
-        Limits of each route.
-    interconnection_n : float
-        Required strength between the parts of the array [N].
-    adopted : ArrayAssessment or None
-        The same under the rule set as adopted, where the workbook overrides it or departs from it.
-    """
+    """One array: its runs, the value from analysis, the prescriptive value, the design value."""
 
     array: Array
     motions: tuple[MotionRun, ...]
     analysis: AnalysisValue
+    # value from analysis of the excursions in each direction; `analysis` is that for any
     directions: Mapping[Direction, AnalysisValue]
+    # the same with the adequate models; differs from it where a model is requested
     chosen: Mapping[Direction, AnalysisValue]
-    needed: tuple[MotionRun, ...]
+    needed: tuple[MotionRun, ...]  # the runs for `chosen`, in the order of `motions`
     prescriptive: Prescriptive
-    floor_m: float
-    route: Route
+    floor_m: float  # minimum design displacement without peer review [m]; 0 with peer review
+    route: Route  # by which the design displacement is obtained
+    # whether the route is permitted: its limits are satisfied, and by analysis those on the motions
     is_permitted: bool
+    # design displacement [m]. By analysis: the larger of the value from analysis and the floor. By
+    # the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where a run
+    # has no final displacement, or neither route gives a value
     design_m: float
+    # whether clearances take the displacement toward them, a departure from the rule sets
     by_direction: bool
-    tipping: Tipping
-    uplift: Uplift
-    checks: tuple[Limit, ...]
+    tipping: Tipping  # of the run nearest to tipping
+    uplift: Uplift  # of the run with the smallest normal force
+    checks: tuple[Limit, ...]  # limits that apply to both routes
+    # limits of each route
     analysis_checks: tuple[Limit, ...]
     prescriptive_checks: tuple[Limit, ...]
-    interconnection_n: float
+    interconnection_n: float  # required strength between the parts of the array [N]
+    # the same under the rule set as adopted, where the workbook overrides it or departs from it
     adopted: ArrayAssessment | None
 
     @property
     def id(self) -> str:
         """Name of the array in the workbook."""
         return self.array.id
+
+    @property
+    def runs(self) -> tuple[OrientedRun, ...]:
+        """Every run under every motion."""
+        return tuple(run for motion in self.motions for run in motion.runs)
 
     @property
     def governs(self) -> DesignBasis:
@@ -195,6 +176,7 @@ class ArrayAssessment:
     def is_model_enough(self) -> bool:
         """Whether the adequate models require no larger displacement in any direction."""
         pairs = ((self.chosen_toward_m(d), self.design_toward_m(d)) for d in Direction)
+        # A design without a value is NG for that, whatever its model.
         return all(math.isnan(b) or a <= b + least_model.DEFAULT.bound_m(b) for a, b in pairs)
 
     @property
@@ -214,8 +196,7 @@ class ArrayAssessment:
     @property
     def fastest_mps(self) -> float:
         """Largest sliding velocity of all runs [m/s]; NaN where a run gives none."""
-        speeds = (run.result.peak_speed_mps for motion in self.motions for run in motion.runs)
-        return max(speeds, key=nan_is_worst)
+        return max((run.result.peak_speed_mps for run in self.runs), key=nan_is_worst)
 
     @property
     def worst(self) -> MotionRun:
@@ -225,15 +206,9 @@ class ArrayAssessment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RouteLimits:
-    """The limits of an array that follow from the input alone, and the route that they leave.
+    """The limits of an array that follow from the input alone, and the route that they leave."""
 
-    Attributes
-    ----------
-    both, analysis, prescriptive : tuple of Check
-        Limits of both routes, and of each.
-    route : Route
-    """
-
+    # limits of both routes, and of each
     both: tuple[Limit, ...]
     analysis: tuple[Limit, ...]
     prescriptive: tuple[Limit, ...]
@@ -334,6 +309,7 @@ def assess_array(
         motions=runs,
         analysis=analysis,
         directions=directions,
+        # One object where no model is requested: most arrays need the statistics once.
         chosen=directions if needed is runs else _by_direction(rules, needed, basis),
         needed=needed,
         prescriptive=prescriptive,
@@ -348,10 +324,8 @@ def assess_array(
         checks=limits.both,
         analysis_checks=limits.analysis,
         prescriptive_checks=limits.prescriptive,
-        # The lighter side of a section is at most half of the array.
-        interconnection_n=provisions.interconnection_strength_n(
-            rules, s_ds_g=site.s_ds, w1_n=array.weight_n / 2.0
-        ),
+        interconnection_n=interconnection_n(data, rules, array),
+        # The input itself, if it has no override and no departure.
         adopted=None
         if adopted is data
         else assess_array(
@@ -365,9 +339,17 @@ def assess_array(
     )
 
 
+def interconnection_n(data: ProjectInput, rules: RuleSet, array: Array) -> float:
+    """Return the required strength between the parts of an array [N]."""
+    # The lighter side of a section is at most half of the array.
+    return provisions.interconnection_strength_n(
+        rules, s_ds_g=data.site.s_ds, w1_n=array.weight_n / 2.0
+    )
+
+
 def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
-    """Return the check of the run that demands most friction: both of its ratios rise with it."""
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
+    # Both ratios of the check rise with the friction that a run demands.
     worst = max(runs, key=lambda run: run.solution.friction_demand)
     return tipping(worst.scene, supports)
 

@@ -37,15 +37,17 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     of_rows = [row.cause or lowered(row.title) for row in rows if not row.is_satisfied]
     if verdict is not Verdict.NG:
         return of_rows
-    statuses = {run.result.status for motion in item.motions for run in motion.runs}
+    statuses = {run.result.status for run in item.runs}
+    is_rigid = all(linked.is_rigid_enough for linked in assessment.linked_of(item))
     on_motions = item.governs is not item.governs.PRESCRIPTIVE
     return [
+        # Up to its colon a sentence says what happened, and after it what follows.
         *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
         *(lowered(check.title) for check in item.limits if not check.ok),
         *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
         *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
-        *(["one rigid block"] if _is_not_rigid(assessment, item) else []),
+        *([] if is_rigid else ["one rigid block"]),
         *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
         *of_rows,
     ]
@@ -54,7 +56,3 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
 def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
     words = f"clearance to {gap.across_from(item.id)}"
     return words if gap.is_permitted else f"{words}, no verdict"
-
-
-def _is_not_rigid(assessment: Assessment, item: ArrayAssessment) -> bool:
-    return any(not linked.is_rigid_enough for linked in assessment.linked_of(item))

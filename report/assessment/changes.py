@@ -24,48 +24,28 @@ class ChangeKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Change:
-    """One change.
-
-    Attributes
-    ----------
-    title : str
-        What changed, with the array, motion or clearance that it belongs to.
-    cell : str
-        Address in the workbook; empty for what has no cell.
-    before, now : str
-        As printed.
-    """
+    """One change."""
 
     kind: ChangeKind
-    title: str
+    title: str  # what changed, with the array, motion or clearance that it belongs to
+    # as printed
     before: str
     now: str
-    cell: str = ""
+    cell: str = ""  # address in the workbook; empty for what has no cell
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Changes:
-    """Everything that changed since a former revision.
+    """Everything that changed since a former revision."""
 
-    Attributes
-    ----------
-    revision, date : str
-        Of the former package.
-    items : tuple of Change
-    arrays : frozenset of str
-        Ids of arrays with another result.
-    values : frozenset of (str, str)
-        Array and key of results.json, or array and motion, whose number changed.
-    clearances : frozenset of int
-        Numbers of the clearances that changed, from 1.
-    """
-
+    # of the former package
     revision: str
     date: str
     items: tuple[Change, ...]
-    arrays: frozenset[str]
+    arrays: frozenset[str]  # ids of arrays with another result
+    # array and key of results.json, or array and motion, whose number changed
     values: frozenset[tuple[str, str]]
-    clearances: frozenset[int]
+    clearances: frozenset[int]  # numbers of the clearances that changed, from 1
 
     @property
     def is_asked_for(self) -> bool:

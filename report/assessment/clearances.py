@@ -42,38 +42,22 @@ _OPPOSITE = {Direction.DOWN: Direction.UP, Direction.UP: Direction.DOWN}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClearanceCheck:
-    """A clearance: object across it, governing displacement, required and provided separation.
-
-    Attributes
-    ----------
-    governing_array, governing_direction : str, Direction
-        Array and direction of the governing design displacement: the larger of the two between
-        arrays.
-    importance : float
-        I_e or I_p, as the rule set takes it; 1 where the displacement includes it.
-    factor : float
-        Separation / design displacement, with the importance factor.
-    minimum_m : float
-        Minimum separation of the rule set for this neighbor [m]; 0 for none.
-    design_mark, mark : str
-        Marks of the displacement and of the required separation, where an override or a departure
-        changes them.
-    design_m, required_m : float
-        Design displacement and required separation [m]; NaN without a permitted displacement.
-    is_permitted : bool
-        Whether the arrays beside it have a permitted route; if not, there is no verdict.
-    """
+    """A clearance: object across it, governing displacement, required and provided separation."""
 
     clearance: Clearance
     neighbor: Neighbor
-    importance: float
+    importance: float  # I_e or I_p, as the rule set takes it; 1 where the displacement includes it
+    # of the governing design displacement, the larger of the two between arrays
     governing_array: str
     governing_direction: Direction
-    design_m: float
-    factor: float
-    minimum_m: float
-    required_m: float
+    design_m: float  # design displacement [m]; NaN without a permitted one
+    factor: float  # separation / design displacement, with the importance factor
+    minimum_m: float  # minimum separation of the rule set for this neighbor [m]; 0 for none
+    required_m: float  # required separation [m]; NaN without a permitted displacement
+    # whether the arrays beside it have a permitted route; if not, there is no verdict
     is_permitted: bool
+    # of the displacement and of the required separation, where an override or a departure changes
+    # them
     design_mark: str
     mark: str
 
@@ -162,7 +146,6 @@ def check_clearance(
 def _marked(
     found: ClearanceCheck, data: ProjectInput, arrays: Sequence[ArrayAssessment]
 ) -> ClearanceCheck:
-    """Return a clearance with its marks."""
     adopted = as_adopted(data)
     if adopted is data:
         return found

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.friction import SHIFT
 from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
@@ -75,9 +76,9 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
 def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Requirement]:
     us_first = data.project.units_first.is_us
     for index, motion in enumerate(prepared):
-        largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
-        more, most = compared(largest, DRIFT_M)
         if drifts(motion):
+            largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
+            more, most = compared(largest, DRIFT_M)
             yield Requirement(
                 id="drift",
                 title="Final displacement of the record",
@@ -187,7 +188,6 @@ def rows_before_runs(
 
 
 def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
-    """Return whether an array fits between fire lanes."""
     us_first = data.project.units_first.is_us
     plan = array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
@@ -198,28 +198,27 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
         found=pair(largest, Quantity.PLAN, us_first),
         limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, us_first)}",
         basis="fire code†",
-        is_satisfied=largest <= FIRE_LANE_M * (1.0 + 1e-9),
+        is_satisfied=largest <= FIRE_LANE_M * (1.0 + 1e-9),  # 150 ft given in meters is no more
         consequence=Consequence.CONDITION,
         remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
         place=_place(data, array, "x_from_m"),
     )
 
 
-def _interconnection(data: ProjectInput, array: Array, required: float) -> Requirement:
-    """Return whether the strength between the parts of an array is as required [N]."""
+def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
     us_first = data.project.units_first.is_us
     provided = array.interconnection_n
     given = math.nan if provided is None else provided
-    shown, had = compared(required, given)
+    shown, had = compared(required_n, given)
     return Requirement(
         id="interconnection",
         title="Interconnection strength provided",
         subject=array.id,
         found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first, had),
-        limit=f"≥ {pair(required, Quantity.WEIGHT, us_first, shown)}"
-        + rounding(required, given, Quantity.WEIGHT),
+        limit=f"≥ {pair(required_n, Quantity.WEIGHT, us_first, shown)}"
+        + rounding(required_n, given, Quantity.WEIGHT),
         basis=data.site.rule_set,
-        is_satisfied=provided is not None and provided >= required,
+        is_satisfied=provided is not None and provided >= required_n,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Show that the racking provides the required strength between its parts.",
         place=_place(data, array, "interconnection_n"),
@@ -227,7 +226,6 @@ def _interconnection(data: ProjectInput, array: Array, required: float) -> Requi
 
 
 def _place(data: ProjectInput, array: Array, field: str) -> Place:
-    """Return the cell of a field of an array."""
     return Place("arrays", [each.id for each in data.arrays].index(array.id), field)
 
 
@@ -251,41 +249,34 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
     )
 
 
-def friction_row(given: ClearanceCheck, reduced: ClearanceCheck, share: float) -> Requirement:
-    """Return whether a clearance that is satisfied stays so with less friction.
-
-    Parameters
-    ----------
-    share : float
-        Fraction by which the friction coefficients are smaller in `reduced`.
-    """
+def friction_row(given: ClearanceCheck, reduced: ClearanceCheck) -> Requirement:
+    """Return whether a clearance that is satisfied stays so with less friction."""
     row = given.clearance
     return _reduced_friction_row(
         row.array,
         f"Clearance {row.array} to {row.object}",
-        (given.verdict, reduced.verdict),
-        share,
+        given.verdict,
+        reduced.verdict,
         "this clearance is NG: confirm the friction coefficient, or provide more clearance",
     )
 
 
-def route_row(given: ArrayAssessment, reduced: ArrayAssessment, share: float) -> Requirement:
+def route_row(given: ArrayAssessment, reduced: ArrayAssessment) -> Requirement:
     """Return whether the route of an array that is permitted stays so with less friction."""
     before, after = (Verdict.OK if item.is_permitted else Verdict.NG for item in (given, reduced))
     return _reduced_friction_row(
         given.id,
         f"The {given.route} route",
-        (before, after),
-        share,
+        before,
+        after,
         "no route is permitted: confirm the friction coefficient",
     )
 
 
 def _reduced_friction_row(
-    subject: str, title: str, verdicts: tuple[Verdict, Verdict], share: float, effect: str
+    subject: str, title: str, given: Verdict, reduced: Verdict, effect: str
 ) -> Requirement:
-    given, reduced = verdicts
-    friction = f"{number(100.0 * share, 0)} % less friction"
+    friction = f"{number(100.0 * SHIFT, 0)} % less friction"
     return Requirement(
         id="less_friction",
         title=f"{title} with {friction}",

@@ -19,15 +19,10 @@ class Cumulative:
 
     However the events follow each other, and whatever their directions, the array is nowhere
     farther from where it began than the sum of their PRDs.
-
-    Attributes
-    ----------
-    sums_m : tuple of float
-        For each motion [m]; NaN where a run has no final displacement.
     """
 
     array: ArrayAssessment
-    sums_m: tuple[float, ...]
+    sums_m: tuple[float, ...]  # for each motion [m]; NaN where a run has no final displacement
 
     @property
     def mean_m(self) -> float:
@@ -52,7 +47,6 @@ def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
 
 
 def _sum_m(array: ArrayAssessment, run: MotionRun, factors: tuple[float, ...]) -> float:
-    """Return the sum of the PRDs of a motion as run, and scaled by each factor."""
     # Equal events have equal PRDs: each factor is run once.
     smaller = {
         factor: run_motion(

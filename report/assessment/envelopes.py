@@ -44,7 +44,7 @@ def runs_envelope(array: ArrayAssessment) -> Outline:
     A run is within its excursions downslope, upslope and cross-slope, and within its PRD. Empty if
     a run has no displacement.
     """
-    moves = [point for motion in array.motions for run in motion.runs for point in _region(run)]
+    moves = [point for run in array.runs for point in _region(run)]
     if any(math.isnan(along + across) for along, across in moves):
         return ()
     downslope = math.radians(array.array.downslope_deg)
@@ -118,6 +118,7 @@ def _chain(ordered: Sequence[Point]) -> list[Point]:
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:
+    # Twice the area of a, b, c: above 0 where the way from a over b to c turns left.
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 

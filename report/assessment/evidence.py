@@ -21,42 +21,24 @@ from solver.model import SlideHistory
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plotted:
-    """What most figures show.
-
-    Attributes
-    ----------
-    spectra : tuple of Spectra
-    histories : tuple of tuple of SlideHistory
-        For each array, the governing run of each motion; all NaN where it has no displacement.
-    accuracy : Accuracy
-        The governing run by every method, and the design with changed friction.
-    """
+    """What most figures show."""
 
     spectra: tuple[Spectra, ...]
+    # for each array, the governing run of each motion; all NaN where it has no displacement
     histories: tuple[tuple[SlideHistory, ...], ...]
-    accuracy: Accuracy
+    accuracy: Accuracy  # the governing run by every method, and the design with changed friction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Evidence(Plotted):
-    """Results that support an assessment.
+    """Results that support an assessment."""
 
-    Attributes
-    ----------
-    highpass : tuple of Beyond
-        Effect of the high-pass of each motion on the slip of the governing array.
-    remedies : tuple of Remedy
-        What would satisfy each clearance and array marked NG.
-    uncertainty : Uncertainty
-        Effects of friction, slope and directions of shaking that are not run.
-    cumulative : tuple of Cumulative
-        For each array, if the workbook names smaller events.
-    """
-
+    # effect of the high-pass of each motion on the slip of the governing array
     highpass: tuple[Beyond, ...]
-    remedies: tuple[Remedy, ...]
+    remedies: tuple[Remedy, ...]  # what would satisfy each clearance and array marked NG
+    # effects of friction, slope and directions of shaking that are not run
     uncertainty: Uncertainty
-    cumulative: tuple[Cumulative, ...]
+    cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
 
 
 def plotted(assessment: Assessment) -> Plotted:

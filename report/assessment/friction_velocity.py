@@ -30,20 +30,12 @@ VELOCITY_ROW = "friction_velocity"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VelocityCheck:
-    """The friction of an array beyond the velocities tested.
-
-    Attributes
-    ----------
-    friction : Friction
-    fastest_mps : float
-        Largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none.
-    tests : Series
-        The runs of friction tests that govern for the array.
-    """
+    """The friction of an array beyond the velocities tested."""
 
     friction: Friction
+    # largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none
     fastest_mps: float
-    tests: Series
+    tests: Series  # the runs of friction tests that govern for the array
 
     @property
     def is_beyond(self) -> bool:
@@ -52,6 +44,7 @@ class VelocityCheck:
         An array that never slides is not beyond.
         """
         tested_mps = self.tests.velocity_mps
+        # A run without a velocity, NaN, is beyond.
         return not self.fastest_mps <= (0.0 if math.isnan(tested_mps) else tested_mps)
 
     @property
@@ -89,17 +82,10 @@ def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityChe
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LowVelocityAssessment:
-    """The arrays whose friction depends on velocity, with the low-velocity coefficient alone.
+    """The arrays whose friction depends on velocity, with the low-velocity coefficient alone."""
 
-    Attributes
-    ----------
-    arrays : tuple of ArrayAssessment
-        Empty where no friction depends on velocity.
-    clearances : mapping
-        The clearances of these arrays, by their number in the workbook, from 1.
-    """
-
-    arrays: tuple[ArrayAssessment, ...]
+    arrays: tuple[ArrayAssessment, ...]  # empty where no friction depends on velocity
+    # the clearances of these arrays, by their number in the workbook, from 1
     clearances: Mapping[int, ClearanceCheck]
 
     def of(self, array_id: str) -> ArrayAssessment | None:
@@ -190,7 +176,6 @@ def _row(
 
 
 def _found(check: VelocityCheck, us_first: bool) -> Iterator[str]:
-    """Yield the largest velocities of runs and of tests, and the friction used beyond."""
     yield _slides(check.fastest_mps, us_first)
     tested_mps = check.tests.velocity_mps
     if math.isnan(tested_mps):
@@ -210,7 +195,6 @@ def _slides(fastest_mps: float, us_first: bool) -> str:
 
 
 def _outcome(alone: ArrayAssessment, slow: LowVelocityAssessment, us_first: bool) -> Iterator[str]:
-    """Yield the design displacement and the verdicts on the clearances of an array."""
     design_m = alone.design_m
     yield (
         "no design displacement"

@@ -28,7 +28,6 @@ def _is_studied(site: Site) -> bool:
 
 
 def _source(site: Site) -> Requirement:
-    """Return whether it is stated where the parameters come from."""
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
     if not _is_studied(site):
         found, is_complete = stated((source, date))
@@ -57,7 +56,6 @@ def _source(site: Site) -> Requirement:
 
 
 def _category(site: Site) -> Requirement:
-    """Return whether the SDC was compared with all that it depends on."""
     lacking = site.sdc_lacks
     missing = " and ".join(lacking)
     found = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
@@ -76,7 +74,6 @@ def _category(site: Site) -> Requirement:
 
 
 def _site_class(site: Site) -> Iterator[Requirement]:
-    """Yield a site class that nobody determined, with what then holds."""
     if site.assumed_class != BY_DEFAULT or _is_studied(site):
         return
     holds = (
@@ -99,7 +96,6 @@ def _site_class(site: Site) -> Iterator[Requirement]:
 
 
 def _site_specific(site: Site) -> Iterator[Requirement]:
-    """Yield where a site-specific hazard analysis is required, or may be."""
     reason, missing = site_specific_reason(
         site.edition, site_class=site.assumed_class, s_s_g=site.s_s_g, s_1_g=site.s_1_g
     )

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import Assessment
 from report.assessment.runs import run_motion
 
@@ -34,18 +33,14 @@ def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
     """Rerun the governing array without high-pass under every motion that has one."""
     rows, governing = assessment.project.motions, assessment.governing
     corners = {row.id: row.highpass_hz or math.nan for row in rows}
+    as_run_m = {run.motion.id: run.governing.prd_m for run in governing.motions}
     return tuple(
         Beyond(
             motion_id=bare.id,
             corner_hz=corners[bare.id],
-            filtered_m=_prd_m(governing, bare.id),
+            filtered_m=as_run_m[bare.id],
             unfiltered_m=run_motion(governing.array, bare).governing.prd_m,
         )
         for prepared in assessment.shaking.prepared
         for bare in prepared.unfiltered
     )
-
-
-def _prd_m(array: ArrayAssessment, motion_id: str) -> float:
-    run = next(run for run in array.motions if run.motion.id == motion_id)
-    return run.governing.prd_m

@@ -23,19 +23,11 @@ from solver.sliding.row import BlockRow, RowResult, slide_row
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkedRun:
-    """One motion with one horizontal component along the slope: as a row, and as one block.
-
-    Attributes
-    ----------
-    rigid : SlideResult
-        One block with the friction coefficient of the array.
-    row : RowResult
-        The linked blocks, each with its own coefficient.
-    """
+    """One motion with one horizontal component along the slope: as a row, and as one block."""
 
     orientation: Orientation
-    rigid: SlideResult
-    row: RowResult
+    rigid: SlideResult  # one block with the friction coefficient of the array
+    row: RowResult  # the linked blocks, each with its own coefficient
 
     @property
     def prd_m(self) -> float:
@@ -73,25 +65,14 @@ class LinkedMotion:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LinkedArray:
-    """An array as a row of linked blocks, with its design as one rigid block.
+    """An array as a row of linked blocks, with its design as one rigid block."""
 
-    Attributes
-    ----------
-    links : Links
-        As entered in the workbook.
-    design : ArrayAssessment
-        The array as designed.
-    row : BlockRow
-    motions : tuple of LinkedMotion
-    rigid, linked : AnalysisValue
-        Of the single block and of the blocks with the largest PRD, by the statistic of the
-        array; both in one axis with the vertical.
-    """
-
-    links: Links
-    design: ArrayAssessment
+    links: Links  # as entered in the workbook
+    design: ArrayAssessment  # the array as designed
     row: BlockRow
     motions: tuple[LinkedMotion, ...]
+    # of the single block and of the blocks with the largest PRD, by the statistic of the array;
+    # both in one axis with the vertical
     rigid: AnalysisValue
     linked: AnalysisValue
 
@@ -176,9 +157,8 @@ def assess_linked(
 ) -> LinkedArray:
     """Run an array under all its motions as a row of linked blocks and as one rigid block."""
     row = links.row(design.array.weight_n)
-    motions = tuple(
-        pool.map(partial(_run_motion, design.array, row), [run.motion for run in design.motions])
-    )
+    run = partial(_run_motion, design.array, row)
+    motions = tuple(pool.map(run, [run.motion for run in design.motions]))
     basis = design.analysis.basis
     return LinkedArray(
         links=links,
@@ -191,10 +171,9 @@ def assess_linked(
 
 
 def _run_motion(array: Array, row: BlockRow, motion: Motion) -> LinkedMotion:
-    runs = tuple(_run(array, row, motion, orientation) for orientation in motion.orientations)
-    return LinkedMotion(motion=motion, runs=runs)
-
-
-def _run(array: Array, row: BlockRow, motion: Motion, orientation: Orientation) -> LinkedRun:
-    scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    return LinkedRun(orientation=orientation, rigid=one_axis.run(scene), row=slide_row(scene, row))
+    runs = []
+    for orientation in motion.orientations:
+        scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
+        rigid, linked = one_axis.run(scene), slide_row(scene, row)
+        runs.append(LinkedRun(orientation=orientation, rigid=rigid, row=linked))
+    return LinkedMotion(motion=motion, runs=tuple(runs))

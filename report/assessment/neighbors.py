@@ -41,16 +41,9 @@ class NearbyKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class BareEdge:
-    """A side of the roof outline, or a part of it, along which no object is an edge.
+    """A side of the roof outline, or a part of it, along which no object is an edge."""
 
-    Attributes
-    ----------
-    name : str
-        As in `west edge of the roof`.
-    ends : tuple of Point
-    """
-
-    name: str
+    name: str  # as in `west edge of the roof`
     ends: tuple[Point, Point]
 
     @property
@@ -69,40 +62,24 @@ class GivenGap:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanNeighbor:
-    """An array, an object or a roof edge near an array, or to which a clearance is given.
+    """An array, an object or a roof edge near an array, or to which a clearance is given."""
 
-    Attributes
-    ----------
-    array, other : str
-        Ids, in the order of the workbook between arrays; `other` names a bare edge in words.
-    near, far : Shape
-        The array, and the other.
-    gap_m : float
-        Smallest distance in plan [m]; negative if they overlap.
-    reach_m : float
-        `REACH_FACTOR` times the larger design displacement of the two [m], or the prescriptive
-        one where none is permitted.
-    required_m : float
-        Required separation between them [m]; NaN without a permitted displacement.
-    mark : str
-        Of the required separation.
-    given : tuple of GivenGap
-        Clearances between them, from either side.
-    to_add : str
-        Cell of the table to which a missing row is to be added.
-    """
-
+    # ids, in the order of the workbook between arrays; `other` names a bare edge in words
     array: str
     other: str
     kind: NearbyKind
+    # of the array, and of the other
     near: Shape
     far: Shape
-    gap_m: float
+    gap_m: float  # smallest distance in plan [m]; negative if they overlap
+    # `REACH_FACTOR` times the larger design displacement of the two [m], or the prescriptive one
+    # where none is permitted
     reach_m: float
-    given: tuple[GivenGap, ...]
-    to_add: str
+    given: tuple[GivenGap, ...]  # clearances between them, from either side
+    to_add: str  # cell of the table to which a missing row is to be added
+    # required separation between them [m]; NaN without a permitted displacement
     required_m: float = math.nan
-    mark: str = ""
+    mark: str = ""  # of the required separation
 
     @property
     def is_near(self) -> bool:
@@ -117,6 +94,7 @@ class PlanNeighbor:
     @property
     def is_short(self) -> bool:
         """Whether no clearance is given and the gap of the plan is not known to be sufficient."""
+        # Where the required separation is NaN, the gap is not known to be sufficient.
         return self.is_missing and not self.gap_m >= self.required_m
 
     @property
@@ -144,17 +122,17 @@ class PlanNeighbor:
                 else "nearer than is required"
             )
             return (f"{self.to_add}: {apart}, {near}, and no clearance is given; {what}",)
-        noun = _noun(self.near, self.far)
-        return tuple(
-            f"{row.cell}: provided clearance is {_both(row.clearance.provided_m, us_first)}, but "
-            f"{apart}{self._short_in_plan(row)}; correct the clearance or the {noun}"
-            for row in self.contradictions
-        )
-
-    def _short_in_plan(self, row: GivenGap) -> str:
-        """Return that a clearance suffices as given and would not as drawn, if so."""
-        breaks = self.gap_m < self.required_m <= row.clearance.provided_m
-        return ", which would be NG" if breaks else ""
+        are_boxes = isinstance(self.near, Rectangle) and isinstance(self.far, Rectangle)
+        found = []
+        for row in self.contradictions:
+            provided_m = row.clearance.provided_m
+            breaks = self.gap_m < self.required_m <= provided_m  # sufficient only as given
+            found.append(
+                f"{row.cell}: provided clearance is {_both(provided_m, us_first)}, but {apart}"
+                f"{', which would be NG' if breaks else ''}; correct the clearance or the "
+                f"{'rectangles' if are_boxes else 'outlines'}"
+            )
+        return tuple(found)
 
 
 def _both(value_m: float, us_first: bool) -> str:
@@ -178,13 +156,11 @@ def neighbors(
     required : callable
         Returns the required separation of a pair [m], and its mark.
     """
-    pairs = _pairs(data, arrays, addresses)
-    complete = (_requiring(each, *required(each)) for each in pairs)
-    return tuple(each for each in complete if each.given or each.is_near)
-
-
-def _requiring(pair: PlanNeighbor, required_m: float, mark: str) -> PlanNeighbor:
-    return replace(pair, required_m=required_m, mark=mark)
+    found = []
+    for each in _pairs(data, arrays, addresses):
+        required_m, mark = required(each)
+        found.append(replace(each, required_m=required_m, mark=mark))
+    return tuple(each for each in found if each.given or each.is_near)
 
 
 def unplaced(data: ProjectInput) -> tuple[str, ...]:
@@ -203,16 +179,12 @@ def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:
 
 def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tuple[BareEdge, ...]:
     """Return the parts of an outline along which no strip lies."""
-    return tuple(
-        BareEdge(f"{_compass(side.outward_deg - north_deg)} {side.title}", ends)
-        for side in _sides(outline)
-        for ends in _bare(side, strips)
-    )
-
-
-def _compass(from_north_deg: float) -> str:
-    """Return the point of the compass at an angle from north, counterclockwise."""
-    return _COMPASS[round((from_north_deg + 90.0) / 45.0) % 8]
+    found = []
+    for side in _sides(outline):
+        # East, first in the list, is a quarter turn clockwise of north.
+        point = _COMPASS[round((side.outward_deg - north_deg + 90.0) / 45.0) % 8]
+        found += [BareEdge(f"{point} {side.title}", ends) for ends in _bare(side, strips)]
+    return tuple(found)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -313,63 +285,44 @@ def _pairs(
     data: ProjectInput, arrays: Sequence[ArrayAssessment], addresses: Mapping[Place, str]
 ) -> Iterator[PlanNeighbor]:
     rows = _rows(data, addresses)
-    table = addresses.get(Place("clearances"), "Clearances")
-    for a, b in combinations(arrays, 2):
-        yield PlanNeighbor(
-            array=a.id,
-            other=b.id,
-            kind=NearbyKind.ARRAY,
-            near=a.array.shape,
-            far=b.array.shape,
-            gap_m=gap_m(a.array.shape, b.array.shape),
-            reach_m=max(_reach_m(a), _reach_m(b)),
-            given=rows.get(frozenset((a.id, b.id)), ()),
-            to_add=table,
-        )
+    clearances = addresses.get(Place("clearances"), "Clearances")
+    objects = addresses.get(Place("objects"), "Objects")
+    placed = [(item.id, item.placed) for item in data.objects if item.placed is not None]
     edges = bare_edges(data)
-    for array in arrays:
-        yield from _objects_of(array, data, rows, table)
-        yield from _edges_of(array, edges, addresses.get(Place("objects"), "Objects"))
+    for a, b in combinations(arrays, 2):
+        reach_m, given = max(_reach_m(a), _reach_m(b)), rows.get(frozenset((a.id, b.id)), ())
+        yield _pair(a, b.id, NearbyKind.ARRAY, b.array.shape, reach_m, given, clearances)
+    for a in arrays:
+        reach_m = _reach_m(a)
+        for other, far in placed:
+            given = rows.get(frozenset((a.id, other)), ())
+            yield _pair(a, other, NearbyKind.OBJECT, far, reach_m, given, clearances)
+        for edge in edges:
+            name = f"the {edge.name}"
+            yield _pair(a, name, NearbyKind.BARE_EDGE, edge.line, reach_m, (), objects)
 
 
-def _objects_of(
-    array: ArrayAssessment, data: ProjectInput, rows: Rows, table: str
-) -> Iterator[PlanNeighbor]:
-    for item in data.objects:
-        if item.placed is not None:
-            yield PlanNeighbor(
-                array=array.id,
-                other=item.id,
-                kind=NearbyKind.OBJECT,
-                near=array.array.shape,
-                far=item.placed,
-                gap_m=gap_m(array.array.shape, item.placed),
-                reach_m=_reach_m(array),
-                given=rows.get(frozenset((array.id, item.id)), ()),
-                to_add=table,
-            )
-
-
-def _edges_of(
-    array: ArrayAssessment, edges: Sequence[BareEdge], table: str
-) -> Iterator[PlanNeighbor]:
-    for edge in edges:
-        yield PlanNeighbor(
-            array=array.id,
-            other=f"the {edge.name}",
-            kind=NearbyKind.BARE_EDGE,
-            near=array.array.shape,
-            far=edge.line,
-            gap_m=gap_m(array.array.shape, edge.line),
-            reach_m=_reach_m(array),
-            given=(),
-            to_add=table,
-        )
-
-
-def _noun(a: Shape, b: Shape) -> str:
-    are_boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
-    return "rectangles" if are_boxes else "outlines"
+def _pair(
+    array: ArrayAssessment,
+    other: str,
+    kind: NearbyKind,
+    far: Shape,
+    reach_m: float,
+    given: tuple[GivenGap, ...],
+    to_add: str,
+) -> PlanNeighbor:
+    near = array.array.shape
+    return PlanNeighbor(
+        array=array.id,
+        other=other,
+        kind=kind,
+        near=near,
+        far=far,
+        gap_m=gap_m(near, far),
+        reach_m=reach_m,
+        given=given,
+        to_add=to_add,
+    )
 
 
 def _reach_m(array: ArrayAssessment) -> float:

@@ -17,31 +17,17 @@ from solver.rules.provisions import Neighbor
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanGap:
-    """A clearance between two shapes of the plan, or a gap without one that is NG.
+    """A clearance between two shapes of the plan, or a gap without one that is NG."""
 
-    Attributes
-    ----------
-    number : int
-        In the workbook, from 1; 0 where no clearance is given.
-    array, other : str
-        What it is between; `other` names a bare roof edge in words.
-    near, far : Shape
-    provided_m : float
-        As given [m]; where no clearance is, the gap of the plan.
-    required_m : float
-        Required separation [m]; NaN if it is not known.
-    mark : str
-        Of the required separation.
-    """
-
-    number: int
+    number: int  # in the workbook, from 1; 0 where no clearance is given
+    # what it is between; `other` names a bare roof edge in words
     array: str
     other: str
     near: Shape
     far: Shape
-    provided_m: float
-    required_m: float
-    mark: str
+    provided_m: float  # as given [m]; where no clearance is, the gap of the plan
+    required_m: float  # required separation [m]; NaN if it is not known
+    mark: str  # of the required separation
     verdict: Verdict
 
     @property

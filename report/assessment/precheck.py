@@ -7,10 +7,10 @@ Runs nothing. `report.assessment.project` decides the verdict after the runs. Re
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 
 from report.assessment.acceptance import shaking_acceptance
-from report.assessment.arrays import Route, limits_of, statistic_basis
+from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
 from report.assessment.conditions import motion_rows, project_rows, rows_before_runs
 from report.assessment.verdict import Requirement, Verdict
 from report.motions.plausible import record_findings
@@ -76,6 +76,16 @@ def rule_set_of(data: ProjectInput) -> RuleSet:
     )
 
 
+def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
+    """Return the limits on the building."""
+    categories = list(type(data.site.risk_category))
+    return provisions.building_checks(
+        rules,
+        risk_category=categories.index(data.site.risk_category) + 1,
+        stories=data.site.stories,
+    )
+
+
 def limit_value(check: Limit, value: float, us_first: bool) -> str:
     """Return a number of a check with the units of its measure."""
     match check.measure:
@@ -99,14 +109,11 @@ def limit_words(check: Limit, us_first: bool) -> str:
 
 def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
     rules, us_first = rule_set_of(data), data.project.units_first.is_us
-    for check in provisions.building_checks(
-        rules,
-        risk_category=list(type(data.site.risk_category)).index(data.site.risk_category) + 1,
-        stories=data.site.stories,
-    ):
+    for check in building_limits(data, rules):
         yield from _limit(check, "site", 0, us_first)
     acceptance = shaking_acceptance(shaking, targets(data))
     basis = statistic_basis(data)
+    # Only the statistic counts, not its value, which the runs give.
     few = provisions.analysis_value(rules, [0.0] * len(shaking.motions), basis).basis
     lacking = _lacking(rules, basis, len(shaking.motions)) if few is Basis.TOO_FEW else ""
     routes = [
@@ -122,7 +129,11 @@ def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Findin
     for index, limits in enumerate(routes):
         for check in limits.on_route:
             yield from _limit(check, "arrays", index, us_first)
-        yield from _prescriptive(data, index, limits.route, limits.analysis, us_first, lacking)
+        if limits.route is Route.PRESCRIPTIVE:
+            failed = [limit_words(check, us_first) for check in limits.analysis if not check.ok]
+            why = "; ".join(failed) or lacking or "the motions do not qualify"
+            text = f"array {data.arrays[index].id} takes the prescriptive displacement: {why}"
+            yield note(Place("arrays", index, "slope_value"), text)
     yield from _requirements(project_rows(data, shaking.prepared))
     yield from _requirements(motion_rows(acceptance, (limits.route for limits in routes)))
     for index, array in enumerate(data.arrays):
@@ -136,23 +147,6 @@ def _limit(check: Limit, section: str, row: int, us_first: bool) -> Iterator[Fin
         yield limit(place or Place("motions"), text)
 
 
-def _prescriptive(
-    data: ProjectInput,
-    index: int,
-    route: Route,
-    analysis: Sequence[Limit],
-    us_first: bool,
-    lacking: str,
-) -> Iterator[Finding]:
-    """Yield why an array takes the prescriptive displacement."""
-    if route is not Route.PRESCRIPTIVE:
-        return
-    failed = [limit_words(check, us_first) for check in analysis if not check.ok]
-    why = "; ".join(failed) or lacking or "the motions do not qualify"
-    text = f"array {data.arrays[index].id} takes the prescriptive displacement: {why}"
-    yield note(Place("arrays", index, "slope_value"), text)
-
-
 def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
     """Return which statistic the motions are too few for."""
     asked = Basis.LARGEST_FACTORED if basis is None else basis
@@ -161,10 +155,7 @@ def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
 
 
 def _of_array(data: ProjectInput, rules: RuleSet, index: int, array: Array) -> Iterator[Finding]:
-    """Yield what an array alone requires."""
-    required_n = provisions.interconnection_strength_n(
-        rules, s_ds_g=data.site.s_ds, w1_n=array.weight_n / 2.0
-    )
+    required_n = interconnection_n(data, rules, array)
     yield from _requirements(rows_before_runs(data, array, required_n))
     if array.slack_m is None:
         text = f"{array.id}, electrical slack: not given; provide at least the design displacement"

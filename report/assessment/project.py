@@ -37,7 +37,7 @@ from report.assessment.friction_velocity import (
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
-from report.assessment.precheck import rule_set_of
+from report.assessment.precheck import building_limits, rule_set_of
 from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
@@ -48,7 +48,6 @@ from report.sheet.reading.read import Sheet
 from report.sheet.schema import Array, ProjectInput
 from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance
-from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import RuleSet
 from solver.rules.spectra import RequiredSpectrum
@@ -58,49 +57,30 @@ THREADS = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
-    """Everything that was computed for a project.
-
-    Attributes
-    ----------
-    sheet : Sheet
-    shaking : Shaking
-    project : ProjectInput
-        As assessed: that of the sheet, except for runs with changed friction.
-    horizontal_target, vertical_target : RequiredSpectrum
-        AC156 at the roof.
-    targets : Targets
-        Target spectra of the motions: AC156 or project-specific.
-    linked : tuple of LinkedArray
-        The arrays for which the workbook requests a check of the rigid-block model.
-    neighbors : tuple of PlanNeighbor
-        What the plan shows near each array, with its clearances.
-    acceptance : Acceptance
-        Limits on the motions as run, at the roof.
-    rows : tuple of Requirement
-        Requirements beside the numeric limits, of the project, its motions and its arrays.
-    at_reduced_friction : Assessment or None
-        The same with less friction, from runs that tell whether clearances are satisfied
-        (`report.assessment.rough`); None in that one itself.
-    low_velocity : LowVelocityAssessment
-        Arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`,
-        and in what `reassess` and `anticipate` give.
-    """
+    """Everything that was computed for a project."""
 
     sheet: Sheet
     shaking: Shaking
-    project: ProjectInput
+    project: ProjectInput  # as assessed: that of the sheet, except for runs with changed friction
     rules: RuleSet
+    # AC156 at the roof
     horizontal_target: RequiredSpectrum
     vertical_target: RequiredSpectrum
-    targets: Targets
+    targets: Targets  # target spectra of the motions: AC156 or project-specific
     building_checks: tuple[Limit, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
+    # the arrays for which the workbook requests a check of the rigid-block model
     linked: tuple[LinkedArray, ...]
-    neighbors: tuple[PlanNeighbor, ...]
-    acceptance: Acceptance
+    neighbors: tuple[PlanNeighbor, ...]  # what the plan shows near each array, with its clearances
+    acceptance: Acceptance  # limits on the motions as run, at the roof
+    # requirements beside the numeric limits, of the project, its motions and its arrays
     rows: tuple[Requirement, ...]
+    # the same with less friction, from runs that tell whether clearances are satisfied
+    # (`report.assessment.rough`); None in that one itself
     at_reduced_friction: Assessment | None
+    # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
+    # what `reassess` and `anticipate` give
     low_velocity: LowVelocityAssessment
     solver_seconds: float
 
@@ -151,7 +131,7 @@ class Assessment:
             and item.tipping.is_ok
             and all(check.ok for check in item.limits)
             and item.is_permitted
-            and all(run.result.status is Status.OK for m in item.motions for run in m.runs)
+            and all(run.result.status is Status.OK for run in item.runs)
         )
 
     @property
@@ -302,7 +282,6 @@ def _assess(
         Assesses the same with less friction. With it, one rigid block is compared with a row of
         linked blocks, and the verdicts with those for less friction.
     """
-    site = data.site
     rules = rule_set_of(data)
     started = time.perf_counter()
     runs = [wait() for wait in begun]
@@ -320,19 +299,16 @@ def _assess(
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     required = partial(minimum_gap, data, rules, arrays)
     nearby = neighbors(data, arrays, sheet.addresses, required)
+    horizontal, vertical = ac156(data)
     return Assessment(
         sheet=sheet,
         shaking=shaking,
         project=data,
         rules=rules,
-        horizontal_target=ac156(data)[0],
-        vertical_target=ac156(data)[1],
+        horizontal_target=horizontal,
+        vertical_target=vertical,
         targets=targets(data),
-        building_checks=provisions.building_checks(
-            rules,
-            risk_category=list(type(site.risk_category)).index(site.risk_category) + 1,
-            stories=site.stories,
-        ),
+        building_checks=building_limits(data, rules),
         arrays=arrays,
         clearances=clearances,
         linked=linked,
@@ -359,8 +335,8 @@ def _friction_rows(
     routes = zip(arrays, reduced.arrays, strict=True)
     gaps = zip(clearances, reduced.clearances, strict=True)
     rows = (
-        *(route_row(before, after, SHIFT) for before, after in routes),
-        *(friction_row(before, after, SHIFT) for before, after in gaps),
+        *(route_row(before, after) for before, after in routes),
+        *(friction_row(before, after) for before, after in gaps),
     )
     return [row for row in rows if not row.is_satisfied]
 

@@ -54,36 +54,20 @@ class RemedyKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remedy:
-    """One quantity that would satisfy a clearance, or give an array final values, by itself.
-
-    Attributes
-    ----------
-    clearance : int
-        Number of the clearance in the workbook, from 1; 0 for the runs of an array.
-    array : str
-        Array whose friction or displacement it is.
-    given, value : float
-        Value in the workbook, and the one that would do: the least friction coefficient, the least
-        separation [m] or the largest S_DS [g]. NaN if none within the search would do.
-    resolution : float
-        Step of the search; 0 for a value that follows from the runs of the package.
-    verified : tuple of float
-        Smallest and largest of the values at which all runs satisfied, without failure between.
-    n_values : int
-        Number of values tried from one to the other.
-    basis : str
-        What was varied and what with it; or why no value would do. A clause.
-    """
+    """One quantity that would satisfy a clearance, or give an array final values, by itself."""
 
     kind: RemedyKind
-    clearance: int
-    array: str
-    given: float
+    clearance: int  # number of the clearance in the workbook, from 1; 0 for the runs of an array
+    array: str  # array whose friction or displacement it is
+    given: float  # value in the workbook
+    # the one that would do: the least friction coefficient, the least separation [m] or the largest
+    # S_DS [g]; NaN if none within the search would
     value: float
-    resolution: float
+    resolution: float  # step of the search; 0 for a value that follows from the runs of the package
+    # smallest and largest of the values at which all runs satisfied, without failure between
     verified: tuple[float, float]
-    n_values: int
-    basis: str
+    n_values: int  # number of values tried from one to the other
+    basis: str  # what was varied and what with it; or why no value would do; a clause
 
     @property
     def exists(self) -> bool:

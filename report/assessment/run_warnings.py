@@ -37,7 +37,6 @@ def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> Mapping[S
 
 
 def _place(runs: Sequence[_Troubled]) -> str:
-    """Return of which arrays and motions runs are, and how many."""
     arrays = tuple(dict.fromkeys(one.array for one in runs))
     motions = tuple(dict.fromkeys(one.motion for one in runs))
     of = f"{'Array' if len(arrays) == 1 else 'Arrays'} {', '.join(arrays)}"

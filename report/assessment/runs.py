@@ -73,17 +73,11 @@ class OrientedRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MotionRun:
-    """One array under one motion, with each horizontal component in the requested polarities.
-
-    Attributes
-    ----------
-    governing : OrientedRun
-        The run with the largest PRD, or one without a displacement.
-    """
+    """One array under one motion, with each horizontal component in the requested polarities."""
 
     motion: Motion
     runs: tuple[OrientedRun, ...]
-    governing: OrientedRun
+    governing: OrientedRun  # the run with the largest PRD, or one without a displacement
 
     @property
     def seconds(self) -> float:

@@ -31,26 +31,14 @@ MOST_STEPS = 64
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MethodRun:
-    """One method with one setting on the governing run.
+    """One method with one setting on the governing run."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the method.
-    steps : float
-        Steps in each sampling interval.
-    is_default : bool
-        Whether the parameters are the defaults of the method.
-    error : float
-        |PRD / exact PRD - 1|; NaN where the method failed.
-    """
-
-    name: str
+    name: str  # name of the method
     parameters: dict[str, float]
-    steps: float
-    is_default: bool
+    steps: float  # steps in each sampling interval
+    is_default: bool  # whether the parameters are the defaults of the method
     result: SlideResult
-    error: float
+    error: float  # |PRD / exact PRD - 1|; NaN where the method failed
 
     @property
     def method(self) -> Method:
@@ -65,45 +53,24 @@ class MethodRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rivals:
-    """The governing run along the slope alone, by every method.
+    """The governing run along the slope alone, by every method."""
 
-    Attributes
-    ----------
-    array : ArrayAssessment
-        The one with the largest design displacement.
-    motion : MotionRun
-        Its motion with the largest PRD.
-    exact : SlideResult
-        Exact result of its governing run along the slope alone.
-    doubled : float
-        |PRD / PRD - 1| of the exact method with a sample added midway between adjacent samples:
-        the motion is the same, so the change is rounding error. NaN without a displacement.
-    seconds : float
-        Time of the exact run, the smallest of several [s].
-    runs : tuple of MethodRun
-        Empty where nothing slides or the block lifts off.
-    """
-
-    array: ArrayAssessment
-    motion: MotionRun
-    exact: SlideResult
+    array: ArrayAssessment  # the one with the largest design displacement
+    motion: MotionRun  # its motion with the largest PRD
+    exact: SlideResult  # exact result of its governing run along the slope alone
+    # |PRD / PRD - 1| of the exact method with a sample added midway between adjacent samples: the
+    # motion is the same, so the change is rounding error. NaN without a displacement
     doubled: float
-    seconds: float
-    runs: tuple[MethodRun, ...]
+    seconds: float  # time of the exact run, the smallest of several [s]
+    runs: tuple[MethodRun, ...]  # empty where nothing slides or the block lifts off
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Accuracy:
-    """The governing run by every method, and the design with 5 % less and 5 % more friction.
-
-    Attributes
-    ----------
-    rivals : Rivals
-    at_reduced_friction, given, at_increased_friction : Assessment
-        With the friction coefficients decreased, as given, and increased.
-    """
+    """The governing run by every method, and the design with 5 % less and 5 % more friction."""
 
     rivals: Rivals
+    # with the friction coefficients decreased, as given, and increased
     at_reduced_friction: Assessment
     given: Assessment
     at_increased_friction: Assessment
@@ -122,6 +89,7 @@ class Accuracy:
             (after, check)
             for before, after in pairs
             if all(check.ok for check in before.limits)
+            # With less friction another route may be taken, whose limits are other ones.
             for check in replace(after, route=before.route).limits
             if not check.ok
         )
@@ -155,13 +123,12 @@ def accuracy(given: Assessment) -> Accuracy:
 
 
 def _seconds(scene: dict[str, Any]) -> float:
-    """Return the smallest time of several runs: disturbances only lengthen a run."""
     times = []
     for _ in range(7):
         started = time.perf_counter()
         slide(**scene)
         times.append(time.perf_counter() - started)
-    return min(times)
+    return min(times)  # disturbances only lengthen a run
 
 
 def _scene(run: MotionRun) -> dict[str, Any]:
@@ -194,7 +161,12 @@ def _midway(samples: Floats) -> Floats:
 
 
 def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
-    for method in _shown(with_vertical=scene["az_mps2"] is not None):
+    # Regularized friction is too slow. `adaptive` gives the numbers of `paper`, and stands for both
+    # with vertical shaking, which `paper` does not accept.
+    with_vertical = scene["az_mps2"] is not None
+    omitted = {"exact", "regularized", "paper" if with_vertical else "adaptive"}
+    shown = [method for method in METHODS.values() if method.name not in omitted]
+    for method in shown:
         default = dict(method.parameters)
         settings = [method.settings(v, scene["dt_s"], STANDARD_GRAVITY_MPS2) for v in method.sweep]
         for parameters in [default, *(s for s in settings if s != default)]:
@@ -210,13 +182,3 @@ def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
                 result=result,
                 error=abs(result.prd_m / peak_m - 1.0) if has_value else math.nan,
             )
-
-
-def _shown(with_vertical: bool) -> Iterator[Method]:
-    """Yield the methods that apply to the scene, except regularized friction, which is too slow.
-
-    `adaptive` gives the numbers of `paper` and represents both with vertical shaking, which
-    `paper` does not accept.
-    """
-    omitted = {"exact", "regularized", "paper" if with_vertical else "adaptive"}
-    return (method for method in METHODS.values() if method.name not in omitted)

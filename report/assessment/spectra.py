@@ -29,21 +29,11 @@ PERIODS_S: Floats = np.unique(np.concatenate([1.0 / POINTS_HZ, PRINTED_S[1:]]))
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spectra:
-    """Response spectra of one component [g] of all motions, over periods [s].
-
-    Attributes
-    ----------
-    ids : tuple of str
-    periods_s : array, shape (m,)
-    sa_g : array, shape (n, m)
-    target : TargetSpectrum
-    title : str
-    is_ground : bool
-    """
+    """Response spectra of one component [g] of all motions, over periods [s]."""
 
     ids: tuple[str, ...]
-    periods_s: Floats
-    sa_g: Floats
+    periods_s: Floats  # shape (m,)
+    sa_g: Floats  # shape (n, m)
     target: TargetSpectrum
     title: str
     is_ground: bool
@@ -81,28 +71,15 @@ LEAST_MEAN = 0.995
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Departure:
-    """The mean of the motions below its target, or far above it.
+    """The mean of the motions below its target, or far above it."""
 
-    Attributes
-    ----------
-    titles : tuple of str
-        Components that depart, the farthest first.
-    target : str
-    ratio, period_s : float
-        Mean / target farthest from 1 in any component, and the period [s] at which it is.
-    from_s, to_s : float
-        Shortest and longest period [s] at which any component is beyond the limit.
-    is_short : bool
-        Whether the motions fall short of the target.
-    """
-
-    titles: tuple[str, ...]
+    titles: tuple[str, ...]  # components that depart, the farthest first
     target: str
-    ratio: float
-    period_s: float
-    from_s: float
-    to_s: float
-    is_short: bool
+    ratio: float  # mean / target farthest from 1 in any component
+    period_s: float  # at which it is [s]
+    from_s: float  # shortest period at which any component is beyond the limit [s]
+    to_s: float  # longest one [s]
+    is_short: bool  # whether the motions fall short of the target
     maximum_excess: ClassVar[float] = MOST_EXCESS
 
 

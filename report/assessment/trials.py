@@ -200,7 +200,7 @@ def _is_permitted(array: ArrayAssessment) -> bool:
 
 def is_final(array: ArrayAssessment) -> bool:
     """Whether an array has a design value and every run ended at rest."""
-    statuses = {run.result.status for motion in array.motions for run in motion.runs}
+    statuses = {run.result.status for run in array.runs}
     return statuses == {Status.OK} and not math.isnan(array.design_m)
 
 

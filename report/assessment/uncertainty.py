@@ -33,12 +33,12 @@ from report.sheet.schema import Array
 from solver.model import (
     Floats,
     HorizontalComponent,
-    Motion,
     Orientation,
     Scene,
     SlideResult,
     Status,
 )
+from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes
 
 N_MUS, N_SLOPES = 8, 6
@@ -56,55 +56,29 @@ ANGLES_DEG = tuple(k * 22.5 for k in range(16) if k % 4)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ResponseSurface:
-    """Mean PRD of the motions over friction and slope, each in its governing orientation.
+    """Mean PRD of the motions over friction and slope, each in its governing orientation."""
 
-    Attributes
-    ----------
-    array : ArrayAssessment
-        The array whose orientations are run, its friction law scaled as a whole.
-    mus : array, shape (q,)
-        Low-velocity friction coefficients, that of the array among them.
-    slopes_rad : array, shape (p,)
-        Slopes [rad], that of the array among them.
-    mean_m : array, shape (p, q)
-        Mean PRD [m]; NaN where a run gives no displacement.
-    n_unfinished, n_runs : int
-        Runs that are still sliding at the end of their record, and all runs.
-    others : tuple of str
-        Ids of arrays whose friction law is not that of this array, scaled.
-    """
-
+    # the array whose orientations are run, its friction law scaled as a whole
     array: ArrayAssessment
-    mus: Floats
-    slopes_rad: Floats
-    mean_m: Floats
-    n_unfinished: int
-    n_runs: int
-    others: tuple[str, ...]
+    mus: Floats  # shape (q,): low-velocity friction coefficients, that of the array among them
+    slopes_rad: Floats  # shape (p,): slopes [rad], that of the array among them
+    mean_m: Floats  # shape (p, q): mean PRD [m]; NaN where a run gives no displacement
+    n_unfinished: int  # runs that are still sliding at the end of their record
+    n_runs: int  # all runs
+    others: tuple[str, ...]  # ids of arrays whose friction law is not that of this array, scaled
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Margin:
-    """How far the friction of one array may fall before a clearance is not satisfied.
+    """How far the friction of one array may fall before a clearance is not satisfied."""
 
-    Attributes
-    ----------
-    number : int
-        Of the clearance in the workbook, from 1.
-    minimum_mu : float
-        Smallest coefficient at which all runs satisfy; NaN if the one given does not.
-    required_m : float
-        Required separation at it, for this array alone [m].
-    lowest_tried : float
-        Where the search ends.
-    """
-
-    number: int
+    number: int  # of the clearance in the workbook, from 1
     gap: ClearanceCheck
     array: ArrayAssessment
+    # smallest coefficient at which all runs satisfy; NaN if the one given does not
     minimum_mu: float
-    required_m: float
-    lowest_tried: float
+    required_m: float  # required separation at it, for this array alone [m]
+    lowest_tried: float  # where the search ends
 
     @property
     def is_beyond(self) -> bool:
@@ -122,25 +96,14 @@ class RotatedRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Uncertainty:
-    """How sure the design values are.
-
-    Attributes
-    ----------
-    motion : MotionRun
-        The governing motion of the governing array, as run for the package.
-    turned : tuple of RotatedRun
-        Empty for a motion with one horizontal component.
-    reversed_m : float
-        Largest PRD with the vertical component reversed, over the orientations of the package [m];
-        NaN without a vertical component or without a displacement.
-    margins : tuple of Margin
-        For each clearance, one for each array that it involves.
-    """
+    """How sure the design values are."""
 
     surface: ResponseSurface
-    margins: tuple[Margin, ...]
-    motion: MotionRun
-    turned: tuple[RotatedRun, ...]
+    margins: tuple[Margin, ...]  # for each clearance, one for each array that it involves
+    motion: MotionRun  # the governing motion of the governing array, as run for the package
+    turned: tuple[RotatedRun, ...]  # empty for a motion with one horizontal component
+    # largest PRD with the vertical component reversed, over the orientations of the package [m];
+    # NaN without a vertical component or without a displacement
     reversed_m: float
 
     @property
@@ -158,12 +121,13 @@ def uncertainty(given: Assessment) -> Uncertainty:
     """Return how the governing array and every clearance react to what is not known exactly."""
     governing = given.governing
     motion = governing.worst
+    angles = ANGLES_DEG if motion.motion.has_transverse else ()
     with ThreadPoolExecutor(THREADS) as pool:
         return Uncertainty(
-            surface=surface(given, given.governing, pool),
+            surface=surface(given, governing, pool),
             margins=tuple(_margins(given, pool)),
             motion=motion,
-            turned=tuple(pool.map(partial(_turned, governing), _angles(motion.motion))),
+            turned=tuple(pool.map(partial(_turned, governing), angles)),
             reversed_m=_reversed_m(governing),
         )
 
@@ -268,17 +232,12 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
     )
 
 
-def _angles(motion: Motion) -> tuple[float, ...]:
-    return ANGLES_DEG if motion.has_transverse else ()
-
-
 def _turned(array: ArrayAssessment, angle_deg: float) -> RotatedRun:
     motion, angle = array.worst.motion, math.radians(angle_deg)
     cs, sn = math.cos(angle), math.sin(angle)
     along = cs * motion.ax_mps2 - sn * motion.ay_mps2
     across = sn * motion.ax_mps2 + cs * motion.ay_mps2
-    across.setflags(write=False)
-    turned = replace(motion, ax_mps2=along, ay_mps2=across)
+    turned = replace(motion, ax_mps2=read_only(along), ay_mps2=read_only(across))
     run = run_oriented(
         array.array, turned, Orientation(component=HorizontalComponent.RECORD, polarity=1)
     )
@@ -289,6 +248,5 @@ def _reversed_m(array: ArrayAssessment) -> float:
     motion = array.worst.motion
     if not motion.has_vertical:
         return math.nan
-    down = -motion.az_mps2
-    down.setflags(write=False)
-    return run_motion(array.array, replace(motion, az_mps2=down)).governing.result.prd_m
+    mirrored = replace(motion, az_mps2=read_only(-motion.az_mps2))
+    return run_motion(array.array, mirrored).governing.result.prd_m

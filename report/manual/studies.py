@@ -52,6 +52,7 @@ def _errors(study: Convergence) -> Table:
         (
             (text("P", share=0.6), lambda row: row[0]),
             (text("Against exact", share=1.2), lambda row: percent(row[1])),
+            # 0 for the last P, which is compared with itself: no error, and none is printed.
             (text(f"Against P = {last}", share=1.2), lambda row: percent(row[2] or math.nan)),
             (text("Against exact, of the PRD", share=1.3), lambda row: percent(row[3])),
             (text("Longest time"), lambda row: seconds(row[4])),

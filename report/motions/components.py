@@ -32,50 +32,25 @@ SHORTEST_S = 1.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordFile:
-    """One component of a motion as read, before processing and scaling.
-
-    Attributes
-    ----------
-    motion_id, component : str
-        Component is ``horizontal``, ``transverse`` or ``vertical``.
-    name, sha256 : str
-        As the workbook names it; hash of the file, or of a column's values as little-endian
-        doubles in m/s2.
-    format : str
-    npts : int
-    dt_s, peak_g : float
-    npts_trimmed : int
-        Samples at the end that the shortest component of the motion does not have.
-    notes : tuple of str
-        Remarks on how the file was read.
-    hold_s : float
-        Hold of the envelope [s], if the file says that it was generated and is run from its first
-        to its last sample; otherwise NaN.
-    size : int
-        Of the file [bytes]; 0 for a pasted column.
-    spikes : tuple of int
-        Indexes of samples far above all others (`report.motions.spikes`).
-    others_g : float
-        Largest magnitude of the other samples [g].
-    unseen : tuple of Unseen
-        Of a pasted column: cells that the workbook keeps from sight.
-    """
+    """One component of a motion as read, before processing and scaling."""
 
     motion_id: str
-    component: str
-    name: str
-    sha256: str
+    component: str  # ``horizontal``, ``transverse`` or ``vertical``
+    name: str  # as the workbook names it
+    sha256: str  # of the file, or of a column's values as little-endian doubles in m/s2
     format: str
     npts: int
     dt_s: float
     peak_g: float
-    npts_trimmed: int
-    notes: tuple[str, ...]
+    npts_trimmed: int  # samples at the end that the shortest component of the motion does not have
+    notes: tuple[str, ...]  # remarks on how the file was read
+    # hold of the envelope [s], if the file says that it was generated and is run from its first to
+    # its last sample; otherwise NaN
     hold_s: float
-    size: int
-    spikes: tuple[int, ...]
-    others_g: float
-    unseen: tuple[Unseen, ...] = ()
+    size: int  # of the file [bytes]; 0 for a pasted column
+    spikes: tuple[int, ...]  # indexes of samples far above all others (`report.motions.spikes`)
+    others_g: float  # largest magnitude of the other samples [g]
+    unseen: tuple[Unseen, ...] = ()  # of a pasted column: cells that the workbook keeps from sight
 
     @property
     def is_file(self) -> bool:
@@ -85,23 +60,14 @@ class RecordFile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Components:
-    """The components of one motion, read and processed.
-
-    Attributes
-    ----------
-    files : tuple of RecordFile
-    records : mapping of str to Record
-        By field of `MotionInput`: record, transverse, vertical; with equal time step and length.
-    unfiltered : mapping of str to Record
-        The same without the high-pass filter; empty if there is none.
-    whole : mapping of str to Record
-        As read, before processing.
-    """
+    """The components of one motion, read and processed."""
 
     files: tuple[RecordFile, ...]
+    # by field of `MotionInput`: record, transverse, vertical; with equal time step and length
     records: Mapping[str, Record]
+    # the same without the high-pass filter; empty if there is none
     unfiltered: Mapping[str, Record]
-    whole: Mapping[str, Record]
+    whole: Mapping[str, Record]  # as read, before processing
 
 
 def read_components(
@@ -130,19 +96,17 @@ def read_components(
                 faults += _faults(index, field, error)
     if "record" not in components:
         return faults
+    to_s = row.get("to_s")
+    # Cut to the end time first: beyond it the components of one recording often differ in length.
+    up_to = Processing(to_s=math.inf if to_s is None else to_s)
     try:
-        records = _cut(components, row.get("to_s"))
+        records = {field: process(each.record, up_to) for field, each in components.items()}
     except InputError as error:
         return [*faults, *_faults(index, "record", error)]
     faults += [*_mismatches(index, records), *_unscalable(index, row, records)]
     if faults or any(name not in row for name in MotionInput.model_fields):
         return faults
     return _processed(index, MotionInput(**row), components, records)
-
-
-def _shortest(records: Mapping[str, Record]) -> int:
-    """Return the number of samples that all components have."""
-    return min(len(record.a_mps2) for record in records.values())
 
 
 def _faults(index: int, field: str, error: InputError) -> list[Finding]:
@@ -163,14 +127,7 @@ def _read(book: OpenBook, row: Mapping[str, Any], field: str, read: Reader) -> I
         find_file(book, name)
 
 
-def _cut(components: Mapping[str, Component], to_s: float | None) -> dict[str, Record]:
-    """Return the records up to the end time: components often differ slightly in length."""
-    kept = Processing(to_s=math.inf if to_s is None else to_s)
-    return {field: process(component.record, kept) for field, component in components.items()}
-
-
 def _mismatches(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
-    """Yield components that do not match the horizontal one in time step."""
     horizontal = records["record"]
     for field, record in records.items():
         label, dt_s = f"{LABELS[field]} record", horizontal.dt_s
@@ -223,7 +180,7 @@ def _processed(
 ) -> Components | list[Finding]:
     # Time steps that differ by rounding error are equal from here on, and so are lengths: the
     # components of one recording often differ by a few samples at the end.
-    count = _shortest(records)
+    count = min(len(record.a_mps2) for record in records.values())
     raw = [
         replace(record, dt_s=records["record"].dt_s, a_mps2=record.a_mps2[:count])
         for record in records.values()

@@ -40,32 +40,15 @@ Reader = Callable[..., MotionFile]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Component:
-    """A record as read.
-
-    Attributes
-    ----------
-    record : Record
-    sha256 : str
-        Of the file, or of a pasted column's values as little-endian doubles in m/s2.
-    format : str
-        Such as ``PEER AT2``, or ``pasted column``.
-    notes : tuple of str
-        Remarks on how the file was read.
-    hold_s : float
-        Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
-    size : int
-        Of the file [bytes]; 0 for a pasted column.
-    unseen : tuple of Unseen
-        Of a pasted column: cells that the workbook keeps from sight.
-    """
+    """A record as read."""
 
     record: Record
-    sha256: str
-    format: str
-    notes: tuple[str, ...]
-    hold_s: float
-    size: int
-    unseen: tuple[Unseen, ...] = ()
+    sha256: str  # of the file, or of a pasted column's values as little-endian doubles in m/s2
+    format: str  # such as ``PEER AT2``, or ``pasted column``
+    notes: tuple[str, ...]  # remarks on how the file was read
+    hold_s: float  # hold of the envelope [s], if the file says that it was generated; otherwise NaN
+    size: int  # of the file [bytes]; 0 for a pasted column
+    unseen: tuple[Unseen, ...] = ()  # of a pasted column: cells that the workbook keeps from sight
 
 
 def read_component(

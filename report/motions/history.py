@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from report.motions.components import Components, processing_of
-from report.motions.targets import TargetSpectrum, targets
+from report.motions.targets import targets
 from report.sheet.checking.motion_checks import LABELS
 from report.sheet.schema import (
     BuildingInput,
@@ -26,43 +26,29 @@ from report.sheet.schema import (
 from report.words.units import G_MPS2
 from solver.building.periods import approximate_period_s
 from solver.building.roof import Building, RoofMotion, building_of_periods, shaking_to_roof
-from solver.model import Floats, Motion
+from solver.model import Motion
 from solver.records.measures import Measures, measures
-from solver.records.record import Record
+from solver.records.record import Record, read_only
 from solver.records.scaling import factor_to_target
+from solver.rivals.methods import NO_RECORD
 
 SIGNS = {Polarity.BOTH: (1, -1), Polarity.AS_RECORDED: (1,), Polarity.REVERSED: (-1,)}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PreparedMotion:
-    """Processing and scaling of the records of one motion before the runs.
-
-    Attributes
-    ----------
-    motion_id : str
-    recorded_at : RecordedAt
-    done : str
-        Processing, in words.
-    scaling : str
-        In words, without the factor.
-    measures : mapping of str to Measures
-        By name of the component, processed and scaled, at the recording level.
-    scaled : mapping of str to Record
-        The same components as records.
-    roof : mapping of str to RoofMotion
-        Unscaled, by name of the horizontal component; empty for a motion recorded at the roof.
-    unfiltered : tuple of Motion
-        The motion without its high-pass filter; empty if there is none.
-    """
+    """Processing and scaling of the records of one motion before the runs."""
 
     motion_id: str
     recorded_at: RecordedAt
-    done: str
-    scaling: str
+    done: str  # processing, in words
+    scaling: str  # in words, without the factor
+    # by name of the component, processed and scaled, at the recording level
     measures: Mapping[str, Measures]
-    scaled: Mapping[str, Record]
+    scaled: Mapping[str, Record]  # the same components as records
+    # unscaled, by name of the horizontal component; empty for a motion recorded at the roof
     roof: Mapping[str, RoofMotion]
+    # the motion without its high-pass filter; empty if there is none
     unfiltered: tuple[Motion, ...]
 
 
@@ -87,7 +73,7 @@ def _shake(
     scale = _scale(data, row, components.records)
     motion, roof = _motion(data, row, components.records, scale)
     scaled = {
-        LABELS[field]: replace(record, name=row.id, a_mps2=_frozen(scale * record.a_mps2))
+        LABELS[field]: replace(record, name=row.id, a_mps2=read_only(scale * record.a_mps2))
         for field, record in components.records.items()
     }
     bare = components.unfiltered
@@ -114,7 +100,7 @@ def _motion(
         fields = [field for field in a if field != "vertical"]
         shaking = shaking_to_roof(
             [a[field] for field in fields],
-            a.get("vertical", _nothing()),
+            a.get("vertical", NO_RECORD),
             dt_s,
             [_building(data, field) for field in fields],
             share=data.building.left_out_percent / 100.0,
@@ -128,8 +114,8 @@ def _motion(
         source=row.source,
         dt_s=dt_s,
         ax_mps2=a["record"],
-        ay_mps2=a.get("transverse", _nothing()),
-        az_mps2=a.get("vertical", _nothing()),
+        ay_mps2=a.get("transverse", NO_RECORD),
+        az_mps2=a.get("vertical", NO_RECORD),
         scale=scale,
         signs=SIGNS[row.polarity],
     )
@@ -139,19 +125,17 @@ def _motion(
 def _building(data: ProjectInput, field: str) -> Building:
     """Return the building in the direction of a horizontal component."""
     asked = data.building
-    periods = [first_period_s(data), *_known(asked.period_2_s)]
+    periods = [first_period_s(data)]
     if field == "transverse" and asked.transverse_s is not None:
         periods = [asked.transverse_s]
+    elif asked.period_2_s is not None:
+        periods.append(asked.period_2_s)
     return building_of_periods(
         periods,
         damping=(asked.damping_percent / 100.0,),
         alpha0=math.inf if asked.stiffness_ratio is None else asked.stiffness_ratio,
         stories=data.site.stories,
     )
-
-
-def _known(value: float | None) -> list[float]:
-    return [] if value is None else [value]
 
 
 def first_period_s(data: ProjectInput) -> float:
@@ -175,12 +159,9 @@ def _scale(data: ProjectInput, row: MotionInput, records: Mapping[str, Record]) 
             return float((row.scale_value or 1.0) * G_MPS2 / peak)
         case Scaling.TARGET:
             periods = (data.target.from_s, data.target.to_s)
-            return factor_to_target(horizontals, _target(data, row).at, periods)
+            target = targets(data).horizontal(row.recorded_at)
+            return factor_to_target(horizontals, target.at, periods)
     return 1.0
-
-
-def _target(data: ProjectInput, row: MotionInput) -> TargetSpectrum:
-    return targets(data).horizontal(row.recorded_at)
 
 
 def _scaling_words(data: ProjectInput, row: MotionInput) -> str:
@@ -191,12 +172,3 @@ def _scaling_words(data: ProjectInput, row: MotionInput) -> str:
             asked = data.target
             return f"target, {asked.from_s:g} to {asked.to_s:g} s"
     return row.scaling.value
-
-
-def _nothing() -> Floats:
-    return _frozen(np.empty(0))
-
-
-def _frozen(values: Floats) -> Floats:
-    values.setflags(write=False)
-    return values

@@ -81,7 +81,6 @@ def read_column(
 
 
 def _said(book: OpenBook, position: CellPosition) -> Heading:
-    """Return what a heading says."""
     return parse(str(found_at(book, position).value or ""))
 
 

@@ -27,21 +27,11 @@ MAX_BESIDE_FAULTS = 10_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shaking:
-    """The motions of a project.
+    """The motions of a project."""
 
-    Attributes
-    ----------
-    motions : tuple of Motion
-        At the roof, as run.
-    prepared : tuple of PreparedMotion
-        Processing and scaling of the records of each motion.
-    records : tuple of RecordFile
-        Every component as read.
-    """
-
-    motions: tuple[Motion, ...]
-    prepared: tuple[PreparedMotion, ...]
-    records: tuple[RecordFile, ...]
+    motions: tuple[Motion, ...]  # at the roof, as run
+    prepared: tuple[PreparedMotion, ...]  # processing and scaling of the records of each motion
+    records: tuple[RecordFile, ...]  # every component as read
 
 
 _TOO_MUCH = (

@@ -22,21 +22,13 @@ OWN = "project-specific"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetSpectrum:
-    """A target spectrum, 5 % damping.
+    """A target spectrum, 5 % damping."""
 
-    Attributes
-    ----------
-    name : str
-        Empty if there is no target; the ordinates are then NaN.
-    at : callable
-        Spectral acceleration [g] at frequencies [Hz]; a target given by points is constant
-        beyond them. Not a closure, so that it can be pickled.
-    from_s, to_s : float
-        Range of periods for which it is given [s].
-    """
-
-    name: str
+    name: str  # empty if there is no target; the ordinates are then NaN
+    # spectral acceleration [g] at frequencies [Hz]; a target given by points is constant beyond
+    # them. Not a closure, so that it can be pickled
     at: Target
+    # range of periods for which it is given [s]
     from_s: float
     to_s: float
 
@@ -72,9 +64,10 @@ def targets(data: ProjectInput) -> Targets:
     own = data.spectrum
     across = _own(own, [row.horizontal_g for row in own]) if own else None
     upward = [row.vertical_g for row in own if row.vertical_g is not None]
+    has_ground = any(row.recorded_at is RecordedAt.GROUND for row in data.motions)
     return Targets(
         # If there are ground motions, the project-specific spectrum applies at the ground.
-        roof=across if across and not _any_ground(data) else _ac156(roof),
+        roof=across if across and not has_ground else _ac156(roof),
         vertical=_own(own, upward) if upward else _ac156(vertical),
         ground=across or _design(data),
     )
@@ -90,10 +83,6 @@ def ac156(data: ProjectInput) -> tuple[RequiredSpectrum, RequiredSpectrum]:
         tail=tail,
     )
     return horizontal, ac156_vertical(s_ds_g=site.s_ds, tail=tail)
-
-
-def _any_ground(data: ProjectInput) -> bool:
-    return any(row.recorded_at is RecordedAt.GROUND for row in data.motions)
 
 
 def _ac156(spectrum: RequiredSpectrum) -> TargetSpectrum:

@@ -18,6 +18,7 @@ import numpy as np
 from report.figures.base import load_fonts
 from report.figures.suite import Panel, suite_png
 from report.suite.acceptance import acceptance_facts, acceptance_lines, suite_acceptance
+from report.suite.info import aligned, without_noise
 from report.suite.inputs import SuiteTargets
 from report.typeset.pdf import TEMPLATES
 from report.words.units import G_MPS2
@@ -37,8 +38,6 @@ LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
 """Limits on every component's ratios to its target, at 1/12 octave."""
 
 _DRAWN_HZ: Floats = np.geomspace(0.1, 50.0, 180)
-# A drift below this fraction of the peak is rounding error.
-_NO_DRIFT = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,16 +61,12 @@ class SuiteComponent:
     @property
     def final_velocity_mps(self) -> float:
         """Velocity at the end [m/s]; 0 if it is rounding error."""
-        return _cleared(self.measures.final_velocity_mps, self.measures.pgv_mps)
+        return without_noise(self.measures.final_velocity_mps, self.measures.pgv_mps)
 
     @property
     def final_displacement_m(self) -> float:
         """Displacement at the end [m]; 0 if it is rounding error."""
-        return _cleared(self.measures.final_displacement_m, self.measures.pgd_m)
-
-
-def _cleared(value: float, peak: float) -> float:
-    return 0.0 if abs(value) <= _NO_DRIFT * peak else value
+        return without_noise(self.measures.final_displacement_m, self.measures.pgd_m)
 
 
 def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[SuiteComponent, ...]:
@@ -210,8 +205,8 @@ def _panel(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> Pa
 
 
 _COLUMNS = (
-    ("motion", ""),
-    ("", ""),
+    ("motion", "<"),
+    ("", "<"),
     ("min", ">"),
     ("max", ">"),
     ("mean", ">"),
@@ -221,8 +216,8 @@ _COLUMNS = (
     ("D5-95 [s]", ">"),
     ("final v [cm/s]", ">"),
     ("final d [cm]", ">"),
-    ("correlation", ""),
-    ("seed", ""),
+    ("correlation", "<"),
+    ("seed", "<"),
 )
 
 
@@ -240,7 +235,7 @@ def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str
     n_within = sum(part.is_within_limits for part in parts)
     return [
         *targets.lines,
-        *_aligned(rows),
+        *aligned(rows, [side for _, side in _COLUMNS]),
         f"{n_within} of {len(parts)} components have spectra of {LEAST:.2f} to {GREATEST:.2f} "
         f"times the target and a mean ratio within {100 * MEAN_OFF:g} % of 1 (1/12 octave, "
         f"from {lowest} Hz to {BAND_HZ[1]:g} Hz, 5 % damping)",
@@ -265,14 +260,3 @@ def _cells(part: SuiteComponent, pair: str) -> tuple[str, ...]:
         pair,
         part.grew_from,
     )
-
-
-def _aligned(rows: Sequence[tuple[str, ...]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(
-            f"{text:{align or '<'}{width}}"
-            for text, width, (_, align) in zip(row, widths, _COLUMNS, strict=True)
-        ).rstrip()
-        for row in rows
-    ]

@@ -59,8 +59,7 @@ def table(channels: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return summaries as lines of a table, one channel per line, under a heading."""
     rows = [("", "channel", *(heading for heading, _, _ in _COLUMNS))]
     rows += [(str(number), *_row(record)) for number, record in enumerate(channels, start=1)]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [_aligned(row, widths) for row in rows]
+    return aligned(rows, (">", "<", *(">" for _ in _COLUMNS)))
 
 
 def spectra_g(records: Sequence[Record]) -> Floats:
@@ -72,8 +71,7 @@ def spectra_g(records: Sequence[Record]) -> Floats:
 def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
     shown = dict(channel)
     for end, peak in (("final_velocity_mps", "pgv_mps"), ("final_displacement_m", "pgd_m")):
-        if abs(channel[end]) <= _NO_DRIFT * channel[peak]:
-            shown[end] = 0.0
+        shown[end] = without_noise(channel[end], channel[peak])
     values = (_number(shown[key] * size, key) for _, key, size in _COLUMNS)
     return (channel["name"], *values)
 
@@ -82,8 +80,17 @@ def _number(value: float, key: str) -> str:
     return f"{value:.0f}" if key == "npts" else f"{value:.4g}"
 
 
-def _aligned(row: Sequence[str], widths: Sequence[int]) -> str:
-    """Align names left and numbers right."""
-    number, name, *values = row
-    cells = [text.rjust(width) for text, width in zip(values, widths[2:], strict=True)]
-    return "  ".join([number.rjust(widths[0]), name.ljust(widths[1]), *cells])
+def without_noise(final: float, peak: float) -> float:
+    """Return a value at the end of a record, or 0 if it is rounding error beside the peak."""
+    return 0.0 if abs(final) <= _NO_DRIFT * peak else final
+
+
+def aligned(rows: Sequence[Sequence[str]], sides: Sequence[str]) -> list[str]:
+    """Return rows as lines of a table, each column to the left (`<`) or right (`>`)."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  ".join(
+            f"{text:{side}{width}}" for text, side, width in zip(row, sides, widths, strict=True)
+        ).rstrip()
+        for row in rows
+    ]

@@ -36,21 +36,12 @@ _GENERATED = re.compile(r"motion-\d{2,}-[xyz]\.csv")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SuiteTargets:
-    """Target spectra of x and y, and of z, and their description.
-
-    Attributes
-    ----------
-    horizontal, vertical : Target
-    lines : tuple of str
-        Printed description.
-    facts : mapping
-        For suite.json.
-    """
+    """Target spectra of x and y, and of z, and their description."""
 
     horizontal: Target
     vertical: Target
-    lines: tuple[str, ...]
-    facts: Mapping[str, Any]
+    lines: tuple[str, ...]  # printed description
+    facts: Mapping[str, Any]  # for suite.json
 
     def of(self, component: str) -> Target:
         """Return the target of x, y or z."""
@@ -159,21 +150,12 @@ def _plateaus(upward: RequiredSpectrum) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Seeds:
-    """Records used as seeds of a suite.
+    """Records used as seeds of a suite."""
 
-    Attributes
-    ----------
-    groups : tuple of tuple of Record
-        One group for each motion; a vertical record among three is last.
-    sha256 : mapping of str to str
-        Of each file.
-    notes : tuple of str
-        Remarks on how the files were read.
-    """
-
+    # one group for each motion; a vertical record among three is last
     groups: tuple[tuple[Record, ...], ...]
-    sha256: Mapping[str, str]
-    notes: tuple[str, ...]
+    sha256: Mapping[str, str]  # of each file
+    notes: tuple[str, ...]  # remarks on how the files were read
 
 
 def read_seeds(names: Sequence[str], *, units: str, dt_s: float) -> Seeds:

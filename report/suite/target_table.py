@@ -37,7 +37,6 @@ _NAMES = {
     "sa": _HORIZONTAL,
     "vertical": _VERTICAL,
 }
-_UNITS = {_FREQUENCY: "hz", _PERIOD: "s", _HORIZONTAL: "g", _VERTICAL: "g"}
 _LIMITS = {
     _FREQUENCY: (1e-3, 1e3),
     _PERIOD: (1e-3, 1e3),
@@ -53,22 +52,12 @@ _ROUNDED = 0.01
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetTable:
-    """A target spectrum as read.
+    """A target spectrum as read."""
 
-    Attributes
-    ----------
-    source : str
-        File and sheet.
-    freq_hz, horizontal_g : array, shape (m,)
-        Increasing frequencies [Hz], accelerations [g].
-    vertical_g : array, shape (m,) or (0,)
-        Empty if the table has no vertical.
-    """
-
-    source: str
-    freq_hz: Floats
-    horizontal_g: Floats
-    vertical_g: Floats
+    source: str  # file and sheet
+    freq_hz: Floats  # shape (m,): increasing frequencies [Hz]
+    horizontal_g: Floats  # shape (m,): accelerations [g]
+    vertical_g: Floats  # shape (m,) or (0,): empty if the table has no vertical
 
     @property
     def has_vertical(self) -> bool:
@@ -216,27 +205,27 @@ def _table(source: str, rows: _Rows) -> TargetTable:
 def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
     """Return the row of the headings and the column of each kind."""
     for top, row in enumerate(rows[:HEADING_ROWS]):
-        kinds = [_kind(cell) for cell in row]
-        if {_FREQUENCY, _PERIOD} & set(kinds) and _HORIZONTAL in kinds:
-            return top, _columns(row, kinds)
+        headings = [_heading(cell) for cell in row]
+        kinds = {kind for kind, _ in headings}
+        if {_FREQUENCY, _PERIOD} & kinds and _HORIZONTAL in kinds:
+            return top, _columns(row, headings)
     raise InputError(
         f"{source}: no row of headings in the first {HEADING_ROWS} rows; give {_WANTED}"
     )
 
 
-def _kind(cell: _Cell) -> str:
+def _heading(cell: _Cell) -> tuple[str, str]:
+    """Return the kind of a column and its unit in small letters; each empty if there is none."""
     whole = _HEADING.fullmatch(cell.text.casefold())
-    return _NAMES.get(whole[1], "") if whole else ""
+    return (_NAMES.get(whole[1], ""), whole[2]) if whole else ("", "")
 
 
-def _columns(row: Sequence[_Cell], kinds: Sequence[str]) -> Mapping[str, int]:
+def _columns(row: Sequence[_Cell], headings: Sequence[tuple[str, str]]) -> Mapping[str, int]:
     problems, columns = [], {}
-    for column, (cell, kind) in enumerate(zip(row, kinds, strict=True)):
+    for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
             continue
-        whole = _HEADING.fullmatch(cell.text.casefold())
-        unit = whole[2] if whole else ""
-        if unit not in ("", _UNITS[kind]):
+        if unit not in ("", _SHOWN[kind].casefold()):
             wanted = f"give {kind} [{_SHOWN[kind]}]"
             problems.append(Problem(f"is '{cell.text}'", wanted, cell.place))
         if kind in columns:

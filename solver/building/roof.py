@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from solver.building.structure import Building, building_of_modes, building_of_periods
 from solver.kernels import oscillator
 from solver.model import Floats, InputError
+from solver.records.record import read_only
 from solver.records.spectrum import refined
 
 __all__ = [
@@ -184,7 +185,7 @@ def shaking_to_roof(
     return RoofShaking(
         dt_s=dt_s / steps,
         horizontal=tuple(_as_long(motion, count) for motion in motions),
-        vertical_mps2=_read_only(vertical),
+        vertical_mps2=read_only(vertical),
     )
 
 
@@ -217,7 +218,7 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
     over = np.flatnonzero(left_out > share * peak)
     n_modes = int(over[-1]) + 1 if over.size else 0
     per = 1.0 / peak if peak > 0.0 else 0.0
-    return _Cut(n_modes, _read_only(each * per), float(left_out[n_modes]) * per)
+    return _Cut(n_modes, read_only(each * per), float(left_out[n_modes]) * per)
 
 
 def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: int) -> RoofMotion:
@@ -231,7 +232,7 @@ def _carried(ground: Floats, dt_s: float, building: Building, cut: _Cut, steps: 
     end = min(max(n, _last_over(roof, RESTING_SHARE * top) + 2), roof.size)
     return RoofMotion(
         dt_s=dt,
-        a_mps2=_read_only(roof[:end]),
+        a_mps2=read_only(roof[:end]),
         pad_s=(end - n) * dt,
         n_modes=cut.n_modes,
         shares=cut.shares,
@@ -246,8 +247,8 @@ def absolute_accelerations(
     a_mps2: ArrayLike, dt_s: float, periods_s: ArrayLike, damping: ArrayLike
 ) -> Floats:
     """Return absolute accelerations of oscillators, shape (n, m), one row per sample [m/s2]."""
-    a, zeta = _read_only(a_mps2), _read_only(damping)
-    omega = _read_only(2.0 * math.pi / np.asarray(periods_s, dtype=np.float64))
+    a, zeta = read_only(a_mps2), read_only(damping)
+    omega = read_only(2.0 * math.pi / np.asarray(periods_s, dtype=np.float64))
     accelerations = np.empty((a.size, omega.size))
     oscillator.histories(a, float(dt_s), omega, zeta, accelerations)
     return accelerations
@@ -256,7 +257,7 @@ def absolute_accelerations(
 def lengthened(a_mps2: ArrayLike, count: int) -> Floats:
     """Return a record extended with zeros to `count` samples, read-only."""
     a = np.asarray(a_mps2, dtype=np.float64)
-    return _read_only(np.append(a, np.zeros(max(count - a.size, 0))))
+    return read_only(np.append(a, np.zeros(max(count - a.size, 0))))
 
 
 def _free_samples(building: Building, dt_s: float) -> int:
@@ -276,13 +277,6 @@ def _steps(n_modes: int, dt_s: float, building: Building) -> int:
 def _last_over(a: Floats, limit: float) -> int:
     over = np.flatnonzero(np.abs(a) > limit)
     return int(over[-1]) if over.size else 0
-
-
-def _read_only(values: ArrayLike) -> Floats:
-    # numba compiles a second version for writable arrays, so kernels get read-only arrays only.
-    array = np.ascontiguousarray(values, dtype=np.float64).view()
-    array.setflags(write=False)
-    return array
 
 
 def _checked(ground_mps2: ArrayLike, dt_s: float, share: float) -> Floats:

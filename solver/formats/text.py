@@ -73,7 +73,8 @@ def read(source: Source) -> MotionFile:
     _check_last(source, table)
     timed = _has_times(source, table)
     columns = range(int(timed), table.values.shape[1])
-    taken = [i for i in columns if not _is_other(table, i)]
+    others = [i for i, one in enumerate(table.headings) if one.kind is Kind.OTHER]
+    taken = [i for i in columns if i not in others]
     left = [table.headings[i].text for i in columns if i not in taken]
     if not taken:
         raise InputError(
@@ -130,10 +131,6 @@ def _hold_s(table: _Table) -> float:
     """Hold of the envelope [s] that a generated file states; NaN for none."""
     stated = [found for _, line in table.remarks if (found := _HOLD.search(line))]
     return float(stated[0][1]) if stated else math.nan
-
-
-def _is_other(table: _Table, column: int) -> bool:
-    return bool(table.headings) and table.headings[column].kind is Kind.OTHER
 
 
 def _has_times(source: Source, table: _Table) -> bool:

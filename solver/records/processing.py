@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solver.model import Floats, InputError
-from solver.records.record import Record
+from solver.records.record import Record, read_only
 
 MAX_DEGREE = 8
 MAX_ORDER = 12
@@ -115,12 +115,12 @@ def process(record: Record, processing: Processing) -> Record:
     problems = processing.problems() or _record_problems(record, processing)
     if problems:
         raise InputError([f"{record.name}: {problem}" for problem in problems])
-    a = _level(_trimmed(record, processing), processing.baseline)
+    start, stop = _bounds(record, processing)
+    a = _level(record.a_mps2[start:stop], processing.baseline)
     a = _resampled(_filtered(a, record.dt_s, processing), record.dt_s, processing.dt_s)
     dt_s = processing.dt_s or record.dt_s
     a = np.concatenate([a, np.zeros(_steps(processing.pad_s, dt_s))])
-    a.setflags(write=False)
-    return Record(name=record.name, dt_s=dt_s, a_mps2=a)
+    return Record(name=record.name, dt_s=dt_s, a_mps2=read_only(a))
 
 
 def process_together(records: Sequence[Record], processing: Processing) -> tuple[Record, ...]:
@@ -153,11 +153,6 @@ def _bounds(record: Record, processing: Processing) -> tuple[int, int]:
     last = len(record.a_mps2) - 1
     end = min(processing.to_s / record.dt_s + 1e-6, float(last))
     return _steps(processing.from_s, record.dt_s), math.floor(end) + 1
-
-
-def _trimmed(record: Record, processing: Processing) -> Floats:
-    start, stop = _bounds(record, processing)
-    return record.a_mps2[start:stop]
 
 
 def _level(a: Floats, degree: int) -> Floats:

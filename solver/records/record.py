@@ -86,7 +86,8 @@ def record_from_values(
         if not is_finite_number(value)
     ]
     raise_any(problems)
-    return _record(name, np.asarray(values, dtype=np.float64), units, dt_s)
+    a = np.asarray(values, dtype=np.float64) * UNITS[units]
+    return Record(name=name, dt_s=float(dt_s), a_mps2=read_only(a))
 
 
 def write_record(
@@ -141,10 +142,6 @@ def read_only(values: ArrayLike) -> Floats:
     array = np.ascontiguousarray(values, dtype=np.float64).view()
     array.setflags(write=False)
     return array
-
-
-def _record(name: str, values: Floats, units: str, dt_s: float) -> Record:
-    return Record(name=name, dt_s=float(dt_s), a_mps2=read_only(values * UNITS[units]))
 
 
 def is_finite_number(value: object) -> bool:

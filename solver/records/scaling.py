@@ -88,15 +88,12 @@ def factor_to_target(
         If the range is invalid, or a component is zero throughout.
     """
     _check_range(periods_s)
-    periods = _periods(*periods_s)
+    shortest_s, longest_s = periods_s
+    count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
+    periods = np.geomspace(shortest_s, longest_s, max(count, 2))
     logs = [_log_spectrum(record, periods) for record in horizontals]
     difference = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)
     return float(np.exp(difference.mean()))
-
-
-def _periods(shortest_s: float, longest_s: float) -> Floats:
-    count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
-    return np.geomspace(shortest_s, longest_s, max(count, 2))
 
 
 def _log_spectrum(record: Record, periods_s: Floats) -> Floats:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.model import Floats, Motion
-from solver.records.record import UNITS
+from solver.records.record import UNITS, read_only
 from solver.records.spectrum import response_spectrum
 from solver.rules.limit import MOTIONS, PROGRAM, Limit, Measure
 from solver.rules.rulesets import Provision
@@ -127,9 +127,7 @@ def ratio_to_target(a_mps2: Floats, dt_s: float, target_g: Floats) -> Floats:
 @lru_cache(_KEPT)
 def _spectrum_g(record: bytes, dt_s: float) -> Floats:
     """Return a record's spectrum [g], computed once for all scales and targets that are tried."""
-    spectrum = ratio_to_target(np.frombuffer(record), dt_s, np.ones(len(POINTS_HZ)))
-    spectrum.setflags(write=False)
-    return spectrum
+    return read_only(ratio_to_target(np.frombuffer(record), dt_s, np.ones(len(POINTS_HZ))))
 
 
 def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:

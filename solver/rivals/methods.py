@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -17,10 +18,10 @@ import numpy as np
 
 from solver.kernels import one_axis, rivals
 from solver.model import Floats
+from solver.records.record import read_only
 from solver.rivals import regularized
 
-NO_RECORD = np.empty(0)
-NO_RECORD.setflags(write=False)
+NO_RECORD = read_only(np.empty(0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,25 +176,16 @@ def _frozen(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcom
     normal force constant, and a' = -G preserves the drive, vertical shaking included.
     """
     drive, _ = drive_and_cap(scene)
-    a = -drive
-    a.setflags(write=False)
+    a = read_only(-drive)
     x = one_axis.bounds(a)
     none = replace(scene, az=NO_RECORD, z=one_axis.bounds(NO_RECORD))
     flat = replace(none, ax=a, x=x, sn=0.0, cs=1.0, g=scene.g * scene.cs, scale=1.0)
     return _exact(flat, parameters, samples)
 
 
-def _constant(scene: AxisScene, parameters: Parameters, samples: Floats, skips: bool) -> Outcome:
+def _constant(scene: AxisScene, parameters: Parameters, samples: Floats, *, skips: bool) -> Outcome:
     p = int(parameters["substeps"])
     return _outcome(rivals.slide_constant(*_letters(scene), p, skips, samples))
-
-
-def _paper(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
-    return _constant(scene, parameters, samples, False)
-
-
-def _adaptive(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
-    return _constant(scene, parameters, samples, True)
 
 
 def _linear(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
@@ -201,17 +193,9 @@ def _linear(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcom
     return _outcome(rivals.slide_linear(*_letters(scene), p, samples))
 
 
-def _link(scene: AxisScene, parameters: Parameters, samples: Floats, implicit: bool) -> Outcome:
+def _link(scene: AxisScene, parameters: Parameters, samples: Floats, *, implicit: bool) -> Outcome:
     p, k = int(parameters["substeps"]), scene.g * parameters["stiffness_per_m"]
     return _outcome(rivals.slide_link(*_letters(scene), p, k, implicit, samples))
-
-
-def _explicit(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
-    return _link(scene, parameters, samples, False)
-
-
-def _implicit(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
-    return _link(scene, parameters, samples, True)
 
 
 def _regularized(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcome:
@@ -283,7 +267,7 @@ _ALL = (
             "number, because events fall at different points of a sub-step."
         ),
         source=f"{_PAPER}, Eqs. 1-19",
-        follow=_paper,
+        follow=partial(_constant, skips=False),
     ),
     Method(
         name="linear",
@@ -317,7 +301,7 @@ _ALL = (
             "sustained slip."
         ),
         source=f"{_PAPER}, Limitations: larger time steps while no slip is detected",
-        follow=_adaptive,
+        follow=partial(_constant, skips=True),
     ),
     Method(
         name="penalty-explicit",
@@ -336,7 +320,7 @@ _ALL = (
         ),
         source=f"{_PAPER}, SAP 2000: Newmark gamma 0.5, beta 0, no damping, 100 N/mm on 1 N",
         link_steps_per_radian=1.0,
-        follow=_explicit,
+        follow=partial(_link, implicit=False),
     ),
     Method(
         name="penalty-implicit",
@@ -354,7 +338,7 @@ _ALL = (
         ),
         source="OpenSees flatSliderBearing with Newmark gamma 0.5, beta 0.25 and Newton's method",
         link_steps_per_radian=1.0,
-        follow=_implicit,
+        follow=partial(_link, implicit=True),
     ),
     Method(
         name="regularized",

@@ -24,6 +24,7 @@ from solver.model import (
     SlideResult,
     coulomb,
 )
+from solver.records.record import read_only
 from solver.rivals.methods import METHODS, NO_RECORD, WANTED, Method, Parameters
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import DEFAULT, Settings, Solution
@@ -362,6 +363,4 @@ def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> 
     if not np.isfinite(record).all():
         first = int(np.flatnonzero(~np.isfinite(record))[0])
         problems.append(f"{name}[{first}] is {record[first]}; give finite accelerations")
-    record = record.view()
-    record.setflags(write=False)
-    return record
+    return read_only(record)

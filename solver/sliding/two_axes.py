@@ -22,6 +22,7 @@ from solver.model import (
     SlideResult,
     Status,
 )
+from solver.records.record import read_only
 from solver.rivals.methods import minimum_normal
 from solver.sliding.one_axis import prepared, sample_times, without_displacement
 
@@ -216,8 +217,7 @@ def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:
 
 def _components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     """Return the record along, across and up [m/s2]; zeros for what it does not have."""
-    still = np.zeros_like(scene.ax_mps2)
-    still.setflags(write=False)
+    still = read_only(np.zeros_like(scene.ax_mps2))
     across, up = (each if each.size else still for each in (scene.ay_mps2, scene.az_mps2))
     return scene.ax_mps2, across, up
 

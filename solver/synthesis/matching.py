@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from solver.kernels import oscillator
 from solver.model import Floats
-from solver.records.record import DECIMALS, UNITS, Record
+from solver.records.record import DECIMALS, UNITS, Record, read_only
 from solver.records.spectrum_acceptance import POINTS_HZ
 from solver.synthesis.target import BAND_HZ, DAMPING, Target, band, spectrum_fit, target_sa_g
 
@@ -153,10 +153,8 @@ def _calmed(frame: MatchingFrame, a: Floats) -> Floats:
 
 def _peaks(frame: MatchingFrame, a: Floats) -> tuple[Floats, _Samples]:
     """Peak pseudo-accelerations [m/s2] with their signs, and the samples at which they occur."""
-    read_only = a.view()
-    read_only.setflags(write=False)
     peak, at = np.empty(len(frame.freq_hz)), np.empty(len(frame.freq_hz), dtype=np.int64)
-    oscillator.peaks(read_only, frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, at)
+    oscillator.peaks(read_only(a), frame.dt_s, 2.0 * math.pi * frame.freq_hz, DAMPING, peak, at)
     return peak, at
 
 
@@ -247,6 +245,4 @@ def rounded(a: Floats) -> Floats:
     The record is summed twice, rounded and differenced twice, so rounding causes no drift.
     """
     counts = np.rint(np.cumsum(np.cumsum(a / (_G * _QUANTUM_G))))
-    values: Floats = np.diff(counts, n=2, prepend=[0.0, 0.0]) / 10.0 ** DECIMALS["g"] * _G
-    values.setflags(write=False)
-    return values
+    return read_only(np.diff(counts, n=2, prepend=[0.0, 0.0]) / 10.0 ** DECIMALS["g"] * _G)

@@ -155,7 +155,8 @@ def _predicted(
     # The computed motion outlasts the record; only the recorded duration can be compared.
     a = motion.a_mps2[:: round(found.dt_s / motion.dt_s)][: found.roof_mps2.size]
     sa = response_spectrum(a, found.dt_s, SPECTRUM_S)
-    ratios, scatters = _by_band(np.log(sa / found.roof_sa_mps2))
+    logs = np.log(sa / found.roof_sa_mps2)
+    bands = [logs[(low <= SPECTRUM_S) & (high >= SPECTRUM_S)] for low, high in BANDS_S]
     return RoofPrediction(
         name=name,
         period_s=properties.period_s,
@@ -166,16 +167,11 @@ def _predicted(
         unexplained=unexplained(a, found.roof_mps2),
         peak_mps2=float(np.abs(a).max()),
         sa_mps2=sa,
-        band_ratios=ratios,
-        band_scatters=scatters,
+        band_ratios=np.exp([band.mean() for band in bands]),
+        band_scatters=np.array([band.std() for band in bands]),
         a_mps2=a,
         prd_m=_slips(a, found.dt_s, found.scale),
     )
-
-
-def _by_band(logs: Floats) -> tuple[Floats, Floats]:
-    parts = [logs[(low <= SPECTRUM_S) & (high >= SPECTRUM_S)] for low, high in BANDS_S]
-    return np.exp([part.mean() for part in parts]), np.array([part.std() for part in parts])
 
 
 def _slips(a: Floats, dt_s: float, scale: float) -> Floats:

@@ -13,12 +13,13 @@ from solver.verification.shake_table import ShakeTable
 from solver.verification.table_tests import TableTest
 
 
+# Named functions, so that a feature can be pickled.
 def _no_test(_: TableTest) -> bool:
     return False
 
 
 def _one_axis(test: TableTest) -> bool:
-    return _has_one_coefficient(test) and not test.scene.ay_mps2.size
+    return test.scene.friction.is_constant and not test.scene.ay_mps2.size
 
 
 def _vertical(test: TableTest) -> bool:
@@ -26,15 +27,11 @@ def _vertical(test: TableTest) -> bool:
 
 
 def _two_axes(test: TableTest) -> bool:
-    return _has_one_coefficient(test) and bool(test.scene.ay_mps2.size)
-
-
-def _has_one_coefficient(test: TableTest) -> bool:
-    return test.scene.friction.is_constant
+    return test.scene.friction.is_constant and bool(test.scene.ay_mps2.size)
 
 
 def _static(test: TableTest) -> bool:
-    return not _has_one_coefficient(test)
+    return not test.scene.friction.is_constant
 
 
 @dataclass(frozen=True, slots=True)

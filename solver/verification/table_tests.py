@@ -253,15 +253,13 @@ def _records(folder: Path, row: _Row, problems: list[str]) -> Iterator[tuple[str
         file, _, channel = name.partition(BAR)
         path = folder / file.strip()
         try:
-            _check_within(folder, path, file.strip())
+            if not path.resolve().is_relative_to(folder.resolve()):
+                raise InputError(
+                    f"{shown(file.strip())} lies outside of the folder; copy the record into it"
+                )
             yield key, read_record(path, channel=channel.strip())
         except InputError as error:
             problems += [f"{row.at(key)}: {text}" for text in error.problems]
-
-
-def _check_within(folder: Path, path: Path, name: str) -> None:
-    if not path.resolve().is_relative_to(folder.resolve()):
-        raise InputError(f"{shown(name)} lies outside of the folder; copy the record into it")
 
 
 def _unlike(row: _Row, records: Mapping[str, Record]) -> Iterator[str]:

@@ -19,11 +19,8 @@ from solver.verification.evidence import WorkPoint, percent_off
 from solver.verification.scenes import CASES, Case, is_runnable
 from solver.verification.study import clocked, minimum_seconds, prepared, run
 
-SLOW_RECORDS, SLOW_CASES = 6, 2
-"""Number of records, and of cases of each, for a method that takes a second per run."""
-
-SLOW_DURATION_S = 40.0
-"""Longest record for such a method [s]."""
+SLOW_CASES = 2
+"""Number of cases of each record for a method that takes a second per run."""
 
 NO_SAMPLES = np.empty((2, 0))
 
@@ -32,12 +29,11 @@ def work_points(records: Sequence[Record], *, quick: bool) -> Iterator[WorkPoint
     """Run every method with each setting on every record and case, see `settings`."""
     cases = CASES[:3] if quick else CASES
     methods = [method for method in METHODS.values() if is_runnable(method.name)]
-    for i, record in enumerate(records):
+    for record in records:
         for k, case in enumerate(cases):
             exact = run(record, case)
             for method in methods:
-                within = i < SLOW_RECORDS and k < SLOW_CASES and _is_short(record)
-                if is_slow(method) and not within:
+                if is_slow(method) and k >= SLOW_CASES:
                     continue
                 for value, parameters in settings(method, record, quick=quick):
                     yield _point(record, case, method, value, parameters, exact)
@@ -65,10 +61,6 @@ def settings(
 def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> float:
     """Return the least time of a run by a method on a prepared scene [s]."""
     return minimum_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
-
-
-def _is_short(record: Record) -> bool:
-    return (record.a_mps2.size - 1) * record.dt_s <= SLOW_DURATION_S
 
 
 def _point(
