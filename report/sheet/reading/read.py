@@ -25,20 +25,9 @@ from report.sheet.reading.cells import (
     wish_for_missing,
 )
 from report.sheet.reading.duplicate_sheets import copies
-from report.sheet.reading.locate import (
-    added_later,
-    find_cell,
-    find_unit_cell,
-    is_absent,
-)
+from report.sheet.reading.locate import added_later, find_cell, find_unit_cell, is_absent
 from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
-from report.sheet.reading.positions import (
-    FRESH,
-    CellPosition,
-    check_uncovered,
-    found_at,
-    unit_size,
-)
+from report.sheet.reading.positions import FRESH, CellPosition, check_uncovered, found_at, unit_size
 from report.sheet.reading.unseen import Unseen, by_cell, unseen
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.sheet.schema.fields import Draft, Entry, Finding, Place, SheetSection, entries

@@ -31,6 +31,6 @@ class Roof(Placed):
     y_from_m: Annotated[float | None, _side("y from", 0.0)] = None
     y_to_m: Annotated[float | None, _side("y to", 240.0)] = None
     north_deg: Annotated[
-        Annotated[float, Field(ge=0.0, le=360.0)], Cell("Direction of north", 90.0, "deg")
+        float, Field(ge=0.0, le=360.0), Cell("Direction of north", 90.0, "deg")
     ] = 90.0
     """In plan, counterclockwise from +x: 90 is +y."""

@@ -142,11 +142,7 @@ def _facts() -> Sequence[tuple[str, str, Sequence[str]]]:
     return (
         ("importance", "The importance factor is applied", [_importance(r) for r in rules]),
         ("low_sdc", "In SDC A, B, C the prescriptive displacement is", [_low(r) for r in rules]),
-        (
-            "edition",
-            "Edition of ASCE 7, unless Site names one",
-            [r.edition for r in rules],
-        ),
+        ("edition", "Edition of ASCE 7, unless Site names one", [r.edition for r in rules]),
         (
             "low_profile",
             "The height of the center of gravity is limited by a fraction of the",

@@ -75,11 +75,7 @@ def _rows(section: SheetSection, example: ProjectInput | None) -> Sequence[Froze
 
 
 def _write_section(
-    book: Workbook,
-    layout: Layout,
-    section: SheetSection,
-    units: UnitsFirst,
-    rows: Sequence[Frozen],
+    book: Workbook, layout: Layout, section: SheetSection, units: UnitsFirst, rows: Sequence[Frozen]
 ) -> None:
     if section.sheet not in book.sheetnames:
         book.create_sheet(section.sheet)
