@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.sheet.schema import RiskCategory, edition_of, site_class_or_default
+from report.sheet.schema import RiskCategory
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.sheet.schema.project import edition_of, site_class_or_default
 from solver.rules import hazard
 from solver.rules.hazard import Edition, HazardBasis, SeismicParameters
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coefficient

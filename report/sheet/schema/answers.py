@@ -35,27 +35,17 @@ _REFERENCE = re.compile(r"(\w*)\[(#?)(\w+)\]")
 class FormulaColumn:
     """A column of formulas in a table.
 
-    Attributes
-    ----------
-    name, heading : str
-    note : str
-        Shown above the heading.
-    formula : str
-        Without its equals sign: `[field]` is the cell of its row, `table[field]` a whole column,
-        and `table[#field]` a heading. Blank where it gives an error.
-    number_format : str
-    width : int
-    is_helper : bool
-        Whether it only serves other formulas, and is folded at the right.
+    In a formula, without its equals sign, `[field]` is the cell of its row, `table[field]` a whole
+    column, and `table[#field]` a heading. It is blank where it gives an error.
     """
 
     name: str
     heading: str
-    note: str
+    note: str  # above the heading
     formula: str
     number_format: str = "General"
     width: int = 11
-    is_helper: bool = False
+    is_helper: bool = False  # it only serves other formulas, and is folded at the right
 
     def written(self, layout: Layout, section: str) -> str:
         """Return the formula with the references of a finished layout."""
@@ -67,33 +57,30 @@ class FormulaColumn:
             place = layout.tables[table]
             return place.head(field) if is_heading else place.all(field)
 
-        return _blank_on_error(_REFERENCE.sub(reference, _on_one_line(self.formula)))
+        on_one_line = "".join(map(str.strip, self.formula.splitlines()))
+        return _blank_on_error(_REFERENCE.sub(reference, on_one_line))
 
 
 def table_answers(section: str, *, is_us: bool) -> tuple[FormulaColumn, ...]:
     """Return the answers of a table, in the order of its columns."""
     side = 0 if is_us else 1
-    if section == "arrays":
-        return _of_arrays(Quantity.PRESSURE.value[side])
-    if section == "outlines":
-        return (_DOUBLE_AREA,)
-    return _of_clearances(Quantity.SIZE.value[side]) if section == "clearances" else ()
-
-
-def _on_one_line(formula: str) -> str:
-    return "".join(map(str.strip, formula.splitlines()))
-
-
-def _label(heading: str) -> str:
-    return heading.partition("[")[0].strip().casefold()
+    match section:
+        case "arrays":
+            return _of_arrays(Quantity.PRESSURE.value[side])
+        case "clearances":
+            return _of_clearances(Quantity.SIZE.value[side])
+        case "outlines":
+            return (_DOUBLE_AREA,)
+    return ()
 
 
 def _blank_on_error(formula: str) -> str:
     return f'IFERROR({formula},"")'
 
 
-def _decimals(count: int) -> str:
-    return f"0.{'0' * count}" if count else "0"
+def decimals_format(unit: Unit) -> str:
+    """Return the number format with the decimals of a unit."""
+    return f"0.{'0' * unit.decimals}".rstrip(".")
 
 
 _SLOPE_DEG = """
@@ -141,7 +128,7 @@ def _of_arrays(unit: Unit) -> tuple[FormulaColumn, ...]:
             heading=f"Weight per area [{unit.symbol}]",
             note="over the rectangle or outline in plan",
             formula=_weight_per_area(unit),
-            number_format=_decimals(unit.decimals),
+            number_format=decimals_format(unit),
         ),
         FormulaColumn(
             name="kind_of_array",
@@ -221,10 +208,7 @@ def _required(unit: Unit) -> str:
 
 
 def _demand_capacity(unit: Unit) -> str:
-    """Return required / provided, rounded up like `report.words.units.ratio`.
-
-    So that 1.00 never hides a failure.
-    """
+    # Rounded up as by `report.words.units.ratio`, so that 1.00 never hides a failure.
     ratio = f"[required]*{unit.si!r}/([provided_m]*unit_clearances_provided_m)"
     return f"""
         IF(OR([required]="",TRIM([provided_m])=""),"",
@@ -253,7 +237,7 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
             heading=f"Required, prescriptive [{unit.symbol}]",
             note="separation for the prescriptive displacement",
             formula=_required(unit),
-            number_format=_decimals(unit.decimals),
+            number_format=decimals_format(unit),
             width=13,
         ),
         FormulaColumn(
@@ -271,7 +255,6 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
 
 
 def _row_of(name: str, what: str, field: str, section: str) -> FormulaColumn:
-    """Return the column that says where an id is in another table."""
     return FormulaColumn(
         name=name,
         heading=f"Row of {what}",
@@ -333,10 +316,7 @@ def _design(given: str, maximum: str) -> str:
 def _sdc() -> str:
     """Return the most severe category: by S_DS, by S_D1, and by S_1."""
     steps = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
-    short, long = (
-        steps.format("live_s_ds", "sdc_limits_s_ds"),
-        steps.format("live_s_d1", "sdc_limits_s_d1"),
-    )
+    short, long = (steps.format(f"live_{s}", f"sdc_limits_{s}") for s in ("s_ds", "s_d1"))
     near = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'
     return (
         'IF(OR(live_s_ds="",TRIM(site_risk_category)=""),"",'
@@ -371,7 +351,7 @@ def prescriptive_basis() -> str:
 
 ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
     section: frozenset(
-        _label(heading)
+        heading.partition("[")[0].strip().casefold()
         for heading in (STATUS_HEADING, *(a.heading for a in table_answers(section, is_us=True)))
     )
     for section in ("arrays", "clearances", "outlines")
