@@ -6,8 +6,8 @@ Each fault names the cell to change. Works on a draft, like `checks`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
+from report.sheet.checking.drafts import column, repeated
 from report.sheet.schema import FrictionTestRow
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from solver.friction_tests import Series, governing, series
@@ -35,18 +35,14 @@ def _report(draft: Draft, row: DraftRow) -> str:
 
 
 def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
-    seen: dict[tuple[Any, ...], int] = {}
-    for index, row in enumerate(draft["friction_runs"]):
-        surface, number = row.get("surface"), row.get("number")
-        if surface is None or number is None:
-            continue
-        key = (_report(draft, row).casefold(), surface, number)
-        first = seen.setdefault(key, index)
-        if first != index:
-            at = where(Place("friction_runs", first, "number"))
-            text = f"run is {number}, {surface}, already given at {at}"
-            wanted = "give another number"
-            yield Finding.error(Place("friction_runs", index, "number"), text, wanted)
+    given = (
+        (place, (_report(draft, row).casefold(), row["surface"], number))
+        for place, number in column(draft, ("friction_runs",), "number")
+        if "surface" in (row := draft["friction_runs"][place.row])
+    )
+    for place, (_, surface, number), first in repeated(given):
+        text = f"run is {number}, {surface}, already given at {where(first)}"
+        yield Finding.error(place, text, "give another number")
 
 
 def _tested(draft: Draft) -> tuple[Series, ...]:
