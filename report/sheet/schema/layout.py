@@ -100,14 +100,15 @@ def literal(name: str) -> str:
     return name
 
 
-def name_cell(book: Workbook, name: str, sheet: Worksheet, row: int, column: int) -> None:
+def name_cell(name: str, sheet: Worksheet, row: int, column: int) -> None:
     """Give a cell a defined name."""
-    name_range(book, name, sheet, f"${get_column_letter(column)}${row}")
+    name_range(name, sheet, f"${get_column_letter(column)}${row}")
 
 
-def name_range(book: Workbook, name: str, sheet: Worksheet, area: str) -> None:
+def name_range(name: str, sheet: Worksheet, area: str) -> None:
     """Give a range, such as `$A$1:$B$2`, a defined name."""
-    name_formula(book, name, f"{quote_sheetname(sheet.title)}!{area}")
+    assert sheet.parent is not None
+    name_formula(sheet.parent, name, f"{quote_sheetname(sheet.title)}!{area}")
 
 
 def name_formula(book: Workbook, name: str, formula: str) -> None:

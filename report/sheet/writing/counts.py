@@ -37,10 +37,10 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
         name = f"lacks_{sheet_name}"
         count = start.cell(row, COUNTS_COLUMN + 1)
         style.put_answer(count, "+".join(lacks) or "0", COUNT_FORMAT)
-        name_cell(book, name, start, row, COUNTS_COLUMN + 1)
+        name_cell(name, start, row, COUNTS_COLUMN + 1)
         mark_count(start, count.coordinate, f"${get_column_letter(COUNTS_COLUMN + 1)}{row}")
         _write_line(book, title, name, "+".join(wrong) or "0")
-        name_cell(book, f"line_{sheet_name}", book[title], 3, 1)
+        name_cell(f"line_{sheet_name}", book[title], 3, 1)
 
 
 def _lacking_in(place: TablePlace) -> str:

@@ -106,18 +106,18 @@ def _write_block_row(
     for column, text in enumerate(texts, start=5):
         style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
     sheet.row_dimensions[row].height = 6 + 13 * _lines(texts, BLOCK_WIDTHS[4:])
-    name_cell(book, section.cell_name(entry.name), sheet, row, 2)
+    name_cell(section.cell_name(entry.name), sheet, row, 2)
     style.validate(sheet, f"B{row}", entry, 1.0)
     if section.key == "site" and entry.name in site_answers():
         formula, name = site_answers()[entry.name]
         style.put_answer(sheet.cell(row, 4), formula, SITE_FORMAT)
-        name_cell(book, name, sheet, row, 4)
+        name_cell(name, sheet, row, 4)
     if entry.quantity is None or unit is None:
         style.put(sheet, row, 3, str(entry.cell.unit), color=style.GRAY)
         return
     sheet.cell(row, 3).value = unit.symbol
     style.style_input(sheet.cell(row, 3), str)
-    name_cell(book, section.unit_name(entry.name), sheet, row, 3)
+    name_cell(section.unit_name(entry.name), sheet, row, 3)
     style.offer(sheet, f"C{row}", entry.quantity.accepted, "Unit", "Unit of the value to the left.")
 
 

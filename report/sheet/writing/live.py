@@ -226,7 +226,7 @@ def _written(layout: Layout, *, is_us: bool) -> Workbook:
         book.create_sheet(title)
     for row, (formula, name) in enumerate(site_answers().values(), start=1):
         book["Site"].cell(row, _ASIDE).value = f"={formula}"
-        name_cell(book, name, book["Site"], row, _ASIDE)
+        name_cell(name, book["Site"], row, _ASIDE)
     write_panel(book, is_us=is_us)
     write_rules(book, layout)
     write_lookups(book, layout)

@@ -51,23 +51,23 @@ def write_panel(book: Workbook, *, is_us: bool) -> None:
     last = row + 2 + len(_ROWS)
     for at in range(row, last + 1):
         sheet.row_dimensions[at].height = 32
-    name_range(book, "live_panel", sheet, f"$B${row}:$E${last}")
+    name_range("live_panel", sheet, f"$B${row}:$E${last}")
 
 
 def _write_inputs(book: Workbook, sheet: Worksheet, row: int, *, is_us: bool) -> None:
     style.put(sheet, row, 1, "Category used").border = style.LINE
     used = 'IF(TRIM(site_sdc)<>"",UPPER(TRIM(site_sdc)),live_sdc)'
     style.put_answer(sheet.cell(row, 2), used)
-    name_cell(book, "live_sdc_used", sheet, row, 2)
+    name_cell("live_sdc_used", sheet, row, 2)
     _write_note(sheet, row, "", "As given; where blank, the least category by S_DS, S_D1 and S_1.")
     label = "Prescriptive displacement, formula"
     _write_lengths(book, sheet, row + 1, label, prescriptive_formula_in(), is_us=is_us)
-    name_cell(book, "live_prescriptive_formula_in", sheet, row + 1, _inches(is_us))
+    name_cell("live_prescriptive_formula_in", sheet, row + 1, _inches(is_us))
     clause = "=rule_prescriptive_factor_in_clause"
     _write_note(sheet, row + 1, clause, "Factor x (S_DS - 0.4)^2, before its minimum.")
     label = "Prescriptive displacement"
     _write_lengths(book, sheet, row + 2, label, prescriptive_in(), is_us=is_us)
-    name_cell(book, "live_prescriptive_in", sheet, row + 2, _inches(is_us))
+    name_cell("live_prescriptive_in", sheet, row + 2, _inches(is_us))
     _write_note(sheet, row + 2, "", "")
     style.put_answer(sheet.cell(row + 2, 4), prescriptive_basis())
     sheet.cell(row + 2, 5).value = (

@@ -46,7 +46,7 @@ def write_rules(book: Workbook, layout: Layout) -> None:
     names = (head for rules in RULE_SETS.values() for head in (rules.name, "Clause"))
     head = 5
     last_column = sheet_column(_FIRST + 2 * len(RULE_SETS) - 1)
-    name_range(book, "rule_sets", sheet, f"${sheet_column(_FIRST)}${head}:${last_column}${head}")
+    name_range("rule_sets", sheet, f"${sheet_column(_FIRST)}${head}:${last_column}${head}")
     for column, text in enumerate((*_HEADS, *names), start=1):
         style.put(sheet, head, column, text, bold=True).border = style.LINE
     for column, width in enumerate((*_WIDTHS, *(_RULE_WIDTHS * len(RULE_SETS))), start=1):
@@ -56,7 +56,7 @@ def write_rules(book: Workbook, layout: Layout) -> None:
     for row, key in enumerate(PROVISION_KEYS, start=first):
         _write_rule(book, sheet, layout, row, key)
     last = first + len(PROVISION_KEYS) - 1
-    name_range(book, "rule_names", sheet, f"$A${first}:$A${last}")
+    name_range("rule_names", sheet, f"$A${first}:$A${last}")
     _write_facts(book, sheet, last + 2)
     sheet.freeze_panes = f"B{first}"
     sheet.print_title_rows = f"{head}:{head}"
@@ -112,8 +112,8 @@ def _write_in_use(
 ) -> None:
     style.put_answer(sheet.cell(row, 3), value, "0.####")
     style.put_answer(sheet.cell(row, 4), clause)
-    name_cell(book, f"rule_{key}", sheet, row, 3)
-    name_cell(book, f"rule_{key}_clause", sheet, row, 4)
+    name_cell(f"rule_{key}", sheet, row, 3)
+    name_cell(f"rule_{key}_clause", sheet, row, 4)
     lines = math.ceil(len(provision_name(key)) / _WIDTHS[0])
     sheet.row_dimensions[row].height = 7 + 13 * lines
 
@@ -127,7 +127,7 @@ def _write_facts(book: Workbook, sheet: Worksheet, top: int) -> None:
             _write_pair(sheet, row, count, text, "")
             _merge(sheet, row, _FIRST + 2 * count)
         style.put_answer(sheet.cell(row, 3), _chosen(row, 0))
-        name_cell(book, f"rule_{key}", sheet, row, 3)
+        name_cell(f"rule_{key}", sheet, row, 3)
         _merge(sheet, row, 3)
         sheet.row_dimensions[row].height = 32
 

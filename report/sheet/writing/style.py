@@ -96,6 +96,40 @@ def _style_text(cell: Any, sheet: Worksheet, look: _Look) -> None:
     looks[look] = copy(cell._style)
 
 
+class Answer(str):
+    """A formula to write, without its equals sign."""
+
+    __slots__ = ()
+
+
+Value = Answer | str | float
+"""What a row of a static sheet has in a cell."""
+
+
+def put_values(sheet: Worksheet, row: int, values: Iterable[Value]) -> None:
+    """Write the cells of a row of a static sheet; NaN where a table has no number."""
+    for column, value in enumerate(values, start=1):
+        match value:
+            case Answer():
+                put_answer(sheet.cell(row, column), value)
+            case str():
+                put(sheet, row, column, value).border = LINE
+            case _ if math.isnan(value):
+                put(sheet, row, column, "site-specific", color=GRAY, size=9)
+            case _:
+                cell = put(sheet, row, column, "")
+                cell.value, cell.data_type, cell.border = value, "n", LINE
+
+
+def put_heads(sheet: Worksheet, row: int, heads: Iterable[Value]) -> None:
+    """Write the line of headings of a static sheet or a block."""
+    heads = tuple(heads)
+    put_values(sheet, row, heads)
+    for column, head in enumerate(heads, start=1):
+        if isinstance(head, str):
+            put(sheet, row, column, head, bold=True).border = LINE
+
+
 def put_title(sheet: Worksheet, title: str, hint: str) -> None:
     """Write the title of a sheet and the line below it."""
     put(sheet, 1, 1, title, bold=True, size=16, wrap=False)
