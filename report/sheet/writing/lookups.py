@@ -63,7 +63,7 @@ def _write_table(
     title, note = words
     style.put(sheet, row, 1, title, bold=True, size=12, wrap=False)
     style.put(sheet, row + 1, 1, note, color=style.GRAY, wrap=False)
-    style.put_heads(sheet, row + 2, heads)
+    style.put_values(sheet, row + 2, heads, are_heads=True)
     top = at = row + 3
     for values in rows:
         style.put_values(sheet, at, values)

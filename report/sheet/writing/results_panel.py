@@ -46,7 +46,9 @@ def write_panel(book: Workbook, *, is_us: bool) -> None:
     style.put(sheet, top, 1, "Prescriptive values", bold=True, size=13, wrap=False)
     style.put(sheet, top + 1, 1, _HINT, color=style.GRAY, wrap=False)
     sheet.row_dimensions[top].height = 28
-    style.put_heads(sheet, top + 3, ("", "Value", "", "Governs", "Clause", "", "Note"))
+    style.put_values(
+        sheet, top + 3, ("", "Value", "", "Governs", "Clause", "", "Note"), are_heads=True
+    )
     row = top + 4
     style.put(sheet, row, 1, "Category used").border = style.LINE
     used = 'IF(TRIM(site_sdc)<>"",UPPER(TRIM(site_sdc)),live_sdc)'

@@ -64,7 +64,7 @@ def write_rules(book: Workbook, layout: Layout) -> None:
     names = (head for rules in RULE_SETS.values() for head in (rules.name, "Clause"))
     head = 5
     name_range("rule_sets", sheet, f"${_FROM}${head}:${_TO}${head}")
-    style.put_heads(sheet, head, (*_HEADS, *names))
+    style.put_values(sheet, head, (*_HEADS, *names), are_heads=True)
     for column, width in enumerate((*_WIDTHS, *(_RULE_WIDTHS * len(RULE_SETS))), start=1):
         sheet.column_dimensions[get_column_letter(column)].width = width
     sheet.row_dimensions[head].height = 32
