@@ -26,7 +26,6 @@ class Condition:
 
 
 def _filled(*fields: str) -> Condition:
-    """Return whether any of some fields is given."""
     return Condition(
         lambda row, _: any(row.get(field) not in (None, "") for field in fields),
         lambda refer: f'TRIM({"&".join(map(refer, fields))})<>""',
@@ -34,7 +33,6 @@ def _filled(*fields: str) -> Condition:
 
 
 def _chosen(field: str, *choices: str) -> Condition:
-    """Return whether a field is one of some choices."""
 
     def formula(refer: Refer) -> str:
         tests = [f'{refer(field)}="{choice}"' for choice in choices]
@@ -44,7 +42,6 @@ def _chosen(field: str, *choices: str) -> Condition:
 
 
 def _yes(field: str) -> Condition:
-    """Return whether a question is answered with Yes."""
     return Condition(
         lambda row, _: row.get(field) is True, lambda refer: f'{refer(field)}="{YesNo.YES}"'
     )

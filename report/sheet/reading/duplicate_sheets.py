@@ -20,17 +20,12 @@ Rows = tuple[frozenset[str], ...]
 
 
 def copies(book: OpenBook, addresses: Mapping[Place, str]) -> Iterator[Finding]:
-    """Yield a warning for each sheet with all labels of one that is read.
-
-    Parameters
-    ----------
-    addresses : mapping of Place to str
-        Of what is read.
-    """
+    """Yield a warning for each sheet with all labels of one that is read."""
     rows = {sheet.title: _rows(book, sheet) for sheet in sheets_of(book)}
     told: set[str] = set()
     for section in SECTIONS:
-        read = _sheet_of(section, addresses)
+        found = (address for place, address in addresses.items() if place.section == section.key)
+        read = next(found, "").rpartition("!")[0]
         labels = _labels(section, rows[read]) if read in rows else frozenset()
         for title in rows:
             if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
@@ -48,12 +43,6 @@ def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
         label = label_key(sheet.cell(position.row, position.column).value)
         rows.setdefault(position.row, set()).add(label)
     return tuple(map(frozenset, rows.values()))
-
-
-def _sheet_of(section: SheetSection, addresses: Mapping[Place, str]) -> str:
-    """Return the sheet from which a section is read; empty if it was not found."""
-    found = (address for place, address in addresses.items() if place.section == section.key)
-    return next(found, "").rpartition("!")[0]
 
 
 def _labels(section: SheetSection, rows: Rows) -> Set[str]:

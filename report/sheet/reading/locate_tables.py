@@ -38,50 +38,24 @@ _Place = tuple[Worksheet, int, int, int, range]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FieldColumn:
-    """A column of a table, and the unit in its heading.
-
-    Attributes
-    ----------
-    number : int
-    unit : str
-    si : float
-    heading : CellPosition
-        The cell that states the unit.
-    """
+    """A column of a table, and the unit in its heading."""
 
     number: int
     unit: str
     si: float
-    heading: CellPosition
+    heading: CellPosition  # the cell that states the unit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableFound:
-    """A table of inputs.
+    """A table of inputs."""
 
-    Attributes
-    ----------
-    heading : CellPosition
-        Its first heading.
-    columns : mapping of field to FieldColumn
-        Of the headings that are present and readable.
-    rows : range
-        Rows that may contain inputs.
-    others : tuple of CellPosition
-        Headings that belong to no field.
-    absent : tuple of str
-        Optional fields without a column, as in workbooks of earlier versions or after a column was
-        deleted.
-    problems : tuple of Problem
-        Finished lines about headings and merged cells.
-    """
-
-    heading: CellPosition
-    columns: Mapping[str, FieldColumn]
-    rows: Sequence[int]
-    others: tuple[CellPosition, ...]
-    absent: tuple[str, ...]
-    problems: tuple[Problem, ...]
+    heading: CellPosition  # its first one
+    columns: Mapping[str, FieldColumn]  # by field, of headings that are present and readable
+    rows: Sequence[int]  # those that may contain inputs
+    others: tuple[CellPosition, ...]  # headings that belong to no field
+    absent: tuple[str, ...]  # optional fields without a column, as in earlier workbooks
+    problems: tuple[Problem, ...]  # of headings and merged cells
 
 
 def find_table(book: OpenBook, section: SheetSection) -> TableFound:
@@ -94,9 +68,13 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     """
     sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
     _check_reach(book, sheet, top)
-    last_column = _last_heading(sheet, top, right)
-    positions = [CellPosition(sheet.title, top, column) for column in range(left, last_column + 1)]
-    headings = [p for p in positions if not _is_answer(section, sheet.cell(top, p.column).value)]
+    # Headings may go on beyond the table.
+    while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
+        right += 1
+    positions = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
+    # Formulas are not read.
+    answers = ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
+    headings = [p for p in positions if label_key(sheet.cell(top, p.column).value) not in answers]
     columns, others, seen, problems = _columns(book, section, headings)
     absent, missing = _unseen(book, section, headings, seen, others)
     problems += missing
@@ -111,11 +89,6 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         absent=absent,
         problems=tuple(problems),
     )
-
-
-def _is_answer(section: SheetSection, heading: object) -> bool:
-    """Whether a heading is that of a column of formulas, which is not read."""
-    return label_key(heading) in ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
 
 
 def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
@@ -154,10 +127,7 @@ def _headings(book: OpenBook, section: SheetSection) -> _Place:
 
 
 def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
-    """Return the rows of headings of tables that bear the name of another section.
-
-    Sections have headings in common, and one without a table must not read that of another.
-    """
+    # Sections have headings in common, and one without a table must not read that of another.
     names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
     others = [
         ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
@@ -172,19 +142,8 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
     if extent.last_column > MAX_COLUMNS:
         far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
     if far:
-        raise InputError(
-            [
-                Problem(f"contains data {where}", "clear it", f"{sheet.title}!{cell}")
-                for cell, where in far
-            ]
-        )
-
-
-def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
-    """Return the last column that has a heading, or is within the table."""
-    while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
-        right += 1
-    return right
+        found = [(f"contains data {where}", f"{sheet.title}!{cell}") for cell, where in far]
+        raise InputError([Problem(text, "clear it", at) for text, at in found])
 
 
 def _columns(
@@ -221,12 +180,10 @@ def _unseen(
     seen: set[str],
     others: Sequence[CellPosition],
 ) -> tuple[tuple[str, ...], list[Problem]]:
-    """Return optional fields that have no column, and a problem for each other missing field.
-
-    If a table has an unknown heading, no field counts as absent: the heading may be a renamed one.
-    """
+    """Return optional fields that have no column, and a problem for each other missing field."""
     fields = entries(section.model)
     places = _heading_places(book, section, headings)
+    # With an unknown heading no field counts as absent: the heading may be a renamed one.
     absent = [e.name for e in fields if e.name not in seen and not e.is_expected and not others]
     problems = []
     for entry in fields:
@@ -278,32 +235,23 @@ def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
 
 
 def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[Problem]:
-    problems = []
-    for area in sorted(sheet.merged_cells.ranges, key=str):
-        reaches = any(area.min_col <= column <= area.max_col for column in columns)
-        if reaches and area.min_row <= last_row and area.max_row >= top:
-            problems.append(merged(sheet.title, area.coord))
-    return problems
+    return [
+        merged(sheet.title, area.coord)
+        for area in sorted(sheet.merged_cells.ranges, key=str)
+        if any(area.min_col <= column <= area.max_col for column in columns)
+        if area.min_row <= last_row and area.max_row >= top
+    ]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableArea:
-    """A named table with all of its headings, those of formulas included.
-
-    Attributes
-    ----------
-    sheet : str
-    header, last, totals : int
-        Row of the headings, last row above its totals, and row of the totals; 0 without one.
-    headings : mapping of str to CellPosition
-        By label: without unit, asterisk, case or extra spaces.
-    """
+    """A named table with all of its headings, those of formulas included."""
 
     sheet: str
     header: int
-    last: int
-    totals: int
-    headings: Mapping[str, CellPosition]
+    last: int  # row above its totals
+    totals: int  # 0 without them
+    headings: Mapping[str, CellPosition]  # by `label_key`
 
 
 def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:

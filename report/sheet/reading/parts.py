@@ -7,7 +7,7 @@ no fields: `report.sheet.reading.locate` finds the cells.
 from __future__ import annotations
 
 import io
-import os
+import posixpath
 import re
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -42,11 +42,10 @@ _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 class _Element:
     """A row or a cell in the bytes of a sheet: where it starts and ends, and its start tag."""
 
-    number: int
     attributes: Mapping[str, str]
     start: int
-    opened: int
-    closing: int
+    opened: int  # where its start tag ends
+    closing: int  # where its end tag starts
     end: int
 
     @property
@@ -116,22 +115,16 @@ def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:
             new |= _longer_tables(archive, parts[title], cells)
         new["xl/workbook.xml"] = _computed_when_opened(archive.read("xl/workbook.xml"))
         left_out = _without_chain(archive, new) if had_formula else frozenset()
-        return _packed(archive, new, left_out)
-
-
-def _packed(archive: zipfile.ZipFile, new: Mapping[str, bytes], left_out: frozenset[str]) -> bytes:
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:
-        for member in archive.infolist():
-            if member.filename not in left_out:
-                content = new.get(member.filename)
-                packed.writestr(member, archive.read(member) if content is None else content,
-                                compress_type=member.compress_type)  # fmt: skip
+        out = io.BytesIO()
+        with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:
+            for member in archive.infolist():
+                if member.filename not in left_out:
+                    content = new.get(member.filename, archive.read(member))
+                    packed.writestr(member, content, compress_type=member.compress_type)
     return out.getvalue()
 
 
 def _scanned(title: str, data: bytes) -> _Sheet:
-    """Find the rows and cells of a sheet in its bytes."""
     if re.match(rb'<\?xml[^>]*encoding=["\'](?!utf-8["\'])', data, re.IGNORECASE):
         raise InputError(f"{title}: not in UTF-8; {REOPEN}")
     scan = _Scan(title, data)
@@ -146,6 +139,9 @@ def _scanned(title: str, data: bytes) -> _Sheet:
     if scan.sheet.data is None:
         raise InputError(f"{title}: has no cells; {REOPEN}")
     return scan.sheet
+
+
+_NESTED = ("row", "c", "sheetData")
 
 
 class _Scan:
@@ -163,7 +159,7 @@ class _Scan:
         """Note the start of an element."""
         local = name.rpartition(":")[2]
         at = self.parser.CurrentByteIndex
-        if local in ("row", "c", "sheetData"):
+        if local in _NESTED:
             if local != "sheetData" and "r" not in attributes:
                 raise InputError(f"{self._title}: has cells without addresses; {REOPEN}")
             self._open.append((name, attributes, at, _tag_end(self._data, at)))
@@ -181,24 +177,22 @@ class _Scan:
     def end(self, name: str) -> None:
         """Note the end of an element."""
         local = name.rpartition(":")[2]
-        if local not in ("row", "c", "sheetData"):
+        if local not in _NESTED:
             return
         _, attributes, start, opened = self._open.pop()
         at = self.parser.CurrentByteIndex
         has_end = self._data.startswith(f"</{name}".encode(), at)
         end = self._data.index(b">", at) + 1 if has_end else at
         closing = at if has_end else end
+        element = _Element(attributes, start, opened, closing, end)
         if local == "sheetData":
             self.sheet.tag = name.removesuffix("sheetData")
-            self.sheet.data = _Element(0, attributes, start, opened, closing, end)
+            self.sheet.data = element
         elif local == "row":
-            self.sheet.rows[self._row] = _Element(
-                self._row, attributes, start, opened, closing, end
-            )
+            self.sheet.rows[self._row] = element
         else:
             column = coordinate_to_tuple(attributes["r"])[1]
-            cell = _Element(column, attributes, start, opened, closing, end)
-            self.sheet.cells.setdefault(self._row, {})[column] = cell
+            self.sheet.cells.setdefault(self._row, {})[column] = element
 
 
 def _tag_end(data: bytes, start: int) -> int:
@@ -368,12 +362,7 @@ def _tables(archive: zipfile.ZipFile, part: str) -> Sequence[str]:
     if relations not in archive.namelist():
         return ()
     targets = re.findall(rb'Target="([^"]*tables/[^"]*)"', archive.read(relations))
-    found = [_joined(folder, unescape(target.decode())) for target in targets]
+    # A target may begin at the root of the archive.
+    paths = [posixpath.join("/", folder, unescape(target.decode())) for target in targets]
+    found = [posixpath.normpath(path).lstrip("/") for path in paths]
     return [target for target in found if target in archive.namelist()]
-
-
-def _joined(folder: str, target: str) -> str:
-    """Return the name of a part that a sheet refers to."""
-    if target.startswith("/"):
-        return target.lstrip("/")
-    return os.path.normpath(f"{folder}/{target}").replace(os.sep, "/")
