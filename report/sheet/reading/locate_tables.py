@@ -28,7 +28,7 @@ from report.sheet.reading.positions import (
     unit_size,
 )
 from report.sheet.schema.answers import ANSWER_HEADINGS, STATUS_HEADING
-from report.sheet.schema.fields import Entry, SheetSection, entries
+from report.sheet.schema.fields import SheetSection, entries
 from solver.model import InputError, Problem
 
 MAX_ROWS = 2000
@@ -167,9 +167,13 @@ def _columns(
         else:
             seen.add(entry.name)
             try:
-                columns[entry.name] = _column(position, entry, heading_parts(text)[1])
+                unit, si = unit_size(entry, heading_parts(text)[1], position.address)
             except InputError as error:
                 problems += error.parts
+                continue
+            columns[entry.name] = FieldColumn(
+                number=position.column, unit=unit, si=si, heading=position
+            )
     return columns, others, seen, problems
 
 
@@ -214,14 +218,6 @@ def _heading_places(
         position = places.setdefault(entry.name, following)
         following = CellPosition(first.sheet, first.row, position.column + 1)
     return places
-
-
-def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:
-    try:
-        symbol, si = unit_size(entry, unit)
-    except InputError as error:
-        raise InputError(error.parts[0].at(position.address)) from error
-    return FieldColumn(number=position.column, unit=symbol, si=si, heading=position)
 
 
 def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:

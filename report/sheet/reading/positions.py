@@ -6,7 +6,7 @@ Knows no input; `locate` and `locate_tables` find them with it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from openpyxl import Workbook
@@ -157,7 +157,7 @@ def labels_of(section: SheetSection, entry: Entry) -> set[str]:
     return {label_key(label) for label in (entry.cell.label, *earlier)}
 
 
-def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
+def unit_size(entry: Entry, unit: str, where: str = "") -> tuple[str, float]:
     """Return a unit's symbol and its size in SI, as accepted by a field.
 
     Raises
@@ -172,13 +172,10 @@ def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
         if symbol.casefold() == unit.casefold():
             return symbol, si
     problem = f"is '{unit}'" if unit else "is missing"
-    raise InputError(f"unit of {entry.spoken} {problem}; {_wanted(list(accepted))}")
-
-
-def _wanted(symbols: Sequence[str]) -> str:
-    """Return what to write for a unit, of those that a field accepts."""
-    if symbols == [""]:
-        return "it has no unit: delete it"
-    if len(symbols) == 1:
-        return f"give the number in {symbols[0]}, and write {symbols[0]}"
-    return f"write one of {', '.join(symbols)}"
+    first, *others = accepted
+    wanted = (
+        f"give the number in {first}, and write {first}" if first else "it has no unit: delete it"
+    )
+    if others:
+        wanted = f"write one of {', '.join(accepted)}"
+    raise InputError(Problem(f"unit of {entry.spoken} {problem}", wanted, where))

@@ -259,10 +259,7 @@ def _block_column(
     check_uncovered(book, position, at)
     unit = found_at(book, at)
     text = "" if unit.value is None else plain(unit.value).strip()
-    try:
-        symbol, si = unit_size(entry, text)
-    except InputError as error:
-        raise InputError(error.parts[0].at(unit.address)) from error
+    symbol, si = unit_size(entry, text, unit.address)
     return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
 
 

@@ -11,14 +11,7 @@ import math
 import re
 from collections.abc import Callable, Iterator
 
-from report.sheet.checking.conditions import (
-    MAX_SLOPE_DEG,
-    ORDERED,
-    OTHER_NAMES,
-    REFERENCES,
-    REQUIRED,
-    UNIQUE,
-)
+from report.sheet.checking import conditions
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace
 
@@ -28,7 +21,7 @@ WRONG = 1_000_000
 
 def condition(section: str, entry: Entry, refer: Callable[[str], str]) -> str:
     """Return when an optional cell is required, with references to cells; empty for never."""
-    required = REQUIRED.get((section, entry.name))
+    required = conditions.REQUIRED.get((section, entry.name))
     return required.when.formula(refer) if required else ""
 
 
@@ -69,21 +62,21 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
     """Yield what makes a cell of a row wrong."""
     section = place.section.key
     yield from _refused(place.section, place.here)
-    for alike in UNIQUE:
+    for alike in conditions.UNIQUE:
         if section in alike:
             given = f"TRIM({place.here('id')})"  # with any capitals
             ids = (layout.tables[table].all("id") for table in alike)
             count = "+".join(f"SUMPRODUCT(--(TRIM({column})={given}))" for column in ids)
             yield f'AND({given}<>"",{count}>1)'
-    for (home, field), tables in REFERENCES.items():
+    for (home, field), tables in conditions.REFERENCES.items():
         if home == section:
             given = f"TRIM({place.here(field)})"
             ids = (layout.tables[table].all("id") for table in tables)
             count = "+".join(f"SUMPRODUCT(--EXACT(TRIM({column}),{given}))" for column in ids)
-            if other := OTHER_NAMES.get((home, field)):
+            if other := conditions.OTHER_NAMES.get((home, field)):
                 count += f'+(LOWER({given})="{other}")'
             yield f'AND({given}<>"",{count}=0)'
-    for low, high in ORDERED:
+    for low, high in conditions.ORDERED:
         if high in place.letters:
             cells = [place.here(name) for name in (low, high)]
             given = ",".join(f"ISNUMBER({cell})" for cell in cells)
@@ -91,7 +84,7 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
             yield f"AND({given},{least}>={most})"
     if "slope_deg" in place.letters:
         slope = place.here("slope_deg")
-        yield f"AND(ISNUMBER({slope}),{slope}>={MAX_SLOPE_DEG:g})"
+        yield f"AND(ISNUMBER({slope}),{slope}>={conditions.MAX_SLOPE_DEG:g})"
 
 
 def _refused(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:

@@ -13,13 +13,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.schema.answers import (
-    IN_SEPARATION,
-    decimals_format,
-    prescriptive_basis,
-    prescriptive_formula_in,
-    prescriptive_in,
-)
+from report.sheet.schema import answers
 from report.sheet.schema.layout import name_cell, name_range
 from report.sheet.writing import style
 from report.words.units import Quantity
@@ -84,18 +78,18 @@ def _lines(row: int) -> Sequence[_Line]:
     return (
         _Line(
             "Prescriptive displacement, formula",
-            prescriptive_formula_in(),
+            answers.prescriptive_formula_in(),
             "rule_prescriptive_factor_in_clause",
             "Factor x (S_DS - 0.4)^2, before its minimum.",
             "live_prescriptive_formula_in",
         ),
         _Line(
             "Prescriptive displacement",
-            prescriptive_in(),
+            answers.prescriptive_in(),
             clause,
             "The formula, or the minimum of the rule set.",
             "live_prescriptive_in",
-            prescriptive_basis(),
+            answers.prescriptive_basis(),
         ),
         *map(_separation, _SEPARATIONS),
     )
@@ -104,7 +98,7 @@ def _lines(row: int) -> Sequence[_Line]:
 def _separation(neighbor: Neighbor) -> _Line:
     label, importance = _SEPARATIONS[neighbor]
     at = f'MATCH("{neighbor}",live_neighbors,0)'
-    inside = f'IF(rule_importance="{IN_SEPARATION}",{importance},1)'
+    inside = f'IF(rule_importance="{answers.IN_SEPARATION}",{importance},1)'
     formula = (
         f"IFERROR(MAX(INDEX(live_separation_factors,{at})*{inside}*live_prescriptive_in,"
         f'INDEX(live_separation_minima_in,{at})),"")'
@@ -122,7 +116,7 @@ def _write_line(sheet: Worksheet, row: int, line: _Line, *, is_us: bool) -> None
     letter = get_column_letter(inches)
     in_si = f'IF(ISNUMBER({letter}{row}),{letter}{row}*{INCH_M!r}/{si.si!r},"")'
     for column, formula, unit in ((inches, line.inches, us), (other, in_si, si)):
-        number_format = f'{decimals_format(unit)}" {unit.symbol}"'
+        number_format = f'{answers.decimals_format(unit)}" {unit.symbol}"'
         style.put_answer(sheet.cell(row, column), formula, number_format)
     if line.name:
         name_cell(line.name, sheet, row, inches)
