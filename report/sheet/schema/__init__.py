@@ -210,6 +210,10 @@ class Acknowledgment(Frozen):
     """Printed in the package."""
 
 
+_NAMING = {"clearances": ("array", "object"), "links": ("array",), "outlines": ("name",)}
+"""Fields that refer to arrays and objects, by section."""
+
+
 class ProjectInput(Frozen):
     """The complete input of a workbook."""
 
@@ -294,15 +298,12 @@ class ProjectInput(Frozen):
         def spelled(name: str) -> str:
             return ids.get(name.casefold(), name)
 
-        clearances = tuple(
-            row.model_copy(update={"array": spelled(row.array), "object": spelled(row.object)})
-            for row in self.clearances
-        )
-        links = tuple(row.model_copy(update={"array": spelled(row.array)}) for row in self.links)
-        object.__setattr__(self, "clearances", clearances)  # the model itself is frozen
-        object.__setattr__(self, "links", links)
-        corners = tuple(row.model_copy(update={"name": spelled(row.name)}) for row in self.outlines)
-        object.__setattr__(self, "outlines", corners)
+        for key, fields in _NAMING.items():
+            rows = tuple(
+                row.model_copy(update={name: spelled(getattr(row, name)) for name in fields})
+                for row in getattr(self, key)
+            )
+            object.__setattr__(self, key, rows)  # the model itself is frozen
         return self
 
     @model_validator(mode="after")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 from report.sheet.schema.layout import Layout, literal
 from report.words.units import Quantity, Unit
@@ -31,7 +31,7 @@ ONE_VALUE, BY_FORMULA = "one value", "the formula"
 _REFERENCE = re.compile(r"(\w*)\[(#?)(\w+)\]")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class FormulaColumn:
     """A column of formulas in a table.
 
@@ -43,6 +43,7 @@ class FormulaColumn:
     heading: str
     note: str  # above the heading
     formula: str
+    _: KW_ONLY
     number_format: str = "General"
     width: int = 11
     is_helper: bool = False  # it only serves other formulas, and is folded at the right
@@ -95,6 +96,14 @@ _KIND_OF_ARRAY = """
     &" | "&IF(TRIM([mu_rate_s_per_m])="",0,[mu_rate_s_per_m]+0)
     &" | "&IF(TRIM([mu_static])="",[mu]+0,[mu_static]+0))
 """
+_KIND = FormulaColumn(
+    "kind_of_array",
+    "Kind of array",
+    "construction | friction: low, high, rate, static",
+    _KIND_OF_ARRAY,
+    width=40,
+    is_helper=True,
+)
 _VERTICES = f"COUNTIF(live_outlines,{literal('[id]')})"
 _IS_ITS = "--(TRIM(outlines[name])=TRIM([id]))"
 # An error where a row is below the table.
@@ -115,30 +124,17 @@ def _weight_per_area(unit: Unit) -> str:
 
 
 def _of_arrays(unit: Unit) -> tuple[FormulaColumn, ...]:
-    return (
-        FormulaColumn(
-            name="slope_deg",
-            heading="Slope in degrees",
-            note="from slope and its unit",
-            formula=_SLOPE_DEG,
-            number_format="0.00",
-        ),
-        FormulaColumn(
-            name="weight_per_area",
-            heading=f"Weight per area [{unit.symbol}]",
-            note="over the rectangle or outline in plan",
-            formula=_weight_per_area(unit),
-            number_format=decimals_format(unit),
-        ),
-        FormulaColumn(
-            name="kind_of_array",
-            heading="Kind of array",
-            note="construction | friction: low, high, rate, static",
-            formula=_KIND_OF_ARRAY,
-            width=40,
-            is_helper=True,
-        ),
+    per_area = FormulaColumn(
+        "weight_per_area",
+        f"Weight per area [{unit.symbol}]",
+        "over the rectangle or outline in plan",
+        _weight_per_area(unit),
+        number_format=decimals_format(unit),
     )
+    slope = FormulaColumn(
+        "slope_deg", "Slope in degrees", "from slope and its unit", _SLOPE_DEG, number_format="0.00"
+    )
+    return slope, per_area, _KIND
 
 
 _NUMBER = "(ROW([name])-ROW(outlines[#name]))"
@@ -149,17 +145,17 @@ _FOLLOWING = (
 )
 _AFTER = f"IF({_NUMBER}=ROWS(outlines[name]),{_FIRST},IFERROR({_FOLLOWING},{_FIRST}))"
 _DOUBLE_AREA = FormulaColumn(
-    name="double_area",
-    heading="Twice the area",
-    note="of the triangle to the next vertex",
-    formula=f"""
+    "double_area",
+    "Twice the area",
+    "of the triangle to the next vertex",
+    f"""
         IF(TRIM([name])="","",
         [x_m]*INDEX(outlines[y_m],{_AFTER})-INDEX(outlines[x_m],{_AFTER})*[y_m])
     """,
     is_helper=True,
 )
 
-_KIND = "INDEX(objects[kind],[object_row])"
+_OBJECT = "INDEX(objects[kind],[object_row])"
 _HEIGHT = "INDEX(objects[height_m],[object_row])*unit_objects_height_m"
 _CENTER = "INDEX(arrays[cg_height_m],[array_row])*unit_arrays_cg_height_m"
 # As `solver.rules.provisions.parapet_qualifies`, in inches.
@@ -185,9 +181,9 @@ _ARE_ALIKE = f"""
 _NEIGHBOR = f"""
     IF([array_row]="","",
     IF([other_row]<>"",IF({_ARE_ALIKE},"{Neighbor.LIKE}","{Neighbor.UNLIKE}"),
-    IF(TRIM({_KIND})="","",
-    IF({_KIND}="edge with parapet",IF({_QUALIFIES},"{Neighbor.PARAPET}","{Neighbor.EDGE}"),
-    IF({_KIND}="edge without parapet","{Neighbor.EDGE}",{_KIND})))))
+    IF(TRIM({_OBJECT})="","",
+    IF({_OBJECT}="edge with parapet",IF({_QUALIFIES},"{Neighbor.PARAPET}","{Neighbor.EDGE}"),
+    IF({_OBJECT}="edge without parapet","{Neighbor.EDGE}",{_OBJECT})))))
 """
 _IMPORTANCE = f"""
     IF([neighbor]="","",
@@ -218,33 +214,27 @@ def _demand_capacity(unit: Unit) -> str:
 
 def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
     return (
+        FormulaColumn("neighbor", "Neighbor", "as the rule set counts it", _NEIGHBOR, width=29),
         FormulaColumn(
-            name="neighbor",
-            heading="Neighbor",
-            note="as the rule set counts it",
-            formula=_NEIGHBOR,
-            width=29,
-        ),
-        FormulaColumn(
-            name="importance",
-            heading="I",
-            note="importance factor in the separation",
-            formula=_IMPORTANCE,
+            "importance",
+            "I",
+            "importance factor in the separation",
+            _IMPORTANCE,
             number_format="0.00",
         ),
         FormulaColumn(
-            name="required",
-            heading=f"Required, prescriptive [{unit.symbol}]",
-            note="separation for the prescriptive displacement",
-            formula=_required(unit),
+            "required",
+            f"Required, prescriptive [{unit.symbol}]",
+            "separation for the prescriptive displacement",
+            _required(unit),
             number_format=decimals_format(unit),
             width=13,
         ),
         FormulaColumn(
-            name="demand_capacity",
-            heading="D/C, prescriptive",
-            note="required / provided, rounded up",
-            formula=_demand_capacity(unit),
+            "demand_capacity",
+            "D/C, prescriptive",
+            "required / provided, rounded up",
+            _demand_capacity(unit),
             number_format="0.00",
             width=13,
         ),
@@ -255,13 +245,8 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
 
 
 def _row_of(name: str, what: str, field: str, section: str) -> FormulaColumn:
-    return FormulaColumn(
-        name=name,
-        heading=f"Row of {what}",
-        note=f"in the table on {section.capitalize()}",
-        formula=f"MATCH({literal(f'[{field}]')},{section}[id],0)",
-        is_helper=True,
-    )
+    note, row = f"in the table on {section.capitalize()}", f"MATCH({literal(f'[{field}]')}"
+    return FormulaColumn(name, f"Row of {what}", note, f"{row},{section}[id],0)", is_helper=True)
 
 
 SITE_FORMAT = "0.000"
