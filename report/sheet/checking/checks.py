@@ -49,7 +49,7 @@ def faults(draft: Draft, where: Where) -> list[Finding]:
     """Return all inconsistencies of a draft, whose blank optional fields have their defaults."""
     checks = (
         _tables,
-        _missing,
+        missing,
         _unknown,
         _ids,
         site_faults,
@@ -69,10 +69,6 @@ def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
     for section, noun in (("arrays", "array"), ("motions", "motion")):
         if not draft[section]:
             yield Finding.error(Place(section), f"no {noun} is given", "fill in at least one row")
-
-
-def _missing(draft: Draft, where: Where) -> Iterator[Finding]:
-    yield from missing(draft)
 
 
 def _ids(draft: Draft, where: Where) -> Iterator[Finding]:

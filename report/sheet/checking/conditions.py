@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from report.sheet.schema import ROOF, SECTIONS, SIDES, ObjectKind, RecordedAt, Scaling
-from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, YesNo, entries
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, YesNo, entries
 from report.sheet.schema.layout import literal
 
 Refer = Callable[[str], str]
@@ -141,7 +141,7 @@ ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 """Fields of which the second is larger, where a table has them."""
 
 
-def missing(draft: Draft) -> Iterator[Finding]:
+def missing(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
     for (section, field), required in REQUIRED.items():
         entry = next(one for one in entries(_MODELS[section]) if one.name == field)

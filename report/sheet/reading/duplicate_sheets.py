@@ -11,9 +11,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.checking.findings import warning
 from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.positions import label_key, labels_of, scanned, sheets_of
+from report.sheet.reading.positions import fields_by_label, label_key, scanned, sheets_of
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Finding, Place, SheetSection, entries
+from report.sheet.schema.fields import Finding, Place, SheetSection
 
 Rows = tuple[frozenset[str], ...]
 """Labels in each row of a sheet, in the form that is compared."""
@@ -47,9 +47,7 @@ def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
 
 def _labels(section: SheetSection, rows: Rows) -> Set[str]:
     """Return the labels of a section on a sheet: of a table, those in one row."""
-    wanted = {
-        label: entry.name for entry in entries(section.model) for label in labels_of(section, entry)
-    }
+    fields = fields_by_label(section)
     places = rows if section.is_table else (frozenset().union(*rows),)
-    found = ({wanted[label] for label in place & wanted.keys()} for place in places)
+    found = ({fields[label].name for label in place & fields.keys()} for place in places)
     return max(found, key=len, default=set())

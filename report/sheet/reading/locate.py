@@ -24,12 +24,7 @@ from solver.model import InputError
 
 
 def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
-    """Return the cell of a single field, by its defined name, or else beside its label.
-
-    Raises
-    ------
-    InputError
-    """
+    """Return the cell of a single field by name, or else beside its label, or raise InputError."""
     position = _position(book, section, entry)
     if position is None:
         raise InputError(

@@ -17,10 +17,10 @@ from report.sheet.reading.positions import (
     MAX_COLUMNS,
     CellPosition,
     bounds_of,
+    fields_by_label,
     found_at,
     heading_parts,
     label_key,
-    labels_of,
     merged,
     scanned,
     sheet_titled,
@@ -108,18 +108,18 @@ def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
 def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
     own = sheet_titled(book, section.sheet)
-    fields = entries(section.model)
-    wanted = set[str]().union(*(labels_of(section, entry) for entry in fields))
     for sheet in [own] if own else sheets_of(book):
         rows: dict[int, list[int]] = {}
         taken = _rows_of_others(sheet, section)
         for position in scanned(book, sheet):
             if position.row in taken:
                 continue
-            if label_key(sheet.cell(position.row, position.column).value) in wanted:
+            if label_key(sheet.cell(position.row, position.column).value) in fields_by_label(
+                section
+            ):
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
-        if best and len(rows[best]) > len(fields) / 2:
+        if best and len(rows[best]) > len(entries(section.model)) / 2:
             return sheet, min(rows[best]), best, max(rows[best]), range(0)
     what = f"no table {section.table_name} and no row of its headings"
     missing = "" if own else "the sheet is missing: "
@@ -149,9 +149,7 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
 def _columns(
     book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
 ) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[Problem]]:
-    fields = {
-        label: entry for entry in entries(section.model) for label in labels_of(section, entry)
-    }
+    fields = fields_by_label(section)
     columns: dict[str, FieldColumn] = {}
     others: list[CellPosition] = []
     problems: list[Problem] = []
@@ -205,16 +203,14 @@ def _heading_places(
     book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
 ) -> Mapping[str, CellPosition]:
     """Return where each heading is, or where it belongs: after that of the field before it."""
-    fields = entries(section.model)
-    labels = {label: entry.name for entry in fields for label in labels_of(section, entry)}
+    fields = fields_by_label(section)
     places = {
-        labels[key]: position
+        fields[key].name: position
         for position in headings
-        if (key := label_key(found_at(book, position).value)) in labels
+        if (key := label_key(found_at(book, position).value)) in fields
     }
-    first = headings[0]
-    following = first
-    for entry in fields:
+    first = following = headings[0]
+    for entry in entries(section.model):
         position = places.setdefault(entry.name, following)
         following = CellPosition(first.sheet, first.row, position.column + 1)
     return places

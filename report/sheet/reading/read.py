@@ -210,12 +210,13 @@ class Gathered:
 
 def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     gathered.draft[section.key] = []
-    if section.may_be_absent and is_absent(book, section):
+    is_missing = is_absent(book, section)
+    if is_missing and section.may_be_absent:
         defaults = {entry.name: entry.default for entry in entries(section.model)}
         gathered.draft[section.key] += [] if section.is_table else [defaults]
         return
     try:
-        if is_absent(book, section) and not section.is_table:
+        if is_missing and not section.is_table:
             raise InputError(
                 f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
             )
