@@ -67,7 +67,9 @@ class _Sheet:
     columns: list[tuple[range, int, int]] = field(default_factory=list)
 
     def style(self, row: int, column: int) -> str:
-        """Return the style of a cell that is not there: that of its row, or of its column."""
+        """Return the style of a cell; of one that is not there, that of its row or column."""
+        if cell := self.cells.get(row, {}).get(column):
+            return cell.attributes.get("s", "")
         if row in self.rows and self.rows[row].attributes.get("customFormat") in ("1", "true"):
             return self.rows[row].attributes.get("s", "")
         found = (style for low, high, style in self.styles if low <= column <= high)
@@ -259,8 +261,7 @@ def _row_edits(
     fresh = {c: v for c, v in values.items() if c not in old and v is not None}
     for column in sorted(values.keys() & old.keys()):
         cell = old[column]
-        content = _cell(sheet, row, column, values[column], cell.attributes.get("s", ""))
-        yield cell.start, cell.end, content
+        yield cell.start, cell.end, _cell(sheet, row, column, values[column])
     if not fresh:
         return
     if home is None or home.is_empty:
@@ -271,7 +272,7 @@ def _row_edits(
     for column in sorted(fresh):
         after = min((c for c in old if c > column), default=None)
         at = home.closing if after is None else old[after].start
-        yield at, at, _cell(sheet, row, column, fresh[column], sheet.style(row, column))
+        yield at, at, _cell(sheet, row, column, fresh[column])
 
 
 def _whole_row(
@@ -279,7 +280,7 @@ def _whole_row(
 ) -> tuple[int, int, bytes]:
     """Return the place and the bytes of a row that has no cells yet, or is not there."""
     assert sheet.data is not None
-    inner = b"".join(_cell(sheet, row, c, values[c], sheet.style(row, c)) for c in sorted(values))
+    inner = b"".join(_cell(sheet, row, column, values[column]) for column in sorted(values))
     tag = f"{sheet.tag}row".encode()
     if home is not None:
         head = re.sub(rb'\sspans="[^"]*"', b"", data[home.start : home.opened])
@@ -294,21 +295,23 @@ def _whole_row(
     return at, at, whole
 
 
-def _cell(sheet: _Sheet, row: int, column: int, value: Value, style: str) -> bytes:
+def _cell(sheet: _Sheet, row: int, column: int, value: Value) -> bytes:
     """Return a cell; a number as such, a text within the cell itself."""
-    tag, at = sheet.tag, f"{get_column_letter(column)}{row}"
-    look = f' s="{style}"' if style else ""
+    tag, style = sheet.tag, sheet.style(row, column)
+    start = f'<{tag}c r="{get_column_letter(column)}{row}"' + (f' s="{style}"' if style else "")
     if value is None:
-        return f'<{tag}c r="{at}"{look}/>'.encode()
+        return f"{start}/>".encode()
     if isinstance(value, Formula):
-        return f'<{tag}c r="{at}"{look}><{tag}f>{escape(value[1:])}</{tag}f></{tag}c>'.encode()
-    if isinstance(value, str):
+        inner = f"<{tag}f>{escape(value[1:])}</{tag}f>"
+    elif isinstance(value, str):
+        start += ' t="inlineStr"'
         words = escape(_CONTROL.sub("?", value))
         inner = f'<{tag}is><{tag}t xml:space="preserve">{words}</{tag}t></{tag}is>'
-        return f'<{tag}c r="{at}"{look} t="inlineStr">{inner}</{tag}c>'.encode()
-    # A number of numpy is written as a number of Python.
-    number = value if isinstance(value, int) else float(value)
-    return f'<{tag}c r="{at}"{look}><{tag}v>{number!r}</{tag}v></{tag}c>'.encode()
+    else:
+        # A number of numpy is written as a number of Python.
+        number = value if isinstance(value, int) else float(value)
+        inner = f"<{tag}v>{number!r}</{tag}v>"
+    return f"{start}>{inner}</{tag}c>".encode()
 
 
 def _computed_when_opened(workbook: bytes) -> bytes:

@@ -40,9 +40,7 @@ HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
 STATUS_WIDTH = 13  # "12 missing" in bold, in the wider type of a computer without Calibri too
 MANY, MANY_WIDTH = 6, 12
-_WIDER = 0.85
-"""Of a column for text that is typed, as fonts may be wider than Calibri."""
-
+_WIDER = 0.85  # of a column for text that is typed, as fonts may be wider than Calibri
 DATA_LINES = 2
 """Lines of text that a row of a table shows."""
 
@@ -175,26 +173,10 @@ def write_table(
     lines = 1
     for number, column in enumerate(columns, start=1):
         _write_heading(sheet, header, number, column)
-        if column.entry is None:
-            continue
-        width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
-        values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
-        if column.name == "provision":
-            values = [provision_name(str(value)) for value in values]
-        unit = unit_of(column.entry, units)
-        first = None
-        for row in range(place.size):
-            value = values[row] if row < len(values) else None
-            cell = sheet.cell(header + 1 + row, number)
-            style.put_input(cell, column.entry, value, unit, like=first)
-            first = first or cell
-            shown = style.in_cell(value, unit)
-            lines = max(lines, _lines([str(shown or "")], [_WIDER * width]))
-        cells, help_ = place.cells(column.name), column.entry.help
-        if source := _SOURCES.get((section.key, column.name)):
-            style.suggest(sheet, cells, source, column.entry.cell.label, help_)
-        else:
-            style.validate(sheet, cells, column.entry, unit.si if unit else 1.0)
+        if column.entry is not None:
+            values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
+            unit = unit_of(column.entry, units)
+            lines = max(lines, _write_column(sheet, place, number, column.entry, values, unit))
     for row in range(header + 1, header + 1 + place.size):
         sheet.row_dimensions[row].height = 4 + 14 * min(lines, DATA_LINES)
     _add_table(sheet, place)
@@ -203,6 +185,32 @@ def write_table(
         sheet.freeze_panes = f"C{header + 1}"
         sheet.print_title_rows = f"{header}:{header}"
     return place
+
+
+def _write_column(
+    sheet: Worksheet,
+    place: TablePlace,
+    number: int,
+    entry: Entry,
+    values: Sequence[object],
+    unit: Unit | None,
+) -> int:
+    """Write the inputs of a column with their messages; return the lines of its tallest text."""
+    width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
+    if entry.name == "provision":
+        values = [provision_name(str(value)) for value in values]
+    first, lines = None, 1
+    for row in range(place.size):
+        value = values[row] if row < len(values) else None
+        cell = sheet.cell(place.header + 1 + row, number)
+        style.put_input(cell, entry, value, unit, like=first)
+        first = first or cell
+        lines = max(lines, _lines([str(style.in_cell(value, unit) or "")], [_WIDER * width]))
+    if source := _SOURCES.get((place.section.key, entry.name)):
+        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
+    else:
+        style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
+    return lines
 
 
 def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
