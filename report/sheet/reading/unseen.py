@@ -92,24 +92,22 @@ class Unseen:
 def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
     """Return what is read and kept from sight, one for each sheet and kind."""
     sights: dict[str, _Sight] = {}
-    places: dict[tuple[str, Concealment], Place] = {}
-    cells: dict[tuple[str, Concealment], list[tuple[int, int]]] = {}
+    found: dict[tuple[str, Concealment], list[tuple[Place, tuple[int, int]]]] = {}
     for place, cell in used:
         if cell.sheet not in sights:
             sights[cell.sheet] = _Sight(book.book[cell.sheet])
         at = coordinate_to_tuple(cell.cell)
         for kind in sights[cell.sheet].kinds(*at, cell):
-            places.setdefault((cell.sheet, kind), place)
-            cells.setdefault((cell.sheet, kind), []).append(at)
+            found.setdefault((cell.sheet, kind), []).append((place, at))
     return tuple(
         Unseen(
             kind=kind,
             sheet=sheet,
             state=book.book[sheet].sheet_state,
-            place=places[sheet, kind],
-            cells=tuple(found),
+            place=cells[0][0],
+            cells=tuple(at for _, at in cells),
         )
-        for (sheet, kind), found in cells.items()
+        for (sheet, kind), cells in found.items()
     )
 
 

@@ -2,7 +2,7 @@
 
 Each formula repeats a function of `solver.rules` or `report.assessment` in cells; tests compare
 them. Only functions of Excel 2007 to 2016, no array formulas. The reader reads none of them. Read
-`site_answers`, then `table_answers`.
+`SITE_ANSWERS`, then `table_answers`.
 """
 
 from __future__ import annotations
@@ -252,24 +252,6 @@ def _row_of(name: str, what: str, field: str, section: str) -> FormulaColumn:
 SITE_FORMAT = "0.000"
 
 
-def site_answers() -> Mapping[str, tuple[str, str]]:
-    """Return the formula and the defined name of the answer beside each field of the site."""
-    return {
-        "i_e": ('IF(ISNUMBER(site_i_e),site_i_e,"")', "live_i_e"),
-        "edition_name": (
-            'IF(TRIM(site_edition_name)<>"",site_edition_name,rule_edition)',
-            "live_edition",
-        ),
-        "f_a": (_coefficient("site_s_s_g", "f_a"), "live_f_a"),
-        "f_v": (_coefficient("site_s_1_g", "f_v"), "live_f_v"),
-        "s_ms_g": (_maximum("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g"), "live_s_ms"),
-        "s_m1_g": (_maximum("site_s_m1_g", "site_s_1_g", "site_f_v", "site_s_d1_g"), "live_s_m1"),
-        "s_ds_g": (_design("site_s_ds_g", "live_s_ms"), "live_s_ds"),
-        "s_d1_g": (_design("site_s_d1_g", "live_s_m1"), "live_s_d1"),
-        "sdc": (_sdc(), "live_sdc"),
-    }
-
-
 def _coefficient(mapped: str, symbol: str) -> str:
     """Return the site coefficient of the tables, interpolated along the row of the site class."""
     heads, row = f"table_{symbol}_mapped", f"MATCH(site_site_class,table_{symbol}_classes,0)"
@@ -298,41 +280,49 @@ def _design(given: str, maximum: str) -> str:
     return f'IF(ISNUMBER({given}),{given},IF(ISNUMBER({maximum}),2/3*{maximum},""))'
 
 
-def _sdc() -> str:
-    """Return the most severe category: by S_DS, by S_D1, and by S_1."""
-    steps = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
-    short, long = (steps.format(f"live_{s}", f"sdc_limits_{s}") for s in ("s_ds", "s_d1"))
-    near = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'
-    return (
-        'IF(OR(live_s_ds="",TRIM(site_risk_category)=""),"",'
-        f'CHAR(MAX(CODE({short}),IF(live_s_d1="",0,CODE({long})),{near})))'
-    )
+# The most severe category: by S_DS, by S_D1, and by S_1.
+_STEPS = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
+_BY_S_DS, _BY_S_D1 = (_STEPS.format(f"live_{s}", f"sdc_limits_{s}") for s in ("s_ds", "s_d1"))
+_BY_S_1 = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'
+_SDC = (
+    'IF(OR(live_s_ds="",TRIM(site_risk_category)=""),"",'
+    f'CHAR(MAX(CODE({_BY_S_DS}),IF(live_s_d1="",0,CODE({_BY_S_D1})),{_BY_S_1})))'
+)
 
+SITE_ANSWERS: Mapping[str, tuple[str, str]] = {
+    "i_e": ('IF(ISNUMBER(site_i_e),site_i_e,"")', "live_i_e"),
+    "edition_name": (
+        'IF(TRIM(site_edition_name)<>"",site_edition_name,rule_edition)',
+        "live_edition",
+    ),
+    "f_a": (_coefficient("site_s_s_g", "f_a"), "live_f_a"),
+    "f_v": (_coefficient("site_s_1_g", "f_v"), "live_f_v"),
+    "s_ms_g": (_maximum("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g"), "live_s_ms"),
+    "s_m1_g": (_maximum("site_s_m1_g", "site_s_1_g", "site_f_v", "site_s_d1_g"), "live_s_m1"),
+    "s_ds_g": (_design("site_s_ds_g", "live_s_ms"), "live_s_ds"),
+    "s_d1_g": (_design("site_s_d1_g", "live_s_m1"), "live_s_d1"),
+    "sdc": (_SDC, "live_sdc"),
+}
+"""Formula and defined name of the answer beside each field of the site."""
 
-def prescriptive_formula_in() -> str:
-    """Return the formula of the prescriptive displacement [in], before its minimum."""
-    inside = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
-    return _blank_on_error(f"rule_prescriptive_factor_in*MAX(live_s_ds-0.4,0)^2*{inside}")
+_I_E = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
+PRESCRIPTIVE_FORMULA_IN = _blank_on_error(
+    f"rule_prescriptive_factor_in*MAX(live_s_ds-0.4,0)^2*{_I_E}"
+)
+"""The prescriptive displacement [in], before its minimum."""
 
-
-def prescriptive_in() -> str:
-    """Return the prescriptive displacement [in]."""
-    return _blank_on_error(
-        f'IF(AND(rule_low_sdc="{ONE_VALUE}",live_sdc_used<>"",ISNUMBER(FIND(live_sdc_used,"ABC"))),'
-        "rule_prescriptive_low_sdc_in+0,"
-        "IF(live_prescriptive_formula_in+0>=rule_prescriptive_minimum_in+0,"
-        "live_prescriptive_formula_in,rule_prescriptive_minimum_in))"
-    )
-
-
-def prescriptive_basis() -> str:
-    """Return what governs the prescriptive displacement, in words."""
-    return (
-        'IF(live_prescriptive_in="","",'
-        f'IF(AND(rule_low_sdc="{ONE_VALUE}",ISNUMBER(FIND(live_sdc_used,"ABC"))),"SDC A, B, C",'
-        'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
-    )
-
+PRESCRIPTIVE_IN = _blank_on_error(
+    f'IF(AND(rule_low_sdc="{ONE_VALUE}",live_sdc_used<>"",ISNUMBER(FIND(live_sdc_used,"ABC"))),'
+    "rule_prescriptive_low_sdc_in+0,"
+    "IF(live_prescriptive_formula_in+0>=rule_prescriptive_minimum_in+0,"
+    "live_prescriptive_formula_in,rule_prescriptive_minimum_in))"
+)
+PRESCRIPTIVE_BASIS = (
+    'IF(live_prescriptive_in="","",'
+    f'IF(AND(rule_low_sdc="{ONE_VALUE}",ISNUMBER(FIND(live_sdc_used,"ABC"))),"SDC A, B, C",'
+    'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
+)
+"""What governs the prescriptive displacement, in words."""
 
 ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
     section: frozenset(

@@ -18,12 +18,12 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import UnitsFirst, provision_name
 from report.sheet.schema.answers import (
+    SITE_ANSWERS,
     SITE_FORMAT,
     STATUS,
     STATUS_FORMAT,
     STATUS_HEADING,
     FormulaColumn,
-    site_answers,
     table_answers,
 )
 from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
@@ -106,8 +106,8 @@ def _write_block_row(
     sheet.row_dimensions[row].height = 6 + 13 * _lines(texts, BLOCK_WIDTHS[4:])
     name_cell(section.cell_name(entry.name), sheet, row, 2)
     style.validate(sheet, f"B{row}", entry, 1.0)
-    if section.key == "site" and entry.name in site_answers():
-        formula, name = site_answers()[entry.name]
+    if section.key == "site" and entry.name in SITE_ANSWERS:
+        formula, name = SITE_ANSWERS[entry.name]
         style.put_answer(sheet.cell(row, 4), formula, SITE_FORMAT)
         name_cell(name, sheet, row, 4)
     if entry.quantity is None or unit is None:

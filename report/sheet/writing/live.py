@@ -27,7 +27,7 @@ from report.sheet.reading.positions import (
     labels_of,
 )
 from report.sheet.schema import SECTIONS, UnitsFirst
-from report.sheet.schema.answers import STATUS, site_answers
+from report.sheet.schema.answers import SITE_ANSWERS, STATUS
 from report.sheet.schema.fields import Finding, Place, SheetSection
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.writing.counts import START, write_counts
@@ -205,7 +205,7 @@ def _written(layout: Layout, *, is_us: bool) -> Workbook:
     book = Workbook()
     for title in dict.fromkeys((START, *(section.sheet for section in SECTIONS))):
         book.create_sheet(title)
-    for row, (formula, name) in enumerate(site_answers().values(), start=1):
+    for row, (formula, name) in enumerate(SITE_ANSWERS.values(), start=1):
         book["Site"].cell(row, _ASIDE).value = f"={formula}"
         name_cell(name, book["Site"], row, _ASIDE)
     write_panel(book, is_us=is_us)

@@ -78,18 +78,18 @@ def _lines(row: int) -> Sequence[_Line]:
     return (
         _Line(
             "Prescriptive displacement, formula",
-            answers.prescriptive_formula_in(),
+            answers.PRESCRIPTIVE_FORMULA_IN,
             "rule_prescriptive_factor_in_clause",
             "Factor x (S_DS - 0.4)^2, before its minimum.",
             "live_prescriptive_formula_in",
         ),
         _Line(
             "Prescriptive displacement",
-            answers.prescriptive_in(),
+            answers.PRESCRIPTIVE_IN,
             clause,
             "The formula, or the minimum of the rule set.",
             "live_prescriptive_in",
-            answers.prescriptive_basis(),
+            answers.PRESCRIPTIVE_BASIS,
         ),
         *map(_separation, _SEPARATIONS),
     )
