@@ -19,7 +19,7 @@ START = "Start"
 COUNTS_COLUMN = 4
 """Column of the names of the sheets in the list; the counts are beside it."""
 
-_NEED_ROWS = ("arrays", "motions")
+_NEED_ROWS = ("arrays", "motions")  # as `checks` requires
 COUNT_FORMAT = '[<0]"no row yet";[=0]"✓";0" open"'
 
 

@@ -365,6 +365,7 @@ def _width(entry: Entry) -> int:
 
 def _lines(texts: Sequence[str], widths: Sequence[float]) -> int:
     """Return the number of lines of the tallest text at its column's width."""
+    # A width is counted in digits; of letters of size 10 more fit in.
     return max(
         math.ceil(max(len(text), 1) / (1.2 * width))
         for text, width in zip(texts, widths, strict=True)

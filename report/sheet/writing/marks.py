@@ -30,7 +30,7 @@ _RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
 _GREEN_FONT, _RED_FONT = (
     DifferentialStyle(font=Font(color=color, bold=True)) for color in (GREEN, RED_INK)
 )
-_EQUAL = 1e-9
+_EQUAL = 1e-9  # difference from a limit / limit that is rounding error of a conversion of units
 _IS_FORMULA = "_xlfn.ISFORMULA"  # Excel 2013 writes it so; LibreOffice reads it so
 
 

@@ -183,6 +183,7 @@ def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
             message = f"{message} Allowed: {allowed}."
         _add(sheet, cells, _number_rule(entry, si), label, message, wish(entry, "", si))
     elif entry.kind is date:
+        # After the serial number of 2000-01-01, `EARLIEST` of the reader.
         rule = DataValidation(type="date", operator="greaterThan", formula1="36526")
         _add(sheet, cells, rule, label, f"{message} For example 2026-03-05.", wish(entry))
     else:
@@ -213,6 +214,7 @@ def _add(
 ) -> None:
     rule.allow_blank = True
     rule.showInputMessage = rule.showErrorMessage = True
+    # As many characters as Excel allows.
     rule.promptTitle = rule.errorTitle = title[:32]
     rule.prompt = message[:255]
     error = f"{title}: {wanted}. Retry corrects the entry, Cancel restores the former one."
