@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from report.sheet.checking.drafts import column, repeated
 from report.sheet.schema import FrictionTestRow
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.sheet.schema.scene import friction_law
 from solver.friction_tests import Series, governing, series
 from solver.model import Friction
 
@@ -56,18 +57,11 @@ def _tested(draft: Draft) -> tuple[Series, ...]:
 
 def _law(array: DraftRow) -> Friction | None:
     """Return the friction law of an array, if it could be read and is consistent."""
-    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static", "mu_report")
-    if any(field not in array for field in fields):
+    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static")
+    if not array.keys() >= {*fields, "mu_report"}:
         return None
-    mu, fast, rate, static = (array[field] for field in fields[:-1])
-    if (fast is None) != (rate is None):
-        return None
-    return Friction(
-        mu_slow=mu,
-        mu_fast=mu if fast is None else fast,
-        rate_s_per_m=rate or 0.0,
-        mu_static=mu if static is None else static,
-    )
+    mu, fast, rate, static = (array[field] for field in fields)
+    return friction_law(mu, fast, rate, static) if (fast is None) == (rate is None) else None
 
 
 def _first(draft: Draft, tests: Series, where: Where) -> str:

@@ -39,10 +39,8 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
 
 
 def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
-    symbol, si = str(entry.cell.unit), 1.0
-    if entry.quantity:
-        unit = entry.quantity.us if is_us else entry.quantity.si
-        symbol, si = unit.symbol, unit.si
+    unit = entry.unit(is_us=is_us)
+    symbol, si = (unit.symbol, unit.si) if unit else (str(entry.cell.unit), 1.0)
     given, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
     text = f"{entry.spoken} is {given} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())

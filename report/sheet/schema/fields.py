@@ -21,7 +21,7 @@ from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from report.words.units import Quantity
+from report.words.units import Quantity, Unit
 from solver.model import Problem
 
 
@@ -184,6 +184,12 @@ class Entry:
     def quantity(self) -> Quantity | None:
         """The quantity of the number, if its unit can be chosen."""
         return self.cell.unit if isinstance(self.cell.unit, Quantity) else None
+
+    def unit(self, *, is_us: bool) -> Unit | None:
+        """Return its unit in a system of units; None if it has no choice of units."""
+        if self.quantity is None:
+            return None
+        return self.quantity.us if is_us else self.quantity.si
 
     @property
     def help(self) -> str:

@@ -106,6 +106,18 @@ class Roof(Placed):
     """In plan, counterclockwise from +x: 90 is +y."""
 
 
+def friction_law(
+    mu: float, mu_fast: float | None, rate_s_per_m: float | None, mu_static: float | None
+) -> Friction:
+    """Return a friction law; what is not given is as the coefficient says."""
+    return Friction(
+        mu_slow=mu,
+        mu_fast=mu if mu_fast is None else mu_fast,
+        rate_s_per_m=rate_s_per_m or 0.0,
+        mu_static=mu if mu_static is None else mu_static,
+    )
+
+
 class Array(Placed):
     """A ballasted array that moves as one block."""
 
@@ -186,12 +198,7 @@ class Array(Placed):
     @property
     def friction(self) -> Friction:
         """The friction coefficient as a function of velocity."""
-        return Friction(
-            mu_slow=self.mu,
-            mu_fast=self.mu if self.mu_fast is None else self.mu_fast,
-            rate_s_per_m=self.mu_rate_s_per_m or 0.0,
-            mu_static=self.mu if self.mu_static is None else self.mu_static,
-        )
+        return friction_law(self.mu, self.mu_fast, self.mu_rate_s_per_m, self.mu_static)
 
     @property
     def minimum_mu(self) -> float:

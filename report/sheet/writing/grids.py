@@ -80,7 +80,7 @@ def write_block(
         value = units if entry.kind is UnitsFirst else entry.default
         if given is not None:
             value = getattr(given, entry.name)
-        row, unit = rows[entry.name], unit_of(entry, units)
+        row, unit = rows[entry.name], entry.unit(is_us=units.is_us)
         style.put_input(sheet.cell(row, 2), entry, value, unit)
         _write_block_row(sheet, row, section, entry, unit)
     height = max(sheet.row_dimensions[row].height or 0 for row in rows.values())
@@ -175,7 +175,7 @@ def write_table(
         _write_heading(sheet, header, number, column)
         if column.entry is not None:
             values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
-            unit = unit_of(column.entry, units)
+            unit = column.entry.unit(is_us=units.is_us)
             lines = max(lines, _write_column(sheet, place, number, column.entry, values, unit))
     for row in range(header + 1, header + 1 + place.size):
         sheet.row_dimensions[row].height = 4 + 14 * min(lines, DATA_LINES)
@@ -258,7 +258,7 @@ def _write_hints(
 def _hints(column: GridColumn, units: UnitsFirst) -> tuple[str, str, str]:
     if column.entry is None:
         return "computed", column.answer.note if column.answer else "", ""
-    unit = unit_of(column.entry, units)
+    unit = column.entry.unit(is_us=units.is_us)
     return column.entry.need, _allowed(column.entry, unit), _example(column.entry, unit)
 
 
@@ -314,16 +314,9 @@ def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: b
             first = first or cell
 
 
-def unit_of(entry: Entry, units: UnitsFirst) -> Unit | None:
-    """Return the unit of a field in a system of units; None if it has no choice of units."""
-    if entry.quantity is None:
-        return None
-    return entry.quantity.us if units is UnitsFirst.US else entry.quantity.si
-
-
 def heading_of(entry: Entry, units: UnitsFirst) -> str:
     """Return the heading of a column, with its unit."""
-    unit = unit_of(entry, units)
+    unit = entry.unit(is_us=units.is_us)
     symbol = unit.symbol if unit else str(entry.cell.unit)
     return f"{entry.cell.label} [{symbol}]" if symbol else entry.cell.label
 
