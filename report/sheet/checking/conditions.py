@@ -33,7 +33,6 @@ def _filled(*fields: str) -> Condition:
 
 
 def _chosen(field: str, *choices: str) -> Condition:
-
     def formula(refer: Refer) -> str:
         tests = [f'{refer(field)}="{choice}"' for choice in choices]
         return tests[0] if len(tests) == 1 else f"OR({','.join(tests)})"
@@ -130,8 +129,6 @@ REFERENCES: Mapping[tuple[str, str], tuple[str, ...]] = {
 }
 """Fields that name a row of other tables; an outline may be that of the roof."""
 
-_MODELS = {section.key: section.model for section in SECTIONS}
-
 OTHER_NAMES: Mapping[tuple[str, str], str] = {("outlines", "name"): ROOF}
 
 MAX_SLOPE_DEG = 45.0
@@ -139,6 +136,8 @@ MAX_SLOPE_DEG = 45.0
 
 ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 """Fields of which the second is larger, where a table has them."""
+
+_MODELS = {section.key: section.model for section in SECTIONS}
 
 
 def missing(draft: Draft, where: Where) -> Iterator[Finding]:
