@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from report.sheet.checking.drafts import column, repeated
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.calculated import not_calculated
 from report.sheet.reading.locate import is_absent
@@ -71,7 +72,7 @@ class StudyInput:
 
     def friction(self, mat_id: str) -> Spread:
         """Return the distribution of the friction coefficient of a mat."""
-        mat = next(row for row in self.mats if row.id.casefold() == mat_id.casefold())
+        mat = self._mat(mat_id)
         tests = tested(mat.tested)
         if not tests:
             return Spread(center=float(mat.mu or 0.0))
@@ -80,8 +81,11 @@ class StudyInput:
 
     def tests(self, mat_id: str) -> tuple[float, ...]:
         """Return the tested values of a mat, or its coefficient alone."""
-        mat = next(row for row in self.mats if row.id.casefold() == mat_id.casefold())
+        mat = self._mat(mat_id)
         return tested(mat.tested) or (float(mat.mu or 0.0),)
+
+    def _mat(self, mat_id: str) -> Mat:
+        return next(row for row in self.mats if row.id.casefold() == mat_id.casefold())
 
 
 def tested(text: str) -> tuple[float, ...]:
@@ -95,19 +99,10 @@ def tested(text: str) -> tuple[float, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class StudySheet:
-    """A study workbook as read, without errors of its own.
-
-    Attributes
-    ----------
-    book : OpenBook
-    gathered : Gathered
-        For the addresses of the cells.
-    unseen : tuple of Unseen
-        What is read and kept from sight.
-    """
+    """A study workbook as read, without errors of its own."""
 
     book: OpenBook
-    gathered: Gathered
+    gathered: Gathered  # for the addresses of the cells
     unseen: tuple[Unseen, ...]
 
     @cached_property
@@ -169,7 +164,8 @@ def _faults(draft: Draft) -> Iterator[Finding]:
     yield from _about_dispersion(study)
     yield from _about_motions(study, draft)
     for section in ("mats", "study_arrays", "motions", "buildings"):
-        yield from _repeated(draft, section)
+        for place, name, _ in repeated(column(draft, (section,), "id"), str.casefold):
+            yield Finding.error(place, f"ID '{name}' appears twice", "rename one")
     for row, mat in enumerate(mats):
         yield from _about_mat(row, mat)
     yield from _about_arrays(study, draft)
@@ -236,17 +232,6 @@ def _about_motions(study: Any, draft: Draft) -> Iterator[Finding]:
             "a building is given, but the motions are roof motions",
             "clear the row, or set Recorded at to ground",
         )
-
-
-def _repeated(draft: Draft, section: str) -> Iterator[Finding]:
-    seen: set[str] = set()
-    for row, fields in enumerate(draft[section]):
-        name = str(fields.get("id", "")).casefold()
-        if name and name in seen:
-            yield Finding.error(
-                Place(section, row, "id"), f"ID '{fields['id']}' appears twice", "rename one"
-            )
-        seen.add(name)
 
 
 def _about_mat(row: int, mat: Any) -> Iterator[Finding]:

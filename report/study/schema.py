@@ -117,9 +117,7 @@ class Study(Frozen):
     the roof, PGA of a ground motion; S_DS scales from the S_DS below."""
     intensities: Annotated[RequiredText, Cell("Intensities", "0.1 to 2 by 0.1")]
     """Increasing, above 0, given like the slopes."""
-    s_ds_g: Annotated[
-        Annotated[float, Field(gt=0, le=5)] | None, Cell("S_DS of the motions", 1.0, "g")
-    ] = None
+    s_ds_g: Annotated[float | None, Field(gt=0, le=5), Cell("S_DS of the motions", 1.0, "g")] = None
     """S_DS that the records represent. Required with S_DS."""
     rule_set: Annotated[RuleSetName, Cell("Rule set", "SEAOC PV1-2012")] = RuleSetName(
         "SEAOC PV1-2012"
@@ -132,7 +130,7 @@ class Study(Frozen):
     components of one. Blank if the sheet Motions lists them."""
     units: Annotated[AccelUnit, Cell("Record units", "from file")] = AccelUnit.FROM_FILE
     """If the files do not state them."""
-    dt_s: Annotated[Annotated[float, Field(gt=0, le=1)] | None, Cell("Time step", 0.01, "s")] = None
+    dt_s: Annotated[float | None, Field(gt=0, le=1), Cell("Time step", 0.01, "s")] = None
     """If the files do not state it."""
     polarity: Annotated[Polarity, Cell("Polarity", "both")] = Polarity.BOTH
     """Signs in which each horizontal record is run."""
@@ -150,20 +148,18 @@ class Study(Frozen):
         ),
     ] = None
     """Median; gives the chance that a clearance is exceeded. Blank for none."""
-    intensity_beta: Annotated[
-        Annotated[float, Field(ge=0, le=2)], Cell("Dispersion of intensity", 0.2)
-    ] = 0.0
+    intensity_beta: Annotated[float, Field(ge=0, le=2), Cell("Dispersion of intensity", 0.2)] = 0.0
     """Standard deviation of its logarithm."""
     slope_tolerance_deg: Annotated[
-        Annotated[float, Field(ge=0, le=5)], Cell("Tolerance of slope", 0.25, "deg")
+        float, Field(ge=0, le=5), Cell("Tolerance of slope", 0.25, "deg")
     ] = 0.0
     """Half the width of a uniform distribution."""
     sampling: Annotated[Sampling, Cell("Sampling", "Latin hypercube")] = Sampling.LATIN_HYPERCUBE
     """Latin hypercube of friction, slope and intensity; or every tested friction with the slope at
     its tolerances and middle, and the median intensity."""
-    samples: Annotated[Annotated[int, Field(ge=10, le=5000)], Cell("Samples", 200)] = 200
+    samples: Annotated[int, Field(ge=10, le=5000), Cell("Samples", 200)] = 200
     """Of the Latin hypercube, each under every motion."""
-    seed: Annotated[Annotated[int, Field(ge=0, le=2**31)], Cell("Seed", 1)] = 1
+    seed: Annotated[int, Field(ge=0, le=2**31), Cell("Seed", 1)] = 1
     """The same seed gives the same samples."""
     record_beta: Annotated[Dispersion | None, Cell("Record-to-record dispersion", 0.4)] = None
     """Of the exported fragilities, in place of that of the motions. Required for motions matched to
@@ -181,9 +177,7 @@ class Mat(Frozen):
 
     id: Annotated[Id, Cell("ID", "EPDM pad")]
     """Short and unique."""
-    mu: Annotated[Annotated[float, Field(gt=0, le=2)] | None, Cell("Friction coefficient", 0.5)] = (
-        None
-    )
+    mu: Annotated[float | None, Field(gt=0, le=2), Cell("Friction coefficient", 0.5)] = None
     """Blank: the geometric mean of the tested values."""
     tested: Annotated[Text, Cell("Tested values", "0.47, 0.50, 0.53")] = ""
     """Three or more, in any order; blank for none."""
@@ -198,7 +192,7 @@ class StudyArray(Frozen):
     """Short and unique."""
     mat: Annotated[Id, Cell("Mat", "EPDM pad")]
     """ID on the sheet Mats."""
-    slope_deg: Annotated[Annotated[float, Field(ge=0, le=45)], Cell("Slope", 2.0, "deg")]
+    slope_deg: Annotated[float, Field(ge=0, le=45), Cell("Slope", 2.0, "deg")]
     """Of the roof."""
     clearance_m: Annotated[Positive, Cell("Clearance", 24.0, Quantity.SIZE)]
     """To the nearest object or edge."""
@@ -226,17 +220,15 @@ class StudyBuilding(Frozen):
 
     id: Annotated[Id, Cell("ID", "T 0.3 s")]
     """Short and unique."""
-    period_s: Annotated[Annotated[float, Field(gt=0, le=10)], Cell("Period T1", 0.3, "s")]
+    period_s: Annotated[float, Field(gt=0, le=10), Cell("Period T1", 0.3, "s")]
     """First mode."""
-    damping_percent: Annotated[Annotated[float, Field(ge=1, le=50)], Cell("Damping", 5.0, "%")] = (
-        5.0
-    )
+    damping_percent: Annotated[float, Field(ge=1, le=50), Cell("Damping", 5.0, "%")] = 5.0
     """Of all modes."""
     stiffness_ratio: Annotated[
-        Annotated[float, Field(ge=0, le=1000)] | None, Cell("Lateral stiffness ratio", 4.0)
+        float | None, Field(ge=0, le=1000), Cell("Lateral stiffness ratio", 4.0)
     ] = None
     """H sqrt(GA/EI). Blank: shear deformation only."""
-    stories: Annotated[Annotated[int, Field(ge=1, le=200)], Cell("Stories", 1)] = 1
+    stories: Annotated[int, Field(ge=1, le=200), Cell("Stories", 1)] = 1
     """Of equal height."""
 
 

@@ -7,10 +7,10 @@ Works on a draft, the rows of readable values, so that one invalid cell hides no
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping
 
 from report.sheet.checking.conditions import MAX_SLOPE_DEG, REFERENCES, UNIQUE, missing
+from report.sheet.checking.drafts import column, repeated
 from report.sheet.checking.friction_checks import friction_faults
 from report.sheet.checking.motion_checks import motion_faults
 from report.sheet.checking.plan_checks import places_of, plan_faults, shapes_of, us_first
@@ -46,18 +46,10 @@ def gap_tolerance_m(gap_m: float) -> float:
 
 
 def faults(draft: Draft, where: Where) -> list[Finding]:
-    """Return all inconsistencies of a draft.
-
-    Parameters
-    ----------
-    draft : mapping of section to rows
-        A row lacks the fields that could not be read; a blank optional field is its default.
-    where : callable
-        Returns the address of a place, for faults that refer to a second cell.
-    """
+    """Return all inconsistencies of a draft, whose blank optional fields have their defaults."""
     checks = (
         _tables,
-        _missing,
+        missing,
         _unknown,
         _ids,
         site_faults,
@@ -79,26 +71,12 @@ def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
             yield Finding.error(Place(section), f"no {noun} is given", "fill in at least one row")
 
 
-def _missing(draft: Draft, where: Where) -> Iterator[Finding]:
-    yield from missing(draft)
-
-
 def _ids(draft: Draft, where: Where) -> Iterator[Finding]:
     # Arrays come first, so that a duplicate is reported at the object.
     for sections in UNIQUE:
-        seen: dict[str, Place] = {}
-        for place, value in _column(draft, sections, "id"):
-            first = seen.setdefault(value.casefold(), place)
-            if first is not place:
-                text = f"ID is '{value}', already used at {where(first)}"
-                yield Finding.error(place, text, "give a unique ID")
-
-
-def _column(draft: Draft, sections: Sequence[str], field: str) -> Iterator[tuple[Place, Any]]:
-    for section in sections:
-        for index, row in enumerate(draft[section]):
-            if field in row:
-                yield Place(section, index, field), row[field]
+        for place, value, first in repeated(column(draft, sections, "id"), str.casefold):
+            text = f"ID is '{value}', already used at {where(first)}"
+            yield Finding.error(place, text, "give a unique ID")
 
 
 def _arrays(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -118,8 +96,7 @@ def _slope(index: int, row: DraftRow) -> Iterator[Finding]:
 
 def _friction(index: int, row: DraftRow) -> Iterator[Finding]:
     """Yield inconsistencies of velocity-dependent friction, and models that neglect it."""
-    fields = ("mu", "mu_fast", "mu_static", "model")
-    if any(field not in row for field in fields):
+    if not row.keys() >= {"mu", "mu_fast", "mu_static", "model"}:
         return
     mu, static, model = row["mu"], row["mu_static"], row["model"]
     if static is not None and static < mu:
@@ -139,7 +116,12 @@ def _by_speed(array: DraftRow) -> list[str]:
 
 
 def _clearances(draft: Draft, where: Where) -> Iterator[Finding]:
-    yield from _repeated(draft, where)
+    fields = ("array", "object", "direction")
+    rows = enumerate(draft["clearances"])
+    given = ((Place("clearances", i, "array"), tuple(map(row.get, fields))) for i, row in rows)
+    for place, (array, *_), first in repeated(cell for cell in given if None not in cell[1]):
+        text = f"array is '{array}', with the same object and direction as at {where(first)}"
+        yield Finding.error(place, text, "delete one")
     shapes = shapes_of(draft)
     for index, row in enumerate(draft["clearances"]):
         yield from _room(index, row, shapes, draft, where)
@@ -150,25 +132,12 @@ def _unknown(draft: Draft, where: Where) -> Iterator[Finding]:
     for (section, field), tables in REFERENCES.items():
         if section == "outlines":
             continue
-        ids = {value: None for _, value in _column(draft, tables, "id")}
+        ids = dict.fromkeys(value for _, value in column(draft, tables, "id"))
         sheets = " or ".join(table.capitalize() for table in tables)
-        for place, value in _column(draft, (section,), field):
+        for place, value in column(draft, (section,), field):
             if value not in ids:
                 text = f"{field} is '{value}', which is not in {sheets}"
                 yield Finding.error(place, text, suggestion(value, ids))
-
-
-def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
-    seen: dict[tuple[Any, ...], int] = {}
-    for index, row in enumerate(draft["clearances"]):
-        key = tuple(row.get(field) for field in ("array", "object", "direction"))
-        if None in key:
-            continue
-        first = seen.setdefault(key, index)
-        if first != index:
-            at = where(Place("clearances", first, "array"))
-            text = f"array is '{key[0]}', with the same object and direction as at {at}"
-            yield Finding.error(Place("clearances", index, "array"), text, "delete one")
 
 
 def _room(
@@ -199,25 +168,20 @@ def _room(
 
 
 def _links(draft: Draft, where: Where) -> Iterator[Finding]:
-    arrays = {name: place for place, name in _column(draft, ("arrays",), "id")}
-    seen: dict[str, Place] = {}
-    for place, name in _column(draft, ("links",), "array"):
-        first = seen.setdefault(name, place)
-        if first is not place:
-            yield Finding.error(
-                place, f"array is '{name}', already given at {where(first)}", "delete one"
-            )
-        if name in arrays:
-            yield from _one_coefficient(place, name, draft["arrays"][arrays[name].row])
-    for place, text in _column(draft, ("links",), "friction"):
+    arrays = {name: place for place, name in column(draft, ("arrays",), "id")}
+    named = list(column(draft, ("links",), "array"))
+    for place, name, first in repeated(named):
+        found = f"array is '{name}', already given at {where(first)}"
+        yield Finding.error(place, found, "delete one")
+    for place, name in named:
+        array = draft["arrays"][arrays[name].row] if name in arrays else {}
+        if "mu" in array and _by_speed(array):
+            text = f"array is '{name}', which has high-velocity or static friction"
+            wanted = "leave both blank on the sheet Arrays, or delete this row"
+            yield Finding.error(place, text, wanted)
+    for place, text in column(draft, ("links",), "friction"):
         home = arrays.get(draft["links"][place.row].get("array", ""))
         yield from _blocks(place, text, draft, where, home)
-
-
-def _one_coefficient(place: Place, name: str, array: DraftRow) -> Iterator[Finding]:
-    if "mu" in array and _by_speed(array):
-        text = f"array is '{name}', which has high-velocity or static friction"
-        yield Finding.error(place, text, "leave both blank on the sheet Arrays, or delete this row")
 
 
 def _blocks(
@@ -237,31 +201,24 @@ def _blocks(
 
 
 def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
-    for row in draft["options"]:
-        text = row.get("smaller_events", "")
+    for place, text in column(draft, ("options",), "smaller_events"):
         if text and not factors(text):
             wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
-            yield Finding.error(
-                Place("options", 0, "smaller_events"),
-                f"smaller events is '{cut(text)}'",
-                f"{wanted}, such as 0.50, 0.25",
-            )
+            found = f"smaller events is '{cut(text)}'"
+            yield Finding.error(place, found, f"{wanted}, such as 0.50, 0.25")
 
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
-    seen: dict[str, Place] = {}
-    for place, key in _column(draft, ("overrides",), "provision"):
-        first = seen.setdefault(key, place)
+    given = list(column(draft, ("overrides",), "provision"))
+    for place, key in given:
         if key not in PROVISION_KEYS:
-            text = f"provision is '{key}'"
-            yield Finding.error(place, text, f"choose one of {', '.join(PROVISION_KEYS)}")
-        elif first is not place:
-            yield Finding.error(
-                place, f"provision is '{key}', already given at {where(first)}", "delete one"
-            )
-    for row, override in enumerate(draft["overrides"]):
-        key, value = override.get("provision", ""), override.get("value")
+            wanted = f"choose one of {', '.join(PROVISION_KEYS)}"
+            yield Finding.error(place, f"provision is '{key}'", wanted)
+    for place, key, first in repeated(cell for cell in given if cell[1] in PROVISION_KEYS):
+        found = f"provision is '{key}', already given at {where(first)}"
+        yield Finding.error(place, found, "delete one")
+    for place, value in column(draft, ("overrides",), "value"):
+        key = draft["overrides"][place.row].get("provision", "")
         allowed = ALLOWED.get(key)
-        if allowed and value is not None and not allowed.has(value):
-            text = f"value is {value:g} for {key}"
-            yield Finding.error(Place("overrides", row, "value"), text, f"give {allowed.words}")
+        if allowed and not allowed.has(value):
+            yield Finding.error(place, f"value is {value:g} for {key}", f"give {allowed.words}")

@@ -21,17 +21,17 @@ def warning(name: str, place: Place, text: str) -> Finding:
 
 def unanswered(place: Place, text: str, cell: str) -> Finding:
     """Return a warning on a cell that is no input."""
-    return Finding(level=Level.WARNING, id="", place=place, text=text, cell=cell)
+    return Finding(level=Level.WARNING, place=place, text=text, cell=cell)
 
 
 def limit(place: Place, text: str) -> Finding:
     """Return a warning that no reason lifts."""
-    return Finding(level=Level.WARNING, id="", place=place, text=text)
+    return Finding(level=Level.WARNING, place=place, text=text)
 
 
 def note(place: Place, text: str) -> Finding:
     """Return a note."""
-    return Finding(level=Level.NOTE, id="", place=place, text=text)
+    return Finding(level=Level.NOTE, place=place, text=text)
 
 
 def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Finding, ...]:
@@ -47,7 +47,7 @@ def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Findi
 
 def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:
     """Return findings in the order of the template."""
-    return tuple(sorted(findings, key=lambda finding: _rank(finding.place)))
+    return tuple(sorted(findings, key=lambda one: (_ORDER[one.place.section], one.place.row)))
 
 
 def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[str]:
@@ -60,20 +60,11 @@ def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iter
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FindingGroup:
-    """Findings that differ only in their cells and ids, printed as one.
+    """Findings that differ only in their cells and ids, printed as one."""
 
-    Attributes
-    ----------
-    finding : Finding
-        The first of them.
-    cells, names : str
-        Addresses and ids, the first few of them with the count of the others; names are empty
-        if there are no ids.
-    """
-
-    finding: Finding
-    cells: str
-    names: str
+    finding: Finding  # the first of them
+    cells: str  # the first few addresses, with the count of the others
+    names: str  # the same of their ids; empty if there are none
 
 
 def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[FindingGroup]:
@@ -86,15 +77,11 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
         alike.setdefault(key, []).append((finding, cell))
     for group in alike.values():
         cells, names = listed(cell for _, cell in group), listed(one.id for one, _ in group)
-        yield FindingGroup(finding=group[0][0], cells=cells, names=names if group[0][0].id else "")
+        yield FindingGroup(finding=group[0][0], cells=cells, names=names)
 
 
 _SHEETS = {section.key: section.sheet for section in SECTIONS}
 _ORDER = {section.key: count for count, section in enumerate(SECTIONS)}
-
-
-def _rank(place: Place) -> tuple[int, int]:
-    return _ORDER[place.section], place.row
 
 
 def _key(name: str) -> str:

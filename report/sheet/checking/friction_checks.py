@@ -6,10 +6,11 @@ Each fault names the cell to change. Works on a draft, like `checks`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
+from report.sheet.checking.drafts import column, repeated
 from report.sheet.schema import FrictionTestRow
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.sheet.schema.scene import friction_law
 from solver.friction_tests import Series, governing, series
 from solver.model import Friction
 
@@ -35,18 +36,14 @@ def _report(draft: Draft, row: DraftRow) -> str:
 
 
 def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
-    seen: dict[tuple[Any, ...], int] = {}
-    for index, row in enumerate(draft["friction_runs"]):
-        surface, number = row.get("surface"), row.get("number")
-        if surface is None or number is None:
-            continue
-        key = (_report(draft, row).casefold(), surface, number)
-        first = seen.setdefault(key, index)
-        if first != index:
-            at = where(Place("friction_runs", first, "number"))
-            text = f"run is {number}, {surface}, already given at {at}"
-            wanted = "give another number"
-            yield Finding.error(Place("friction_runs", index, "number"), text, wanted)
+    given = (
+        (place, (_report(draft, row).casefold(), row["surface"], number))
+        for place, number in column(draft, ("friction_runs",), "number")
+        if "surface" in (row := draft["friction_runs"][place.row])
+    )
+    for place, (_, surface, number), first in repeated(given):
+        text = f"run is {number}, {surface}, already given at {where(first)}"
+        yield Finding.error(place, text, "give another number")
 
 
 def _tested(draft: Draft) -> tuple[Series, ...]:
@@ -60,18 +57,11 @@ def _tested(draft: Draft) -> tuple[Series, ...]:
 
 def _law(array: DraftRow) -> Friction | None:
     """Return the friction law of an array, if it could be read and is consistent."""
-    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static", "mu_report")
-    if any(field not in array for field in fields):
+    fields = ("mu", "mu_fast", "mu_rate_s_per_m", "mu_static")
+    if not array.keys() >= {*fields, "mu_report"}:
         return None
-    mu, fast, rate, static = (array[field] for field in fields[:-1])
-    if (fast is None) != (rate is None):
-        return None
-    return Friction(
-        mu_slow=mu,
-        mu_fast=mu if fast is None else fast,
-        rate_s_per_m=rate or 0.0,
-        mu_static=mu if static is None else static,
-    )
+    mu, fast, rate, static = (array[field] for field in fields)
+    return friction_law(mu, fast, rate, static) if (fast is None) == (rate is None) else None
 
 
 def _first(draft: Draft, tests: Series, where: Where) -> str:

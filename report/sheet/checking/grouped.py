@@ -16,18 +16,10 @@ MOST_LISTED = 3
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """A problem of one cell, of several of a sheet, or of none.
-
-    Attributes
-    ----------
-    first : Problem
-    sheet : str
-        Empty for a problem of no cell.
-    cells : tuple of str
-    """
+    """A problem of one cell, of several of a sheet, or of none."""
 
     first: Problem
-    sheet: str
+    sheet: str  # empty for a problem of no cell
     cells: tuple[str, ...]
 
     @property

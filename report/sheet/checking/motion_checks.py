@@ -61,32 +61,20 @@ def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
 
 
 def _building(draft: Draft, where: Where) -> Iterator[Finding]:
-    ground = _first_row(draft, "recorded_at", RecordedAt.GROUND)
     for row in draft["building"]:
         first, second = row.get("period_s"), row.get("period_2_s")
         if second is not None and (first is None or second > first):
             longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
-            text = f"period T2 is {second:g} s"
-            wanted = f"give {longest}, or leave it blank"
+            text, wanted = f"period T2 is {second:g} s", f"give {longest}, or leave it blank"
             yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
-    if ground is not None:
-        yield from _stories(draft)
-
-
-def _stories(draft: Draft) -> Iterator[Finding]:
-    for row in draft["site"]:
+    grounds = (row.get("recorded_at") is RecordedAt.GROUND for row in draft["motions"])
+    for row in draft["site"] if any(grounds) else ():
         count = row.get("stories", 1)
         if count > MOST_STORIES:
             text = (
                 f"number of stories is {count}, more than the {MOST_STORIES} of the building model"
             )
             yield Finding.error(Place("site", 0, "stories"), text, "give roof motions")
-
-
-def _first_row(draft: Draft, field: str, value: object) -> int | None:
-    """Return the first motion with a value in a field; None for none."""
-    rows = (index for index, row in enumerate(draft["motions"]) if row.get(field) is value)
-    return next(rows, None)
 
 
 def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -98,8 +86,9 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
         if after - before <= 1e-9 * after:
             at = where(Place("spectrum", first, "period_s"))
             text = f"period is {after:g} s, already given at {at}"
-            wanted = "give each period once"
-            yield Finding.error(Place("spectrum", second, "period_s"), text, wanted)
+            yield Finding.error(
+                Place("spectrum", second, "period_s"), text, "give each period once"
+            )
     verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
     if any(verticals) and not all(verticals):
         index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
@@ -108,7 +97,6 @@ def _own_spectrum(draft: Draft, where: Where) -> Iterator[Finding]:
 
 
 def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
-    """Yield errors of the target spectrum and of scaling to it."""
     row = draft["target"][0] if draft["target"] else {}
     start, end = row.get("from_s"), row.get("to_s")
     if start is None or end is None:
@@ -120,22 +108,18 @@ def _scaled_to_target(draft: Draft, where: Where) -> Iterator[Finding]:
         return
     scaled = [i for i, m in enumerate(draft["motions"]) if m.get("scaling") is Scaling.TARGET]
     for index in scaled:
-        yield from _within_passband(draft, index, end)
+        corner = draft["motions"][index].get("highpass_hz")
+        if corner is not None and corner * end > 1.0 + 1e-9:
+            text = (
+                f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the"
+                f" longest scaling period is {end:g} s"
+            )
+            yield Finding.error(Place("motions", index, "highpass_hz"), text, "reduce one of them")
     if scaled and draft["spectrum"]:
         yield from _covered(draft, start, end)
     ground = [i for i in scaled if draft["motions"][i].get("recorded_at") is RecordedAt.GROUND]
     if not draft["spectrum"]:
         yield from _design_spectrum(draft, ground, where)
-
-
-def _within_passband(draft: Draft, index: int, end_s: float) -> Iterator[Finding]:
-    corner = draft["motions"][index].get("highpass_hz")
-    if corner is not None and corner * end_s > 1.0 + 1e-9:
-        text = (
-            f"high-pass corner is {corner:g} Hz, a period of {1.0 / corner:.3g} s, but the longest "
-            f"scaling period is {end_s:g} s"
-        )
-        yield Finding.error(Place("motions", index, "highpass_hz"), text, "reduce one of them")
 
 
 def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
@@ -150,45 +134,26 @@ def _covered(draft: Draft, start_s: float, end_s: float) -> Iterator[Finding]:
 
 
 def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[Finding]:
-    """Yield missing values of the design spectrum if a ground motion is scaled to it."""
+    """Yield what the design spectrum lacks if a ground motion is scaled to it, and a short T_L."""
     site = draft["site"][0] if draft["site"] else {}
-    target = draft["target"][0]
-    field, label = _lacking_s_d1(site)
-    parts = {
-        Place("site", 0, field): (label, _s_d1(site)),
-        Place("target", 0, "t_l_s"): ("long-period transition T_L", target.get("t_l_s", math.nan)),
-    }
-    for place, (label, value) in parts.items():
-        if ground and value is None:
-            at = where(Place("motions", ground[0], "scaling"))
-            text = f"{label} is missing"
-            yield Finding.error(
-                place,
-                text,
-                f"{at} scales a ground motion to the design spectrum, which requires "
-                "S_D1, or S_1 and F_v, and T_L",
-            )
-    if all(value is not None and value == value for _, value in parts.values()):
-        yield from _transition(site, target)
-
-
-def _transition(site: DraftRow, target: DraftRow) -> Iterator[Finding]:
     parameters = site_parameters(site)
-    t_s = None if parameters is None else parameters.t_s
-    if t_s is not None and target["t_l_s"] <= t_s:
-        text = f"long-period transition T_L is {target['t_l_s']:g} s"
-        wanted = f"give more than T_S = S_D1/S_DS = {t_s:.3g} s"
-        yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
-
-
-def _s_d1(site: DraftRow) -> float | None:
-    """Return S_D1 [g]; NaN where a cell of the site could not be read."""
-    parameters = site_parameters(site)
-    return math.nan if parameters is None else parameters.s_d1
-
-
-def _lacking_s_d1(site: DraftRow) -> tuple[str, str]:
-    """Return the field and label to fill in where S_D1 is missing."""
+    # NaN stands for what could not be read: it is neither missing nor too small.
+    s_d1_g = math.nan if parameters is None else parameters.s_d1
+    t_l_s = draft["target"][0].get("t_l_s", math.nan)
     lacking = [name for name in ("s_1_g", "f_v") if site.get(name) is None]
     field = lacking[0] if len(lacking) == 1 else "s_d1_g"
-    return field, {"s_1_g": "S_1", "f_v": "F_v", "s_d1_g": "S_D1"}[field]
+    label = {"s_1_g": "S_1", "f_v": "F_v", "s_d1_g": "S_D1"}[field]
+    for place, name, value in (
+        (Place("site", 0, field), label, s_d1_g),
+        (Place("target", 0, "t_l_s"), "long-period transition T_L", t_l_s),
+    ):
+        if ground and value is None:
+            at = where(Place("motions", ground[0], "scaling"))
+            wanted = f"{at} scales a ground motion to the design spectrum, which requires"
+            wanted += " S_D1, or S_1 and F_v, and T_L"
+            yield Finding.error(place, f"{name} is missing", wanted)
+    t_s = None if parameters is None else parameters.t_s
+    if t_s is not None and t_l_s is not None and t_l_s <= t_s:
+        text = f"long-period transition T_L is {t_l_s:g} s"
+        wanted = f"give more than T_S = S_D1/S_DS = {t_s:.3g} s"
+        yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)

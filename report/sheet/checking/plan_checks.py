@@ -10,15 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from report.sheet.checking.conditions import ORDERED
-from report.sheet.schema import (
-    ROOF,
-    SIDES,
-    ObjectKind,
-    Polygon,
-    Rectangle,
-    Shape,
-    UnitsFirst,
-)
+from report.sheet.schema import ROOF, SIDES, ObjectKind, Polygon, Rectangle, Shape, UnitsFirst
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.references import suggestion
 from report.sheet.schema.shapes import NEAR_M, Point, crossing, gap_m, outside, ring
@@ -31,16 +23,11 @@ _PLACED = ("arrays", "objects")
 
 @dataclass(frozen=True, slots=True)
 class _Outline:
-    """The rows of an outline: the first of them, and the vertices; none if a cell is unreadable."""
+    """The rows of an outline: the cell that names it first, and its vertices."""
 
     name: str
-    first: int
-    vertices: tuple[Point, ...]
-
-    @property
-    def place(self) -> Place:
-        """The cell that names it first."""
-        return Place("outlines", self.first, "name")
+    place: Place
+    vertices: tuple[Point, ...]  # none if a cell is unreadable
 
 
 def us_first(draft: Draft) -> bool:
@@ -48,10 +35,15 @@ def us_first(draft: Draft) -> bool:
     return all(row.get("units_first") is not UnitsFirst.SI for row in draft["project"])
 
 
+def _rows(draft: Draft, sections: Iterable[str] = _PLACED) -> Iterator[tuple[Place, DraftRow]]:
+    for section in sections:
+        yield from ((Place(section, index), row) for index, row in enumerate(draft[section]))
+
+
 def shapes_of(draft: Draft) -> dict[str, Shape]:
     """Return the shape of each array and object that has a valid one, by id."""
     outlines = _outlines(draft)
-    rows = {row["id"]: row for section in _PLACED for row in draft[section] if "id" in row}
+    rows = {row["id"]: row for _, row in _rows(draft) if "id" in row}
     found = {name: _shape(row, outlines.get(name)) for name, row in rows.items()}
     return {name: shape for name, shape in found.items() if shape is not None}
 
@@ -59,12 +51,7 @@ def shapes_of(draft: Draft) -> dict[str, Shape]:
 def places_of(draft: Draft, names: Iterable[str], where: Where) -> str:
     """Return the cells of the rectangles of arrays and objects, or of the first of an outline."""
     outlines = _outlines(draft)
-    rows = {
-        row["id"]: Place(section, index)
-        for section in _PLACED
-        for index, row in enumerate(draft[section])
-        if "id" in row
-    }
+    rows = {row["id"]: place for place, row in _rows(draft) if "id" in row}
     return " and ".join(
         where(outlines[name].place) if name in outlines else _sides(rows[name], where)
         for name in names
@@ -86,13 +73,11 @@ def plan_faults(draft: Draft, where: Where) -> Iterator[Finding]:
 
 
 def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:
-    if outline is None:
-        return _rectangle(row)
-    return _polygon(outline)
-
-
-def _rectangle(row: DraftRow) -> Rectangle | None:
-    """Return a row's rectangle, if all four sides are given and in order."""
+    """Return the rectangle of a row or the polygon of its outline; None for what is neither."""
+    if outline is not None:
+        points = ring(outline.vertices)
+        is_ring = len(points) >= LEAST_VERTICES and crossing(points) is None
+        return Polygon(points) if is_ring else None
     given = [row[side] for side in SIDES if row.get(side) is not None]
     if len(given) < len(SIDES):
         return None
@@ -100,49 +85,32 @@ def _rectangle(row: DraftRow) -> Rectangle | None:
     return Rectangle(*given) if x_from < x_to and y_from < y_to else None
 
 
-def _polygon(outline: _Outline) -> Polygon | None:
-    """Return the polygon of an outline, if it is one."""
-    points = ring(outline.vertices)
-    if len(points) < LEAST_VERTICES or crossing(points) is not None:
-        return None
-    return Polygon(points)
-
-
 def _outlines(draft: Draft) -> dict[str, _Outline]:
     """Return the outlines by name, in the order of the workbook."""
-    rows: dict[str, list[tuple[int, DraftRow]]] = {}
-    for index, row in enumerate(draft["outlines"]):
+    found: dict[str, list[tuple[Place, DraftRow]]] = {}
+    for place, row in _rows(draft, ("outlines",)):
         if "name" in row:
             name = ROOF if row["name"].casefold() == ROOF else row["name"]
-            rows.setdefault(name, []).append((index, row))
-    return {
-        name: _Outline(name, found[0][0], _vertices([row for _, row in found]))
-        for name, found in rows.items()
-    }
-
-
-def _vertices(rows: list[DraftRow]) -> tuple[Point, ...]:
-    is_whole = all("x_m" in row and "y_m" in row for row in rows)
-    return tuple((row["x_m"], row["y_m"]) for row in rows) if is_whole else ()
+            found.setdefault(name, []).append((place._replace(field="name"), row))
+    outlines = {}
+    for name, rows in found.items():
+        is_whole = all("x_m" in row and "y_m" in row for _, row in rows)
+        vertices = tuple((row["x_m"], row["y_m"]) for _, row in rows) if is_whole else ()
+        outlines[name] = _Outline(name, rows[0][0], vertices)
+    return outlines
 
 
 def _rectangles(draft: Draft, where: Where) -> Iterator[Finding]:
-    for section in ("roof", *_PLACED):
-        for index, row in enumerate(draft[section]):
-            yield from _in_order(section, index, row, us_first(draft), where)
-
-
-def _in_order(
-    section: str, index: int, row: DraftRow, is_us: bool, where: Where
-) -> Iterator[Finding]:
-    for first, last in ORDERED:
-        low, high = row.get(first), row.get(last)
-        if low is None or high is None or low < high:
-            continue
-        given, least = (pair(value, Quantity.PLAN, is_us) for value in (high, low))
-        at = where(Place(section, index, first))
-        wanted = f"give more than {_label(first)} in {at}, {least}"
-        yield Finding.error(Place(section, index, last), f"{_label(last)} is {given}", wanted)
+    for place, row in _rows(draft, ("roof", *_PLACED)):
+        for first, last in ORDERED:
+            low, high = row.get(first), row.get(last)
+            if low is None or high is None or low < high:
+                continue
+            given, least = (pair(value, Quantity.PLAN, us_first(draft)) for value in (high, low))
+            at = where(place._replace(field=first))
+            wanted = f"give more than {_label(first)} in {at}, {least}"
+            found = f"{_label(last)} is {given}"
+            yield Finding.error(place._replace(field=last), found, wanted)
 
 
 def _label(side: str) -> str:
@@ -150,14 +118,11 @@ def _label(side: str) -> str:
 
 
 def _outline_rows(draft: Draft, where: Where) -> Iterator[Finding]:
-    ids = [row["id"] for section in _PLACED for row in draft[section] if "id" in row]
+    ids = [row["id"] for _, row in _rows(draft) if "id" in row]
     for outline in _outlines(draft).values():
         if outline.name not in (ROOF, *ids):
-            yield Finding.error(
-                outline.place,
-                f"outline of '{outline.name}', which is not in Arrays or Objects",
-                suggestion(outline.name, [*ids, ROOF]),
-            )
+            text = f"outline of '{outline.name}', which is not in Arrays or Objects"
+            yield Finding.error(outline.place, text, suggestion(outline.name, [*ids, ROOF]))
         if outline.name == ROOF and ROOF in map(str.casefold, ids):
             text = "outline of 'roof', which is also the ID of an array or object"
             yield Finding.error(outline.place, text, "give that another ID")
@@ -169,8 +134,8 @@ def _ring_faults(outline: _Outline, is_us: bool) -> Iterator[Finding]:
     if not outline.vertices:
         return
     points = ring(outline.vertices)
-    if len(set(points)) < LEAST_VERTICES:
-        count = len(set(points))
+    count = len(set(points))
+    if count < LEAST_VERTICES:
         text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
         yield Finding.error(outline.place, text, f"give at least {LEAST_VERTICES}, one to a row")
         return
@@ -205,16 +170,14 @@ def _scattered(draft: Draft, where: Where) -> Iterator[Finding]:
 def _doubled(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield rectangles of what has an outline as well."""
     outlines = _outlines(draft)
-    rows = [(section, i, row) for section in _PLACED for i, row in enumerate(draft[section])]
-    named = [(section, i, row, row.get("id", "")) for section, i, row in rows]
-    named += [("roof", 0, row, ROOF) for row in draft["roof"]]
-    for section, index, row, name in named:
-        if name in outlines and any(row.get(side) is not None for side in SIDES):
-            side = next(side for side in SIDES if row.get(side) is not None)
+    for place, row in _rows(draft, (*_PLACED, "roof")):
+        name = ROOF if place.section == "roof" else row.get("id", "")
+        side = next((side for side in SIDES if row.get(side) is not None), None)
+        if name in outlines and side is not None:
             at = where(outlines[name].place)
             text = f"{_label(side)} is given, and {name} has an outline at {at}"
             wanted = "leave the four sides blank, or delete the outline"
-            yield Finding.error(Place(section, index, side), text, wanted)
+            yield Finding.error(place._replace(field=side), text, wanted)
 
 
 def _on_the_roof(draft: Draft, where: Where) -> Iterator[Finding]:
@@ -283,10 +246,9 @@ def _overlaps(draft: Draft, where: Where) -> Iterator[Finding]:
 def _bodies(draft: Draft) -> Iterator[_Body]:
     """Yield the arrays and objects that have a shape, without edges: an array may reach them."""
     outlines = _outlines(draft)
-    for section in _PLACED:
-        for index, row in enumerate(draft[section]):
-            own = outlines.get(row.get("id", ""))
-            shape = _shape(row, own) if "id" in row else None
-            if shape is not None and row.get("kind") not in _EDGES:
-                place = Place(section, index, "x_from_m") if own is None else own.place
-                yield _Body(place, row["id"], section == "arrays", shape, shape.bounds)
+    for place, row in _rows(draft):
+        own = outlines.get(row.get("id", ""))
+        shape = _shape(row, own) if "id" in row else None
+        if shape is not None and row.get("kind") not in _EDGES:
+            at = place._replace(field="x_from_m") if own is None else own.place
+            yield _Body(at, row["id"], place.section == "arrays", shape, shape.bounds)

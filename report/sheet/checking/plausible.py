@@ -78,22 +78,19 @@ def _objects_in_plan(data: ProjectInput) -> Iterator[tuple[int, Shape]]:
     plan = {item.id: item.placed for item in data.objects}
     plan |= {array.id: array.shape for array in data.arrays}
     for index, row in enumerate(data.clearances):
-        other = plan[row.object]
-        if other is not None:
+        if other := plan[row.object]:
             yield index, other
 
 
 def _short_of_plan(data: ProjectInput) -> dict[int, float]:
     """Return the gap in plan [m] of each clearance that is less, by row; more is an error."""
-    shapes = {array.id: array.shape for array in data.arrays}
-    gaps = {
-        i: gap_m(shapes[data.clearances[i].array], other) for i, other in _objects_in_plan(data)
-    }
-    return {
-        index: gap
-        for index, gap in gaps.items()
-        if data.clearances[index].provided_m < gap - gap_tolerance_m(gap)
-    }
+    shapes, short = {array.id: array.shape for array in data.arrays}, {}
+    for index, other in _objects_in_plan(data):
+        row = data.clearances[index]
+        gap = gap_m(shapes[row.array], other)
+        if row.provided_m < gap - gap_tolerance_m(gap):
+            short[index] = gap
+    return short
 
 
 def _dates(data: ProjectInput) -> Iterator[Finding]:
@@ -102,8 +99,8 @@ def _dates(data: ProjectInput) -> Iterator[Finding]:
     given = [row.revision for row in data.revisions]
     if issue.revision.casefold() not in (name.casefold() for name in given):
         text = f"revision is '{issue.revision}', which is not in the revision block; add its row"
-        place = Place("project", 0, "revision")
-        yield warning(f"revision {issue.revision}", place, f"{text}, or correct it")
+        text += ", or correct it"
+        yield warning(f"revision {issue.revision}", Place("project", 0, "revision"), text)
     for section, field, noun, dated in (
         ("site", "hazard_date", "date of hazard", data.site.hazard_date),
         ("friction_tests", "date", "date of the test report", data.friction_tests.date),
@@ -124,10 +121,7 @@ def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
 
 
 def _site_coefficients(site: Site) -> Iterator[Finding]:
-    """Yield coefficients that are not those of the table for the site class.
-
-    Less is an error, except with a site-specific analysis (`site_checks`).
-    """
+    # Less than the table is an error, except with a site-specific analysis (`site_checks`).
     for table, field, given, mapped, mapped_g in (
         (F_A, "f_a", site.f_a, "S_S", site.s_s_g),
         (F_V, "f_v", site.f_v, "S_1", site.s_1_g),

@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.sheet.schema import RiskCategory, edition_of, site_class_or_default
+from report.sheet.schema import RiskCategory
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.sheet.schema.project import edition_of, site_class_or_default
 from solver.rules import hazard
 from solver.rules.hazard import Edition, HazardBasis, SeismicParameters
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coefficient
@@ -68,12 +69,16 @@ def site_parameters(row: DraftRow) -> SeismicParameters | None:
     return hazard.seismic_parameters(edition, **values)
 
 
+def _fault(field: str, found: str, wanted: str) -> Finding:
+    return Finding.error(Place("site", 0, field), found, wanted)
+
+
 def _importance(row: DraftRow) -> Iterator[Finding]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
     wanted = f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
-    yield Finding.error(Place("site", 0, "i_e"), f"importance factor I_e is {i_e:g}", wanted)
+    yield _fault("i_e", f"importance factor I_e is {i_e:g}", wanted)
 
 
 def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
@@ -81,15 +86,14 @@ def _edition(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     rule_set = row["rule_set"]
     if rule_set in hazard.EDITIONS and rule_set != edition.name:
         text = f"edition of ASCE 7 is '{edition.name}', but the rule set is '{rule_set}'"
-        wanted = "leave it blank, or correct one"
-        yield Finding.error(Place("site", 0, "edition_name"), text, wanted)
+        yield _fault("edition_name", text, "leave it blank, or correct one")
     if edition.has_site_coefficients:
         return
     for field, label, other in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
         if row.get(field) is not None:
             text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients"
             wanted = f"leave it blank and give {other} from a hazard tool"
-            yield Finding.error(Place("site", 0, field), text, wanted)
+            yield _fault(field, text, wanted)
 
 
 def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
@@ -101,27 +105,26 @@ def _missing_s_ds(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     field = missing[0] if len(missing) == 1 else "s_ds_g"
     label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
     wanted = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
-    yield Finding.error(Place("site", 0, field), f"{label} is missing", wanted)
+    yield _fault(field, f"{label} is missing", wanted)
 
 
 def _agreement(row: DraftRow, edition: Edition, chain: _Chain) -> Iterator[Finding]:
     """Yield a value that differs from the same derived from other cells of its chain."""
-    mapped, coefficient, maximum, design = (row.get(name) for name, _ in chain)
-    (_, mapped_label), (_, factor_label), (maximum_name, maximum_label) = chain[:3]
-    design_name, design_label = chain[3]
+    mapped, coefficient, maximum, _ = (row.get(name) for name, _ in chain)
+    (_, mapped_label), (_, factor_label), (name, label), design = chain
     product = None
     if edition.has_site_coefficients and mapped is not None and coefficient is not None:
         product = coefficient * mapped
     factors = f"{factor_label} {mapped_label}"
-    for name, label, given, words, derived in (
-        (maximum_name, maximum_label, maximum, factors, product),
-        (design_name, design_label, design, f"2/3 {maximum_label}", _design(maximum)),
-        (design_name, design_label, design, f"2/3 {factors}", _design(product)),
+    for (field, symbol), words, derived in (
+        ((name, label), factors, product),
+        (design, f"2/3 {label}", _design(maximum)),
+        (design, f"2/3 {factors}", _design(product)),
     ):
+        given = row.get(field)
         if given is not None and derived is not None and abs(given - derived) > AGREES_G:
-            text = f"{label} is {given:g} g, but {words} is {derived:.4f} g"
-            wanted = "leave one of them blank, or correct it"
-            yield Finding.error(Place("site", 0, name), text, wanted)
+            text = f"{symbol} is {given:g} g, but {words} is {derived:.4f} g"
+            yield _fault(field, text, "leave one of them blank, or correct it")
             return
 
 
@@ -133,8 +136,7 @@ def _site_class(row: DraftRow, edition: Edition) -> Iterator[Finding]:
     site_class = row.get("site_class")
     if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
         text = f"site class is '{site_class}', which {edition.name} does not have"
-        wanted = f"give one of {', '.join(F_A.rows)}"
-        yield Finding.error(Place("site", 0, "site_class"), text, wanted)
+        yield _fault("site_class", text, f"give one of {', '.join(F_A.rows)}")
 
 
 def _below_table(
@@ -181,9 +183,8 @@ def _tabulated(
 
 
 def _or_study(field: str, found: str, wanted: str, table: CoefficientTable) -> Finding:
-    """Return a value below its table, with the way out."""
     out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
-    return Finding.error(Place("site", 0, field), found, f"{wanted} ({table.clause}†), {out}")
+    return _fault(field, found, f"{wanted} ({table.clause}†), {out}")
 
 
 def _sdc(row: DraftRow) -> Iterator[Finding]:
@@ -193,18 +194,15 @@ def _sdc(row: DraftRow) -> Iterator[Finding]:
         return
     is_essential = risk_category is RiskCategory.IV
     s_ds_g, s_d1_g, s_1_g = parameters.s_ds, parameters.s_d1, row["s_1_g"]
+    by_short = hazard.sdc_short(s_ds_g, is_essential=is_essential)
     by_1s = "" if s_d1_g is None else hazard.sdc_1s(s_d1_g, is_essential=is_essential)
     near_fault = "" if s_1_g is None else hazard.sdc_near_fault(s_1_g, is_essential=is_essential)
     least, reason, clause = max(
-        (
-            hazard.sdc_short(s_ds_g, is_essential=is_essential),
-            f"S_DS = {s_ds_g:.3f} g",
-            "ASCE 7 Table 11.6-1",
-        ),
+        (by_short, f"S_DS = {s_ds_g:.3f} g", "ASCE 7 Table 11.6-1"),
         (by_1s, f"S_D1 = {s_d1_g or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
         (near_fault, f"S_1 = {s_1_g or 0.0:g} g", "ASCE 7 section 11.6"),
         key=lambda table: table[0],
     )
     if sdc < least:
         wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
-        yield Finding.error(Place("site", 0, "sdc"), f"seismic design category is '{sdc}'", wanted)
+        yield _fault("sdc", f"seismic design category is '{sdc}'", wanted)

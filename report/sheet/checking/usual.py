@@ -31,22 +31,16 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
         found = getattr(data, section.key)
         for index, row in enumerate(found if section.is_table else (found,)):
             for entry in entries(section.model):
-                if _is_unusual(entry, getattr(row, entry.name)):
+                value, span = getattr(row, entry.name), entry.expected
+                if entry.cell.usual is None or value is None:
+                    continue
+                if not span.low * (1.0 - ROUNDING) <= value <= span.high * (1.0 + ROUNDING):
                     yield _warning(section, index, entry, row, is_us)
 
 
-def _is_unusual(entry: Entry, value: float | None) -> bool:
-    if entry.cell.usual is None or value is None:
-        return False
-    low, high = entry.expected.low, entry.expected.high
-    return not low * (1.0 - ROUNDING) <= value <= high * (1.0 + ROUNDING)
-
-
 def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
-    symbol, si = str(entry.cell.unit), 1.0
-    if entry.quantity:
-        unit = entry.quantity.us if is_us else entry.quantity.si
-        symbol, si = unit.symbol, unit.si
+    unit = entry.unit(is_us=is_us)
+    symbol, si = (unit.symbol, unit.si) if unit else (str(entry.cell.unit), 1.0)
     given, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
     text = f"{entry.spoken} is {given} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())

@@ -54,36 +54,18 @@ REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OpenBook:
-    """A workbook with the values last computed by the program that saved it.
-
-    Attributes
-    ----------
-    path : Path
-    sha256 : str
-        Of the file.
-    book : Workbook
-    scans : mapping of sheet title to Scan
-    calculation : mapping of str to str
-        How it was calculated when it was saved, as the file says it.
-    """
+    """A workbook with the values last computed by the program that saved it."""
 
     path: Path
-    sha256: str
+    sha256: str  # of the file
     book: Workbook
-    scans: Mapping[str, Scan]
-    calculation: Mapping[str, str]
+    scans: Mapping[str, Scan]  # by the title of the sheet
+    calculation: Mapping[str, str]  # how it was calculated when it was saved, as the file says it
 
     def __reduce__(self) -> tuple[Callable[[], OpenBook], tuple[()]]:
         """Reach another process without cells: nothing is read from them once motions run."""
-        empty = partial(
-            OpenBook,
-            path=self.path,
-            sha256=self.sha256,
-            book=Workbook(),
-            scans={},
-            calculation=self.calculation,
-        )
-        return empty, ()
+        same = partial(OpenBook, path=self.path, sha256=self.sha256, calculation=self.calculation)
+        return partial(same, book=Workbook(), scans={}), ()
 
     def extent(self, title: str) -> Extent:
         """Return the extent of a sheet's values."""
@@ -206,12 +188,9 @@ def _content(archive: zipfile.ZipFile, name: str) -> bytes:
 
 
 def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict[str, Scan]:
-    """Return the scans of the sheets among those of all parts.
-
-    A sheet whose part openpyxl would skip is an error: its rows would be lost without a word.
-    """
     found = {}
     for title, part in sheet_parts(archive):
+        # openpyxl would skip it, and its rows would be lost without a word.
         if part not in scans:
             raise InputError(
                 f"sheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
@@ -222,24 +201,21 @@ def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict
 
 def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
     """Return each sheet's title with the name of its part, as openpyxl resolves it."""
-    relations = _tree(archive, _RELATIONS)
-    targets = {item.get("Id"): _part(item.get("Target", "")) for item in relations}
+    # Targets are relative to the part of the workbook (ECMA-376-2, 9.3).
+    targets = {
+        item.get("Id"): posixpath.normpath(posixpath.join("/xl", target)).lstrip("/")
+        for item in _tree(archive, _RELATIONS)
+        if (target := item.get("Target"))
+    }
     listed = [
         (element.get("name", ""), targets.get(element.get(REL), ""))
         for element in _tree(archive, _WORKBOOK).iter()
         if element.tag.rpartition("}")[2] == "sheet"
     ]
-    repeated = [
-        title for title, count in Counter(t.casefold() for t, _ in listed).items() if count > 1
-    ]
-    if repeated:
-        raise InputError(f"two sheets have the name '{repeated[0]}'; rename one")
+    for title, count in Counter(title.casefold() for title, _ in listed).items():
+        if count > 1:
+            raise InputError(f"two sheets have the name '{title}'; rename one")
     return listed
-
-
-def _part(target: str) -> str:
-    """Return the name of the part that a relationship of the workbook names (ECMA-376-2, 9.3)."""
-    return posixpath.normpath(posixpath.join("/xl", target)).lstrip("/") if target else ""
 
 
 def _plainly_named(archive: zipfile.ZipFile, data: bytes) -> bytes:

@@ -5,7 +5,7 @@ Read `not_calculated`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 from report.sheet.checking.findings import warning
@@ -33,11 +33,7 @@ def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding
         return
     if read or any(scan.formulas for scan in book.scans.values()):
         place, cell = read[0] if read else (whole, "")
-        which = _listed([address for _, address in read]) if read else "its computed cells"
+        which = ", ".join(address for _, address in read[:_MOST_LISTED]) or "its computed cells"
+        which += f" and {more} more" if (more := len(read) - _MOST_LISTED) > 0 else ""
         text = f"the workbook {why}, and {which} may show former values: calculate it (F9) and save"
         yield replace(warning("calculation", place, f"{text} it"), cell=cell)
-
-
-def _listed(cells: Sequence[str]) -> str:
-    more = len(cells) - _MOST_LISTED
-    return ", ".join(cells[:_MOST_LISTED]) + (f" and {more} more" if more > 0 else "")

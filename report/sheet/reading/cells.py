@@ -50,25 +50,13 @@ class CellError(InputError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found:
-    """The content of a cell.
-
-    Attributes
-    ----------
-    sheet, cell : str
-    value : object
-        As typed; for a formula, the last computed value.
-    formula : str
-        Empty if none was typed.
-    is_error : bool
-        Whether the value is an Excel error, such as ``#DIV/0!``.
-    number_format : str
-    """
+    """The content of a cell."""
 
     sheet: str
     cell: str
-    value: Any
+    value: Any  # as typed; for a formula, the last computed value
     formula: str = ""
-    is_error: bool = False
+    is_error: bool = False  # the value is one of Excel, such as #DIV/0!
     number_format: str = "General"
 
     @property
@@ -129,12 +117,7 @@ def as_used(value: object, entry: Entry, unit: str) -> str:
 def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]) -> str:
     """Return what another cell states of the unit of a number; empty for nothing.
 
-    Parameters
-    ----------
-    entry : Entry
-        The field of the number.
-    row, cells : mapping
-        What was read of its row so far, and the cells of the row, by field.
+    That cell is among what was read of the row so far, or among the cells of the row, by field.
     """
     if entry.cell.unit_from is None:
         return ""
@@ -150,13 +133,8 @@ def read_cell(
 
     Parameters
     ----------
-    cell : Found
-    entry, model : Entry, type
-        The field and the model that holds it.
-    unit : str
-        Unit of the number in the cell, for messages.
-    si : float
-        Size of that unit in SI.
+    unit, si : str, float
+        Unit of the number in the cell, for messages, and its size in SI.
     shown : str
         What another cell says of the unit of a number that has none of its own.
 
@@ -192,11 +170,15 @@ def check_saved(cell: Found) -> None:
 def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
     """Return what a field accepts: `give a number from 0 to 1.5`."""
     if entry.choices:
-        return f"choose {_either(entry.choices)}"
+        return f"choose {', '.join(entry.choices[:-1])} or {entry.choices[-1]}"
     if entry.kind in (int, float):
         noun = "a whole number" if entry.kind is int else "a number"
-        suffix = f" [{unit}]" if unit else ""
-        return f"give {noun}{_range(entry, si)}{suffix}"
+        span = entry.bounds.words(si)
+        if span:
+            is_closed = math.isfinite(entry.bounds.low) and math.isfinite(entry.bounds.high)
+            start = "from" if is_closed and not entry.bounds.excludes_low else "of"
+            span = f" {start} {span}"
+        return f"give {noun}{span}" + (f" [{unit}]" if unit else "")
     if entry.kind is date:
         return "give a date such as 2026-03-05"
     return f"give text of at most {entry.max_length} characters"
@@ -206,18 +188,6 @@ def wish_for_missing(entry: Entry, unit: str = "", si: float = 1.0) -> str:
     """Return what to write where nothing is: as `wish`, and for a text an example of it."""
     is_text = entry.kind is str and not entry.choices
     return f"give text such as '{entry.cell.example}'" if is_text else wish(entry, unit, si)
-
-
-def _range(entry: Entry, si: float) -> str:
-    words = entry.bounds.words(si)
-    if not words:
-        return ""
-    is_closed = math.isfinite(entry.bounds.low) and math.isfinite(entry.bounds.high)
-    return f" {'from' if is_closed and not entry.bounds.excludes_low else 'of'} {words}"
-
-
-def _either(choices: tuple[str, ...]) -> str:
-    return f"{', '.join(choices[:-1])} or {choices[-1]}"
 
 
 def _is(cell: Found, entry: Entry) -> str:

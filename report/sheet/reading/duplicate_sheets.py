@@ -11,26 +11,21 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.checking.findings import warning
 from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.positions import label_key, labels_of, scanned, sheets_of
+from report.sheet.reading.positions import fields_by_label, label_key, scanned, sheets_of
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Finding, Place, SheetSection, entries
+from report.sheet.schema.fields import Finding, Place, SheetSection
 
 Rows = tuple[frozenset[str], ...]
 """Labels in each row of a sheet, in the form that is compared."""
 
 
 def copies(book: OpenBook, addresses: Mapping[Place, str]) -> Iterator[Finding]:
-    """Yield a warning for each sheet with all labels of one that is read.
-
-    Parameters
-    ----------
-    addresses : mapping of Place to str
-        Of what is read.
-    """
+    """Yield a warning for each sheet with all labels of one that is read."""
     rows = {sheet.title: _rows(book, sheet) for sheet in sheets_of(book)}
     told: set[str] = set()
     for section in SECTIONS:
-        read = _sheet_of(section, addresses)
+        found = (address for place, address in addresses.items() if place.section == section.key)
+        read = next(found, "").rpartition("!")[0]
         labels = _labels(section, rows[read]) if read in rows else frozenset()
         for title in rows:
             if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
@@ -50,17 +45,9 @@ def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
     return tuple(map(frozenset, rows.values()))
 
 
-def _sheet_of(section: SheetSection, addresses: Mapping[Place, str]) -> str:
-    """Return the sheet from which a section is read; empty if it was not found."""
-    found = (address for place, address in addresses.items() if place.section == section.key)
-    return next(found, "").rpartition("!")[0]
-
-
 def _labels(section: SheetSection, rows: Rows) -> Set[str]:
     """Return the labels of a section on a sheet: of a table, those in one row."""
-    wanted = {
-        label: entry.name for entry in entries(section.model) for label in labels_of(section, entry)
-    }
+    fields = fields_by_label(section)
     places = rows if section.is_table else (frozenset().union(*rows),)
-    found = ({wanted[label] for label in place & wanted.keys()} for place in places)
+    found = ({fields[label].name for label in place & fields.keys()} for place in places)
     return max(found, key=len, default=set())

@@ -42,14 +42,9 @@ def moved(formula: str, rows: int) -> str:
         return formula
     for token in tokens:
         if token.subtype == Token.RANGE and not re.search(r"[!\[]", token.value):
-            cells = token.value.split(":")
-            token.value = ":".join(_moved(cell, rows) for cell in cells)
+            matches = [(cell, _CELL.fullmatch(cell)) for cell in token.value.split(":")]
+            token.value = ":".join(f"{m[1]}{int(m[2]) + rows}" if m else c for c, m in matches)
     return "=" + "".join(token.value for token in tokens)
-
-
-def _moved(cell: str, rows: int) -> str:
-    match = _CELL.fullmatch(cell)
-    return f"{match[1]}{int(match[2]) + rows}" if match else cell
 
 
 def _written(token: Token) -> str:

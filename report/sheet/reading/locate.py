@@ -5,7 +5,7 @@ Never uses positions or styles, which users change. `cells` converts the content
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.locate_tables import table_area
@@ -24,13 +24,8 @@ from solver.model import InputError
 
 
 def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
-    """Return the cell of a single field, by its defined name, or else beside its label.
-
-    Raises
-    ------
-    InputError
-    """
-    position = _field_named(book, section, entry) or _beside_label(book, section, entry)
+    """Return the cell of a single field by name, or else beside its label, or raise InputError."""
+    position = _position(book, section, entry)
     if position is None:
         raise InputError(
             f"{section.sheet}: {entry.spoken} is missing (no name {section.cell_name(entry.name)}"
@@ -43,9 +38,7 @@ def find_unit_cell(
     book: OpenBook, section: SheetSection, entry: Entry, value: CellPosition
 ) -> CellPosition:
     """Return the cell that holds the unit of a single field, by name, or else next to the value."""
-    names = _fields(section, entry)
-    spots = (_named(book, section.unit_name(name)) for name in names)
-    position = next((spot for spot in spots if spot is not None), None)
+    position = _named(book, map(section.unit_name, _fields(section, entry)))
     return position or CellPosition(value.sheet, value.row, value.column + 1)
 
 
@@ -62,10 +55,7 @@ def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
 
 
 def _has_any(book: OpenBook, section: SheetSection, fields: Sequence[Entry]) -> bool:
-    return any(
-        _field_named(book, section, entry) or _beside_label(book, section, entry)
-        for entry in fields
-    )
+    return any(_position(book, section, entry) for entry in fields)
 
 
 def is_absent(book: OpenBook, section: SheetSection) -> bool:
@@ -80,21 +70,20 @@ def _fields(section: SheetSection, entry: Entry) -> tuple[str, ...]:
     return entry.name, *legacy_labels.FIELDS.get((section.key, entry.name), ())
 
 
-def _field_named(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
-    spots = (_named(book, section.cell_name(name)) for name in _fields(section, entry))
-    return next((spot for spot in spots if spot is not None), None)
+def _named(book: OpenBook, names: Iterable[str]) -> CellPosition | None:
+    """Return the first of named ranges that is a single cell."""
+    for name in names:
+        title, (left, top, right, bottom) = area_named(book.book, name) or ("", (0, 0, 0, 0))
+        if title and (left, top) == (right, bottom):
+            return CellPosition(title, top, left)
+    return None
 
 
-def _named(book: OpenBook, name: str) -> CellPosition | None:
-    title, (left, top, right, bottom) = area_named(book.book, name) or ("", (0, 0, 0, 0))
-    is_cell = title and (left, top) == (right, bottom)
-    return CellPosition(title, top, left) if is_cell else None
-
-
-def _beside_label(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
+def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
+    named = _named(book, map(section.cell_name, _fields(section, entry)))
     sheet = sheet_titled(book, section.sheet)
-    if sheet is None:
-        return None
+    if named or sheet is None:
+        return named
     wanted = labels_of(section, entry)
     for position in scanned(book, sheet):
         if label_key(sheet.cell(position.row, position.column).value) in wanted:

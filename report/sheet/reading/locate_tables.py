@@ -17,10 +17,10 @@ from report.sheet.reading.positions import (
     MAX_COLUMNS,
     CellPosition,
     bounds_of,
+    fields_by_label,
     found_at,
     heading_parts,
     label_key,
-    labels_of,
     merged,
     scanned,
     sheet_titled,
@@ -28,7 +28,7 @@ from report.sheet.reading.positions import (
     unit_size,
 )
 from report.sheet.schema.answers import ANSWER_HEADINGS, STATUS_HEADING
-from report.sheet.schema.fields import Entry, SheetSection, entries
+from report.sheet.schema.fields import SheetSection, entries
 from solver.model import InputError, Problem
 
 MAX_ROWS = 2000
@@ -38,50 +38,24 @@ _Place = tuple[Worksheet, int, int, int, range]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FieldColumn:
-    """A column of a table, and the unit in its heading.
-
-    Attributes
-    ----------
-    number : int
-    unit : str
-    si : float
-    heading : CellPosition
-        The cell that states the unit.
-    """
+    """A column of a table, and the unit in its heading."""
 
     number: int
     unit: str
     si: float
-    heading: CellPosition
+    heading: CellPosition  # the cell that states the unit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableFound:
-    """A table of inputs.
+    """A table of inputs."""
 
-    Attributes
-    ----------
-    heading : CellPosition
-        Its first heading.
-    columns : mapping of field to FieldColumn
-        Of the headings that are present and readable.
-    rows : range
-        Rows that may contain inputs.
-    others : tuple of CellPosition
-        Headings that belong to no field.
-    absent : tuple of str
-        Optional fields without a column, as in workbooks of earlier versions or after a column was
-        deleted.
-    problems : tuple of Problem
-        Finished lines about headings and merged cells.
-    """
-
-    heading: CellPosition
-    columns: Mapping[str, FieldColumn]
-    rows: Sequence[int]
-    others: tuple[CellPosition, ...]
-    absent: tuple[str, ...]
-    problems: tuple[Problem, ...]
+    heading: CellPosition  # its first one
+    columns: Mapping[str, FieldColumn]  # by field, of headings that are present and readable
+    rows: Sequence[int]  # those that may contain inputs
+    others: tuple[CellPosition, ...]  # headings that belong to no field
+    absent: tuple[str, ...]  # optional fields without a column, as in earlier workbooks
+    problems: tuple[Problem, ...]  # of headings and merged cells
 
 
 def find_table(book: OpenBook, section: SheetSection) -> TableFound:
@@ -94,9 +68,13 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     """
     sheet, left, top, right, below = _table_named(book, section) or _headings(book, section)
     _check_reach(book, sheet, top)
-    last_column = _last_heading(sheet, top, right)
-    positions = [CellPosition(sheet.title, top, column) for column in range(left, last_column + 1)]
-    headings = [p for p in positions if not _is_answer(section, sheet.cell(top, p.column).value)]
+    # Headings may go on beyond the table.
+    while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
+        right += 1
+    positions = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
+    # Formulas are not read.
+    answers = ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
+    headings = [p for p in positions if label_key(sheet.cell(top, p.column).value) not in answers]
     columns, others, seen, problems = _columns(book, section, headings)
     absent, missing = _unseen(book, section, headings, seen, others)
     problems += missing
@@ -111,11 +89,6 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         absent=absent,
         problems=tuple(problems),
     )
-
-
-def _is_answer(section: SheetSection, heading: object) -> bool:
-    """Whether a heading is that of a column of formulas, which is not read."""
-    return label_key(heading) in ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
 
 
 def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
@@ -135,18 +108,18 @@ def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
 def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
     own = sheet_titled(book, section.sheet)
-    fields = entries(section.model)
-    wanted = set[str]().union(*(labels_of(section, entry) for entry in fields))
     for sheet in [own] if own else sheets_of(book):
         rows: dict[int, list[int]] = {}
         taken = _rows_of_others(sheet, section)
         for position in scanned(book, sheet):
             if position.row in taken:
                 continue
-            if label_key(sheet.cell(position.row, position.column).value) in wanted:
+            if label_key(sheet.cell(position.row, position.column).value) in fields_by_label(
+                section
+            ):
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
-        if best and len(rows[best]) > len(fields) / 2:
+        if best and len(rows[best]) > len(entries(section.model)) / 2:
             return sheet, min(rows[best]), best, max(rows[best]), range(0)
     what = f"no table {section.table_name} and no row of its headings"
     missing = "" if own else "the sheet is missing: "
@@ -154,10 +127,7 @@ def _headings(book: OpenBook, section: SheetSection) -> _Place:
 
 
 def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
-    """Return the rows of headings of tables that bear the name of another section.
-
-    Sections have headings in common, and one without a table must not read that of another.
-    """
+    # Sections have headings in common, and one without a table must not read that of another.
     names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
     others = [
         ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
@@ -172,27 +142,14 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
     if extent.last_column > MAX_COLUMNS:
         far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
     if far:
-        raise InputError(
-            [
-                Problem(f"contains data {where}", "clear it", f"{sheet.title}!{cell}")
-                for cell, where in far
-            ]
-        )
-
-
-def _last_heading(sheet: Worksheet, top: int, right: int) -> int:
-    """Return the last column that has a heading, or is within the table."""
-    while right < MAX_COLUMNS and sheet.cell(top, right + 1).value is not None:
-        right += 1
-    return right
+        found = [(f"contains data {where}", f"{sheet.title}!{cell}") for cell, where in far]
+        raise InputError([Problem(text, "clear it", at) for text, at in found])
 
 
 def _columns(
     book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
 ) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[Problem]]:
-    fields = {
-        label: entry for entry in entries(section.model) for label in labels_of(section, entry)
-    }
+    fields = fields_by_label(section)
     columns: dict[str, FieldColumn] = {}
     others: list[CellPosition] = []
     problems: list[Problem] = []
@@ -208,9 +165,13 @@ def _columns(
         else:
             seen.add(entry.name)
             try:
-                columns[entry.name] = _column(position, entry, heading_parts(text)[1])
+                unit, si = unit_size(entry, heading_parts(text)[1], position.address)
             except InputError as error:
                 problems += error.parts
+                continue
+            columns[entry.name] = FieldColumn(
+                number=position.column, unit=unit, si=si, heading=position
+            )
     return columns, others, seen, problems
 
 
@@ -221,12 +182,10 @@ def _unseen(
     seen: set[str],
     others: Sequence[CellPosition],
 ) -> tuple[tuple[str, ...], list[Problem]]:
-    """Return optional fields that have no column, and a problem for each other missing field.
-
-    If a table has an unknown heading, no field counts as absent: the heading may be a renamed one.
-    """
+    """Return optional fields that have no column, and a problem for each other missing field."""
     fields = entries(section.model)
     places = _heading_places(book, section, headings)
+    # With an unknown heading no field counts as absent: the heading may be a renamed one.
     absent = [e.name for e in fields if e.name not in seen and not e.is_expected and not others]
     problems = []
     for entry in fields:
@@ -244,27 +203,17 @@ def _heading_places(
     book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
 ) -> Mapping[str, CellPosition]:
     """Return where each heading is, or where it belongs: after that of the field before it."""
-    fields = entries(section.model)
-    labels = {label: entry.name for entry in fields for label in labels_of(section, entry)}
+    fields = fields_by_label(section)
     places = {
-        labels[key]: position
+        fields[key].name: position
         for position in headings
-        if (key := label_key(found_at(book, position).value)) in labels
+        if (key := label_key(found_at(book, position).value)) in fields
     }
-    first = headings[0]
-    following = first
-    for entry in fields:
+    first = following = headings[0]
+    for entry in entries(section.model):
         position = places.setdefault(entry.name, following)
         following = CellPosition(first.sheet, first.row, position.column + 1)
     return places
-
-
-def _column(position: CellPosition, entry: Entry, unit: str) -> FieldColumn:
-    try:
-        symbol, si = unit_size(entry, unit)
-    except InputError as error:
-        raise InputError(error.parts[0].at(position.address)) from error
-    return FieldColumn(number=position.column, unit=symbol, si=si, heading=position)
 
 
 def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
@@ -278,32 +227,23 @@ def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
 
 
 def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[Problem]:
-    problems = []
-    for area in sorted(sheet.merged_cells.ranges, key=str):
-        reaches = any(area.min_col <= column <= area.max_col for column in columns)
-        if reaches and area.min_row <= last_row and area.max_row >= top:
-            problems.append(merged(sheet.title, area.coord))
-    return problems
+    return [
+        merged(sheet.title, area.coord)
+        for area in sorted(sheet.merged_cells.ranges, key=str)
+        if any(area.min_col <= column <= area.max_col for column in columns)
+        if area.min_row <= last_row and area.max_row >= top
+    ]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableArea:
-    """A named table with all of its headings, those of formulas included.
-
-    Attributes
-    ----------
-    sheet : str
-    header, last, totals : int
-        Row of the headings, last row above its totals, and row of the totals; 0 without one.
-    headings : mapping of str to CellPosition
-        By label: without unit, asterisk, case or extra spaces.
-    """
+    """A named table with all of its headings, those of formulas included."""
 
     sheet: str
     header: int
-    last: int
-    totals: int
-    headings: Mapping[str, CellPosition]
+    last: int  # row above its totals
+    totals: int  # 0 without them
+    headings: Mapping[str, CellPosition]  # by `label_key`
 
 
 def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:

@@ -15,8 +15,7 @@ _PARTS = re.compile(
     r"|\[[^\]]*\]|(?P<end>;)|(?P<general>General)|(?P<digits>[0#?.,%@]|E[+-])|(?P<other>.)",
     re.IGNORECASE | re.DOTALL,
 )
-_LONGEST = 255
-"""Characters that Excel allows in a format code (Excel specifications and limits)."""
+_LONGEST = 255  # characters that Excel allows in a format code (specifications and limits)
 
 _SCALE = re.compile(r"[0#?](,+)(?![0#?,])")
 _WORDS = re.compile(r"[^\s()\[\]{},;:=]+")
@@ -34,34 +33,23 @@ _NAMES = {
     "lb": ("lbs", "lbf", "pound", "pounds"),
     "kip": ("kips", "k"),
     "N": ("newton", "newtons"),
-    "kN": (),
-    "MN": (),
     "kg": ("kgf", "kilogram", "kilograms"),
     "t": ("ton", "tons", "tonne", "tonnes"),
-    "psf": (),
-    "psi": (),
-    "ksi": (),
-    "Pa": (),
-    "kPa": (),
-    "MPa": (),
-    "plf": (),
     "s": ("sec", "secs", "second", "seconds"),
     "ms": ("msec",),
     "min": ("minute", "minutes"),
-    "Hz": (),
     "rad": ("radian", "radians"),
     "deg": ("°", "º", "degree", "degrees"),
     "%": ("percent", "pct"),
-    "g": (),
     "cm/s2": ("gal",),
+    **dict.fromkeys(("kN", "MN", "psf", "psi", "ksi", "Pa", "kPa", "MPa", "plf", "Hz", "g"), ()),
 }
 _UNITS = {
     name if len(name) == 1 else name.casefold(): unit
     for unit, others in _NAMES.items()
     for name in (unit, *others)
 }
-_ALSO_A_WORD = frozenset(("min", "k"))
-"""Names of units that alone may be a word: a minimum, thousands."""
+_ALSO_A_WORD = frozenset(("min", "k"))  # a minimum, thousands
 
 
 @dataclass(frozen=True, slots=True)

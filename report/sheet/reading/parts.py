@@ -7,7 +7,7 @@ no fields: `report.sheet.reading.locate` finds the cells.
 from __future__ import annotations
 
 import io
-import os
+import posixpath
 import re
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -42,11 +42,10 @@ _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 class _Element:
     """A row or a cell in the bytes of a sheet: where it starts and ends, and its start tag."""
 
-    number: int
     attributes: Mapping[str, str]
     start: int
-    opened: int
-    closing: int
+    opened: int  # where its start tag ends
+    closing: int  # where its end tag starts
     end: int
 
     @property
@@ -68,7 +67,9 @@ class _Sheet:
     columns: list[tuple[range, int, int]] = field(default_factory=list)
 
     def style(self, row: int, column: int) -> str:
-        """Return the style of a cell that is not there: that of its row, or of its column."""
+        """Return the style of a cell; of one that is not there, that of its row or column."""
+        if cell := self.cells.get(row, {}).get(column):
+            return cell.attributes.get("s", "")
         if row in self.rows and self.rows[row].attributes.get("customFormat") in ("1", "true"):
             return self.rows[row].attributes.get("s", "")
         found = (style for low, high, style in self.styles if low <= column <= high)
@@ -116,22 +117,16 @@ def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:
             new |= _longer_tables(archive, parts[title], cells)
         new["xl/workbook.xml"] = _computed_when_opened(archive.read("xl/workbook.xml"))
         left_out = _without_chain(archive, new) if had_formula else frozenset()
-        return _packed(archive, new, left_out)
-
-
-def _packed(archive: zipfile.ZipFile, new: Mapping[str, bytes], left_out: frozenset[str]) -> bytes:
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:
-        for member in archive.infolist():
-            if member.filename not in left_out:
-                content = new.get(member.filename)
-                packed.writestr(member, archive.read(member) if content is None else content,
-                                compress_type=member.compress_type)  # fmt: skip
+        out = io.BytesIO()
+        with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:
+            for member in archive.infolist():
+                if member.filename not in left_out:
+                    content = new.get(member.filename, archive.read(member))
+                    packed.writestr(member, content, compress_type=member.compress_type)
     return out.getvalue()
 
 
 def _scanned(title: str, data: bytes) -> _Sheet:
-    """Find the rows and cells of a sheet in its bytes."""
     if re.match(rb'<\?xml[^>]*encoding=["\'](?!utf-8["\'])', data, re.IGNORECASE):
         raise InputError(f"{title}: not in UTF-8; {REOPEN}")
     scan = _Scan(title, data)
@@ -146,6 +141,9 @@ def _scanned(title: str, data: bytes) -> _Sheet:
     if scan.sheet.data is None:
         raise InputError(f"{title}: has no cells; {REOPEN}")
     return scan.sheet
+
+
+_NESTED = ("row", "c", "sheetData")
 
 
 class _Scan:
@@ -163,7 +161,7 @@ class _Scan:
         """Note the start of an element."""
         local = name.rpartition(":")[2]
         at = self.parser.CurrentByteIndex
-        if local in ("row", "c", "sheetData"):
+        if local in _NESTED:
             if local != "sheetData" and "r" not in attributes:
                 raise InputError(f"{self._title}: has cells without addresses; {REOPEN}")
             self._open.append((name, attributes, at, _tag_end(self._data, at)))
@@ -181,24 +179,22 @@ class _Scan:
     def end(self, name: str) -> None:
         """Note the end of an element."""
         local = name.rpartition(":")[2]
-        if local not in ("row", "c", "sheetData"):
+        if local not in _NESTED:
             return
         _, attributes, start, opened = self._open.pop()
         at = self.parser.CurrentByteIndex
         has_end = self._data.startswith(f"</{name}".encode(), at)
         end = self._data.index(b">", at) + 1 if has_end else at
         closing = at if has_end else end
+        element = _Element(attributes, start, opened, closing, end)
         if local == "sheetData":
             self.sheet.tag = name.removesuffix("sheetData")
-            self.sheet.data = _Element(0, attributes, start, opened, closing, end)
+            self.sheet.data = element
         elif local == "row":
-            self.sheet.rows[self._row] = _Element(
-                self._row, attributes, start, opened, closing, end
-            )
+            self.sheet.rows[self._row] = element
         else:
             column = coordinate_to_tuple(attributes["r"])[1]
-            cell = _Element(column, attributes, start, opened, closing, end)
-            self.sheet.cells.setdefault(self._row, {})[column] = cell
+            self.sheet.cells.setdefault(self._row, {})[column] = element
 
 
 def _tag_end(data: bytes, start: int) -> int:
@@ -265,8 +261,7 @@ def _row_edits(
     fresh = {c: v for c, v in values.items() if c not in old and v is not None}
     for column in sorted(values.keys() & old.keys()):
         cell = old[column]
-        content = _cell(sheet, row, column, values[column], cell.attributes.get("s", ""))
-        yield cell.start, cell.end, content
+        yield cell.start, cell.end, _cell(sheet, row, column, values[column])
     if not fresh:
         return
     if home is None or home.is_empty:
@@ -277,7 +272,7 @@ def _row_edits(
     for column in sorted(fresh):
         after = min((c for c in old if c > column), default=None)
         at = home.closing if after is None else old[after].start
-        yield at, at, _cell(sheet, row, column, fresh[column], sheet.style(row, column))
+        yield at, at, _cell(sheet, row, column, fresh[column])
 
 
 def _whole_row(
@@ -285,7 +280,7 @@ def _whole_row(
 ) -> tuple[int, int, bytes]:
     """Return the place and the bytes of a row that has no cells yet, or is not there."""
     assert sheet.data is not None
-    inner = b"".join(_cell(sheet, row, c, values[c], sheet.style(row, c)) for c in sorted(values))
+    inner = b"".join(_cell(sheet, row, column, values[column]) for column in sorted(values))
     tag = f"{sheet.tag}row".encode()
     if home is not None:
         head = re.sub(rb'\sspans="[^"]*"', b"", data[home.start : home.opened])
@@ -300,21 +295,23 @@ def _whole_row(
     return at, at, whole
 
 
-def _cell(sheet: _Sheet, row: int, column: int, value: Value, style: str) -> bytes:
+def _cell(sheet: _Sheet, row: int, column: int, value: Value) -> bytes:
     """Return a cell; a number as such, a text within the cell itself."""
-    tag, at = sheet.tag, f"{get_column_letter(column)}{row}"
-    look = f' s="{style}"' if style else ""
+    tag, style = sheet.tag, sheet.style(row, column)
+    start = f'<{tag}c r="{get_column_letter(column)}{row}"' + (f' s="{style}"' if style else "")
     if value is None:
-        return f'<{tag}c r="{at}"{look}/>'.encode()
+        return f"{start}/>".encode()
     if isinstance(value, Formula):
-        return f'<{tag}c r="{at}"{look}><{tag}f>{escape(value[1:])}</{tag}f></{tag}c>'.encode()
-    if isinstance(value, str):
+        inner = f"<{tag}f>{escape(value[1:])}</{tag}f>"
+    elif isinstance(value, str):
+        start += ' t="inlineStr"'
         words = escape(_CONTROL.sub("?", value))
         inner = f'<{tag}is><{tag}t xml:space="preserve">{words}</{tag}t></{tag}is>'
-        return f'<{tag}c r="{at}"{look} t="inlineStr">{inner}</{tag}c>'.encode()
-    # A number of numpy is written as a number of Python.
-    number = value if isinstance(value, int) else float(value)
-    return f'<{tag}c r="{at}"{look}><{tag}v>{number!r}</{tag}v></{tag}c>'.encode()
+    else:
+        # A number of numpy is written as a number of Python.
+        number = value if isinstance(value, int) else float(value)
+        inner = f"<{tag}v>{number!r}</{tag}v>"
+    return f"{start}>{inner}</{tag}c>".encode()
 
 
 def _computed_when_opened(workbook: bytes) -> bytes:
@@ -368,12 +365,7 @@ def _tables(archive: zipfile.ZipFile, part: str) -> Sequence[str]:
     if relations not in archive.namelist():
         return ()
     targets = re.findall(rb'Target="([^"]*tables/[^"]*)"', archive.read(relations))
-    found = [_joined(folder, unescape(target.decode())) for target in targets]
+    # A target may begin at the root of the archive.
+    paths = [posixpath.join("/", folder, unescape(target.decode())) for target in targets]
+    found = [posixpath.normpath(path).lstrip("/") for path in paths]
     return [target for target in found if target in archive.namelist()]
-
-
-def _joined(folder: str, target: str) -> str:
-    """Return the name of a part that a sheet refers to."""
-    if target.startswith("/"):
-        return target.lstrip("/")
-    return os.path.normpath(f"{folder}/{target}").replace(os.sep, "/")

@@ -6,8 +6,9 @@ Knows no input; `locate` and `locate_tables` find them with it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 
 from openpyxl import Workbook
 from openpyxl.cell.cell import MergedCell
@@ -17,7 +18,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
 from report.sheet.schema import legacy_labels
-from report.sheet.schema.fields import Entry, SheetSection
+from report.sheet.schema.fields import Entry, SheetSection, entries
 from solver.model import InputError, Problem
 
 MAX_COLUMNS = 200
@@ -63,12 +64,7 @@ def found_at(book: OpenBook, position: CellPosition) -> Found:
 
 
 def check_uncovered(book: OpenBook, *positions: CellPosition) -> None:
-    """Raise for each cell that a merged one covers: what was typed there is lost.
-
-    Raises
-    ------
-    InputError
-    """
+    """Raise InputError for the cells that merged ones cover: what was typed there is lost."""
     found = []
     for at in positions:
         sheet = book.book[at.sheet]
@@ -157,13 +153,15 @@ def labels_of(section: SheetSection, entry: Entry) -> set[str]:
     return {label_key(label) for label in (entry.cell.label, *earlier)}
 
 
-def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
-    """Return a unit's symbol and its size in SI, as accepted by a field.
+@cache
+def fields_by_label(section: SheetSection) -> Mapping[str, Entry]:
+    """Return the fields of a section by each of their labels, in the form that is compared."""
+    fields = entries(section.model)
+    return {label: entry for entry in fields for label in labels_of(section, entry)}
 
-    Raises
-    ------
-    InputError
-    """
+
+def unit_size(entry: Entry, unit: str, where: str = "") -> tuple[str, float]:
+    """Return a unit's symbol and its size in SI; raise InputError where a field accepts it not."""
     fixed = "" if entry.quantity else str(entry.cell.unit)
     accepted = entry.quantity.accepted if entry.quantity else {fixed: 1.0}
     if not entry.quantity and not unit:
@@ -172,13 +170,10 @@ def unit_size(entry: Entry, unit: str) -> tuple[str, float]:
         if symbol.casefold() == unit.casefold():
             return symbol, si
     problem = f"is '{unit}'" if unit else "is missing"
-    raise InputError(f"unit of {entry.spoken} {problem}; {_wanted(list(accepted))}")
-
-
-def _wanted(symbols: Sequence[str]) -> str:
-    """Return what to write for a unit, of those that a field accepts."""
-    if symbols == [""]:
-        return "it has no unit: delete it"
-    if len(symbols) == 1:
-        return f"give the number in {symbols[0]}, and write {symbols[0]}"
-    return f"write one of {', '.join(symbols)}"
+    first, *others = accepted
+    wanted = (
+        f"give the number in {first}, and write {first}" if first else "it has no unit: delete it"
+    )
+    if others:
+        wanted = f"write one of {', '.join(accepted)}"
+    raise InputError(Problem(f"unit of {entry.spoken} {problem}", wanted, where))

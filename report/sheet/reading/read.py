@@ -25,20 +25,9 @@ from report.sheet.reading.cells import (
     wish_for_missing,
 )
 from report.sheet.reading.duplicate_sheets import copies
-from report.sheet.reading.locate import (
-    added_later,
-    find_cell,
-    find_unit_cell,
-    is_absent,
-)
+from report.sheet.reading.locate import added_later, find_cell, find_unit_cell, is_absent
 from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
-from report.sheet.reading.positions import (
-    FRESH,
-    CellPosition,
-    check_uncovered,
-    found_at,
-    unit_size,
-)
+from report.sheet.reading.positions import FRESH, CellPosition, check_uncovered, found_at, unit_size
 from report.sheet.reading.unseen import Unseen, by_cell, unseen
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.sheet.schema.fields import Draft, Entry, Finding, Place, SheetSection, entries
@@ -47,26 +36,15 @@ from solver.model import InputError, Problem
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EchoRow:
-    """One cell as read, as finished text.
-
-    Attributes
-    ----------
-    sheet, cell, label : str
-    typed, unit : str
-        As typed; for a formula, with its value when the workbook was saved.
-    value : str
-        As used; in SI if the unit can be chosen.
-    unseen : str
-        How the workbook keeps the cell from sight, such as `hidden`; empty if it does not.
-    """
+    """One cell as read, as finished text."""
 
     sheet: str
     cell: str
     label: str
-    typed: str
-    unit: str
-    value: str
-    unseen: str = ""
+    typed: str  # for a formula, with its value when the workbook was saved
+    unit: str  # as typed
+    value: str  # as used; in SI if the unit can be chosen
+    unseen: str = ""  # how the workbook keeps the cell from sight, such as `hidden`
 
     @property
     def address(self) -> str:
@@ -83,40 +61,18 @@ IGNORED = "not an input, ignored"
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """A workbook as data, with every problem found in it.
-
-    Attributes
-    ----------
-    path : Path
-    sha256 : str
-        Of the workbook.
-    book : OpenBook
-        For columns pasted into it and files beside it.
-    draft : mapping
-        Rows of each section by field; a field that could not be read is absent.
-    echo : tuple of EchoRow
-        Every field in the order of the template.
-    problems : tuple of (Place, Problem)
-    addresses : mapping of Place to str
-    unfound : frozenset of str
-        Sections that could not be found.
-    unseen : tuple of Unseen
-        What is read and kept from sight.
-    warnings : tuple of Finding
-        On the workbook as a whole: for each sheet that is ignored beside one like it, and for
-        values that may be former ones.
-    """
+    """A workbook as data, with every problem found in it."""
 
     path: Path
-    sha256: str
-    book: OpenBook
-    draft: Mapping[str, Sequence[Mapping[str, Any]]]
-    echo: tuple[EchoRow, ...]
+    sha256: str  # of the workbook
+    book: OpenBook  # for columns pasted into it and files beside it
+    draft: Draft
+    echo: tuple[EchoRow, ...]  # every field in the order of the template
     problems: tuple[tuple[Place, Problem], ...]
     addresses: Mapping[Place, str]
-    unfound: frozenset[str]
+    unfound: frozenset[str]  # sections
     unseen: tuple[Unseen, ...]
-    warnings: tuple[Finding, ...]
+    warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
 
     @cached_property
     def project(self) -> ProjectInput:
@@ -254,12 +210,13 @@ class Gathered:
 
 def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     gathered.draft[section.key] = []
-    if section.may_be_absent and is_absent(book, section):
+    is_missing = is_absent(book, section)
+    if is_missing and section.may_be_absent:
         defaults = {entry.name: entry.default for entry in entries(section.model)}
         gathered.draft[section.key] += [] if section.is_table else [defaults]
         return
     try:
-        if is_absent(book, section) and not section.is_table:
+        if is_missing and not section.is_table:
             raise InputError(
                 f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
             )
@@ -273,10 +230,9 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
 
 
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
-    row: dict[str, Any] = {}
-    gathered.draft[section.key].append(row)
     absent = added_later(book, section)
-    row |= {entry.name: entry.default for entry in absent}
+    row = {entry.name: entry.default for entry in absent}
+    gathered.draft[section.key].append(row)
     for entry in entries(section.model):
         if entry in absent:
             continue
@@ -304,10 +260,7 @@ def _block_column(
     check_uncovered(book, position, at)
     unit = found_at(book, at)
     text = "" if unit.value is None else plain(unit.value).strip()
-    try:
-        symbol, si = unit_size(entry, text)
-    except InputError as error:
-        raise InputError(error.parts[0].at(unit.address)) from error
+    symbol, si = unit_size(entry, text, unit.address)
     return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
 
 
@@ -316,7 +269,12 @@ def _read_table(
 ) -> None:
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
-    gathered.echo += [_ignored(book, position) for position in table.others]
+    for other in table.others:
+        label = f"column '{plain(found_at(book, other).value)}'"
+        ignored = EchoRow(
+            sheet=other.sheet, cell=other.cell, label=label, typed="", unit="", value=IGNORED
+        )
+        gathered.echo.append(ignored)
     sheet = table.heading.sheet
     for number in table.rows:
         cells = {
@@ -359,28 +317,20 @@ def _read_field(
 ) -> None:
     gathered.use(place, cell)
     try:
-        row[entry.name] = _value(section, entry, cell, column, stated)
+        if not cell.is_blank:
+            value = read_cell(cell, entry, section.model, column.unit, column.si, stated)
+        elif entry.is_required:
+            raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
+        else:
+            value = entry.default
     except CellError as error:
         gathered.add(place, [error.problem.at(cell.address, entry.spoken)])
         return
-    gathered.echo.append(_echoed(entry, cell, column, row[entry.name]))
-
-
-def _value(
-    section: SheetSection, entry: Entry, cell: Found, column: FieldColumn, stated: str
-) -> Any:
-    if not cell.is_blank:
-        return read_cell(cell, entry, section.model, column.unit, column.si, stated)
-    if entry.is_required:
-        raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
-    return entry.default
-
-
-def _echoed(entry: Entry, cell: Found, column: FieldColumn, value: Any) -> EchoRow:
+    row[entry.name] = value
     shown = as_used(value, entry, column.unit)
     if cell.is_blank and shown:
         shown += " (default)"
-    return EchoRow(
+    echoed = EchoRow(
         sheet=cell.sheet,
         cell=cell.cell,
         label=entry.cell.label,
@@ -388,15 +338,4 @@ def _echoed(entry: Entry, cell: Found, column: FieldColumn, value: Any) -> EchoR
         unit=column.unit,
         value=shown or "—",
     )
-
-
-def _ignored(book: OpenBook, position: CellPosition) -> EchoRow:
-    text = plain(found_at(book, position).value)
-    return EchoRow(
-        sheet=position.sheet,
-        cell=position.cell,
-        label=f"column '{text}'",
-        typed="",
-        unit="",
-        value=IGNORED,
-    )
+    gathered.echo.append(echoed)

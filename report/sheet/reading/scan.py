@@ -98,7 +98,7 @@ class Scan(ContentHandler):
         self.budget.take(element, attrs.get("sqref", ""))
         match element:
             case "row":
-                self._row, self._column = _whole(attrs.get("r"), self._row + 1), 0
+                self._row, self._column = int(attrs.get("r") or self._row + 1), 0
             case "c":
                 self._column += 1
                 if reference := attrs.get("r"):
@@ -158,10 +158,6 @@ class Scan(ContentHandler):
             raise InputError(
                 f"merged cells or links over {reference}; unmerge them, or remove the links"
             )
-
-
-def _whole(text: str | None, default: int) -> int:
-    return int(text) if text else default
 
 
 def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:

@@ -65,24 +65,13 @@ _STATES = {"hidden": "hidden", "veryHidden": "hidden so that Excel's menu does n
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unseen:
-    """Cells of a sheet that are read and kept from sight in one way.
-
-    Attributes
-    ----------
-    kind : Concealment
-    sheet, state : str
-        Title of the sheet, and whether it is visible, hidden or very hidden.
-    place : Place
-        Of the first cell.
-    cells : tuple of (int, int)
-        Rows and columns.
-    """
+    """Cells of a sheet that are read and kept from sight in one way."""
 
     kind: Concealment
     sheet: str
-    state: str
-    place: Place
-    cells: tuple[tuple[int, int], ...]
+    state: str  # of the sheet, as openpyxl names it
+    place: Place  # of the first cell
+    cells: tuple[tuple[int, int], ...]  # row and column of each
 
     @property
     def words(self) -> str:
@@ -103,24 +92,22 @@ class Unseen:
 def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
     """Return what is read and kept from sight, one for each sheet and kind."""
     sights: dict[str, _Sight] = {}
-    places: dict[tuple[str, Concealment], Place] = {}
-    cells: dict[tuple[str, Concealment], list[tuple[int, int]]] = {}
+    found: dict[tuple[str, Concealment], list[tuple[Place, tuple[int, int]]]] = {}
     for place, cell in used:
         if cell.sheet not in sights:
             sights[cell.sheet] = _Sight(book.book[cell.sheet])
         at = coordinate_to_tuple(cell.cell)
         for kind in sights[cell.sheet].kinds(*at, cell):
-            places.setdefault((cell.sheet, kind), place)
-            cells.setdefault((cell.sheet, kind), []).append(at)
+            found.setdefault((cell.sheet, kind), []).append((place, at))
     return tuple(
         Unseen(
             kind=kind,
             sheet=sheet,
             state=book.book[sheet].sheet_state,
-            place=places[sheet, kind],
-            cells=tuple(found),
+            place=cells[0][0],
+            cells=tuple(at for _, at in cells),
         )
-        for (sheet, kind), found in cells.items()
+        for (sheet, kind), cells in found.items()
     )
 
 
@@ -154,10 +141,7 @@ def warnings(found: Iterable[Unseen]) -> Iterator[Finding]:
 
 
 def _ranges(cells: Iterable[tuple[int, int]]) -> Iterator[str]:
-    """Yield cells as ranges: the runs of each row, those of equal columns below each other as one.
-
-    In the order of their first cells.
-    """
+    """Yield cells as ranges: the runs of each row, as one where those below have its columns."""
     open_: dict[tuple[int, int], tuple[int, int]] = {}
     done: list[tuple[int, int, int, int]] = []
     for row, group in groupby(sorted(set(cells)), key=lambda cell: cell[0]):
@@ -215,7 +199,11 @@ class _Sight:
         if row in self._rows:
             return (self._rows[row],)
         if column not in self._columns:
-            self._columns[column] = _hides_column(self._sheet, column)
+            self._columns[column] = any(
+                (one.hidden or _is_less(one.width, LEAST_WIDTH))
+                and (one.min or 0) <= column <= (one.max or 0)
+                for one in self._sheet.column_dimensions.values()
+            )
         return (Concealment.HIDDEN,) if self._columns[column] else ()
 
 
@@ -229,15 +217,6 @@ def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:
 
 def _is_less(size: float | None, minimum: float) -> bool:
     return size is not None and size < minimum
-
-
-def _hides_column(sheet: Worksheet, column: int) -> bool:
-    said = sheet.column_dimensions.values()
-    return any(
-        (one.hidden or _is_less(one.width, LEAST_WIDTH))
-        and (one.min or 0) <= column <= (one.max or 0)
-        for one in said
-    )
 
 
 def _filtered(sheet: Worksheet) -> Iterator[range]:

@@ -32,7 +32,7 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
     """
     draft = {key: [dict(row) for row in rows] for key, rows in sheet.draft.items()}
     gathered = Gathered(draft=draft, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
-    units = {f"{row.sheet}!{row.cell}": row.unit for row in sheet.echo}
+    units = {row.address: row.unit for row in sheet.echo}
     for place, value in typed.items():
         _, entry = _field(place)
         address = sheet.addresses[place]
@@ -48,13 +48,17 @@ def size_of_unit(sheet: Sheet, place: Place) -> float:
     """Return the size in SI of the unit in which the number of a cell is typed."""
     quantity = _field(place)[1].quantity
     address = sheet.addresses[place]
-    unit = next(row.unit for row in sheet.echo if f"{row.sheet}!{row.cell}" == address)
+    unit = next(row.unit for row in sheet.echo if row.address == address)
     return quantity.accepted[unit] if quantity else 1.0
 
 
 def cells(sheet: Sheet, typed: Mapping[Place, Typed]) -> dict[CellPosition, Typed]:
     """Return what to write into which cells of the file."""
-    return {_position(sheet.addresses[place]): value for place, value in typed.items()}
+    found = {}
+    for place, value in typed.items():
+        title, _, cell = sheet.addresses[place].rpartition("!")
+        found[CellPosition(title, *coordinate_to_tuple(cell))] = value
+    return found
 
 
 def _read(place: Place, value: Typed, unit: str) -> Any:
@@ -68,8 +72,3 @@ def _read(place: Place, value: Typed, unit: str) -> Any:
 def _field(place: Place) -> tuple[SheetSection, Entry]:
     section = _BY_KEY[place.section]
     return section, next(e for e in entries(section.model) if e.name == place.field)
-
-
-def _position(address: str) -> CellPosition:
-    name, _, cell = address.rpartition("!")
-    return CellPosition(name, *coordinate_to_tuple(cell))

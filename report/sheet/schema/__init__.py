@@ -14,7 +14,6 @@ from pydantic.fields import FieldInfo
 
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
-    MAX_TEXT,
     AccelUnit,
     Baseline,
     Direction,
@@ -27,28 +26,26 @@ from report.sheet.schema.choices import (
     RiskCategory,
     RuleSetName,
     Scaling,
-    Sdc,
     SiteClass,
     SlopeUnit,
     Statistic,
-    StructureType,
     Text,
     UnitsFirst,
     decimals,
 )
-from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection, YesNo
+from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.legacy_labels import PROVISIONS
 from report.sheet.schema.links import Links, coefficients
 from report.sheet.schema.motions import MotionInput
-from report.sheet.schema.project import Project, Revision, Site, edition_of, site_class_or_default
-from report.sheet.schema.roof import Roof
+from report.sheet.schema.project import Project, Revision, Site
 from report.sheet.schema.scene import (
     ROOF,
     SIDES,
     Array,
     Clearance,
     DrawingLayer,
+    Roof,
     RoofObject,
     Vertex,
     slope_rad,
@@ -57,19 +54,16 @@ from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, ring
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 
 __all__ = [
-    "MAX_TEXT",
     "PROVISION_KEYS",
     "ROOF",
     "SECTIONS",
     "SIDES",
     "AccelUnit",
-    "Acknowledgment",
     "Array",
     "Baseline",
     "BuildingInput",
     "Clearance",
     "Direction",
-    "DrawingLayer",
     "FrictionTestRow",
     "FrictionTests",
     "LayerKind",
@@ -91,24 +85,17 @@ __all__ = [
     "RoofObject",
     "RuleSetName",
     "Scaling",
-    "Sdc",
     "Shape",
     "Site",
     "SiteClass",
     "SlopeUnit",
     "SpectrumPoint",
     "Statistic",
-    "StructureType",
-    "TargetInput",
     "UnitsFirst",
-    "Vertex",
-    "YesNo",
     "coefficients",
-    "edition_of",
     "factors",
     "provision_name",
     "provision_unit",
-    "site_class_or_default",
     "slope_rad",
 ]
 
@@ -223,6 +210,10 @@ class Acknowledgment(Frozen):
     """Printed in the package."""
 
 
+_NAMING = {"clearances": ("array", "object"), "links": ("array",), "outlines": ("name",)}
+"""Fields that refer to arrays and objects, by section."""
+
+
 class ProjectInput(Frozen):
     """The complete input of a workbook."""
 
@@ -307,15 +298,12 @@ class ProjectInput(Frozen):
         def spelled(name: str) -> str:
             return ids.get(name.casefold(), name)
 
-        clearances = tuple(
-            row.model_copy(update={"array": spelled(row.array), "object": spelled(row.object)})
-            for row in self.clearances
-        )
-        links = tuple(row.model_copy(update={"array": spelled(row.array)}) for row in self.links)
-        object.__setattr__(self, "clearances", clearances)  # the model itself is frozen
-        object.__setattr__(self, "links", links)
-        corners = tuple(row.model_copy(update={"name": spelled(row.name)}) for row in self.outlines)
-        object.__setattr__(self, "outlines", corners)
+        for key, fields in _NAMING.items():
+            rows = tuple(
+                row.model_copy(update={name: spelled(getattr(row, name)) for name in fields})
+                for row in getattr(self, key)
+            )
+            object.__setattr__(self, key, rows)  # the model itself is frozen
         return self
 
     @model_validator(mode="after")

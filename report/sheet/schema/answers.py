@@ -2,14 +2,14 @@
 
 Each formula repeats a function of `solver.rules` or `report.assessment` in cells; tests compare
 them. Only functions of Excel 2007 to 2016, no array formulas. The reader reads none of them. Read
-`site_answers`, then `table_answers`.
+`SITE_ANSWERS`, then `table_answers`.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 from report.sheet.schema.layout import Layout, literal
 from report.words.units import Quantity, Unit
@@ -31,31 +31,22 @@ ONE_VALUE, BY_FORMULA = "one value", "the formula"
 _REFERENCE = re.compile(r"(\w*)\[(#?)(\w+)\]")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class FormulaColumn:
     """A column of formulas in a table.
 
-    Attributes
-    ----------
-    name, heading : str
-    note : str
-        Shown above the heading.
-    formula : str
-        Without its equals sign: `[field]` is the cell of its row, `table[field]` a whole column,
-        and `table[#field]` a heading. Blank where it gives an error.
-    number_format : str
-    width : int
-    is_helper : bool
-        Whether it only serves other formulas, and is folded at the right.
+    In a formula, without its equals sign, `[field]` is the cell of its row, `table[field]` a whole
+    column, and `table[#field]` a heading. It is blank where it gives an error.
     """
 
     name: str
     heading: str
-    note: str
+    note: str  # above the heading
     formula: str
+    _: KW_ONLY
     number_format: str = "General"
     width: int = 11
-    is_helper: bool = False
+    is_helper: bool = False  # it only serves other formulas, and is folded at the right
 
     def written(self, layout: Layout, section: str) -> str:
         """Return the formula with the references of a finished layout."""
@@ -67,33 +58,30 @@ class FormulaColumn:
             place = layout.tables[table]
             return place.head(field) if is_heading else place.all(field)
 
-        return _blank_on_error(_REFERENCE.sub(reference, _on_one_line(self.formula)))
+        on_one_line = "".join(map(str.strip, self.formula.splitlines()))
+        return _blank_on_error(_REFERENCE.sub(reference, on_one_line))
 
 
 def table_answers(section: str, *, is_us: bool) -> tuple[FormulaColumn, ...]:
     """Return the answers of a table, in the order of its columns."""
     side = 0 if is_us else 1
-    if section == "arrays":
-        return _of_arrays(Quantity.PRESSURE.value[side])
-    if section == "outlines":
-        return (_DOUBLE_AREA,)
-    return _of_clearances(Quantity.SIZE.value[side]) if section == "clearances" else ()
-
-
-def _on_one_line(formula: str) -> str:
-    return "".join(map(str.strip, formula.splitlines()))
-
-
-def _label(heading: str) -> str:
-    return heading.partition("[")[0].strip().casefold()
+    match section:
+        case "arrays":
+            return _of_arrays(Quantity.PRESSURE.value[side])
+        case "clearances":
+            return _of_clearances(Quantity.SIZE.value[side])
+        case "outlines":
+            return (_DOUBLE_AREA,)
+    return ()
 
 
 def _blank_on_error(formula: str) -> str:
     return f'IFERROR({formula},"")'
 
 
-def _decimals(count: int) -> str:
-    return f"0.{'0' * count}" if count else "0"
+def decimals_format(unit: Unit) -> str:
+    """Return the number format with the decimals of a unit."""
+    return f"0.{'0' * unit.decimals}".rstrip(".")
 
 
 _SLOPE_DEG = """
@@ -108,6 +96,14 @@ _KIND_OF_ARRAY = """
     &" | "&IF(TRIM([mu_rate_s_per_m])="",0,[mu_rate_s_per_m]+0)
     &" | "&IF(TRIM([mu_static])="",[mu]+0,[mu_static]+0))
 """
+_KIND = FormulaColumn(
+    "kind_of_array",
+    "Kind of array",
+    "construction | friction: low, high, rate, static",
+    _KIND_OF_ARRAY,
+    width=40,
+    is_helper=True,
+)
 _VERTICES = f"COUNTIF(live_outlines,{literal('[id]')})"
 _IS_ITS = "--(TRIM(outlines[name])=TRIM([id]))"
 # An error where a row is below the table.
@@ -128,30 +124,17 @@ def _weight_per_area(unit: Unit) -> str:
 
 
 def _of_arrays(unit: Unit) -> tuple[FormulaColumn, ...]:
-    return (
-        FormulaColumn(
-            name="slope_deg",
-            heading="Slope in degrees",
-            note="from slope and its unit",
-            formula=_SLOPE_DEG,
-            number_format="0.00",
-        ),
-        FormulaColumn(
-            name="weight_per_area",
-            heading=f"Weight per area [{unit.symbol}]",
-            note="over the rectangle or outline in plan",
-            formula=_weight_per_area(unit),
-            number_format=_decimals(unit.decimals),
-        ),
-        FormulaColumn(
-            name="kind_of_array",
-            heading="Kind of array",
-            note="construction | friction: low, high, rate, static",
-            formula=_KIND_OF_ARRAY,
-            width=40,
-            is_helper=True,
-        ),
+    per_area = FormulaColumn(
+        "weight_per_area",
+        f"Weight per area [{unit.symbol}]",
+        "over the rectangle or outline in plan",
+        _weight_per_area(unit),
+        number_format=decimals_format(unit),
     )
+    slope = FormulaColumn(
+        "slope_deg", "Slope in degrees", "from slope and its unit", _SLOPE_DEG, number_format="0.00"
+    )
+    return slope, per_area, _KIND
 
 
 _NUMBER = "(ROW([name])-ROW(outlines[#name]))"
@@ -162,17 +145,17 @@ _FOLLOWING = (
 )
 _AFTER = f"IF({_NUMBER}=ROWS(outlines[name]),{_FIRST},IFERROR({_FOLLOWING},{_FIRST}))"
 _DOUBLE_AREA = FormulaColumn(
-    name="double_area",
-    heading="Twice the area",
-    note="of the triangle to the next vertex",
-    formula=f"""
+    "double_area",
+    "Twice the area",
+    "of the triangle to the next vertex",
+    f"""
         IF(TRIM([name])="","",
         [x_m]*INDEX(outlines[y_m],{_AFTER})-INDEX(outlines[x_m],{_AFTER})*[y_m])
     """,
     is_helper=True,
 )
 
-_KIND = "INDEX(objects[kind],[object_row])"
+_OBJECT = "INDEX(objects[kind],[object_row])"
 _HEIGHT = "INDEX(objects[height_m],[object_row])*unit_objects_height_m"
 _CENTER = "INDEX(arrays[cg_height_m],[array_row])*unit_arrays_cg_height_m"
 # As `solver.rules.provisions.parapet_qualifies`, in inches.
@@ -198,9 +181,9 @@ _ARE_ALIKE = f"""
 _NEIGHBOR = f"""
     IF([array_row]="","",
     IF([other_row]<>"",IF({_ARE_ALIKE},"{Neighbor.LIKE}","{Neighbor.UNLIKE}"),
-    IF(TRIM({_KIND})="","",
-    IF({_KIND}="edge with parapet",IF({_QUALIFIES},"{Neighbor.PARAPET}","{Neighbor.EDGE}"),
-    IF({_KIND}="edge without parapet","{Neighbor.EDGE}",{_KIND})))))
+    IF(TRIM({_OBJECT})="","",
+    IF({_OBJECT}="edge with parapet",IF({_QUALIFIES},"{Neighbor.PARAPET}","{Neighbor.EDGE}"),
+    IF({_OBJECT}="edge without parapet","{Neighbor.EDGE}",{_OBJECT})))))
 """
 _IMPORTANCE = f"""
     IF([neighbor]="","",
@@ -221,10 +204,7 @@ def _required(unit: Unit) -> str:
 
 
 def _demand_capacity(unit: Unit) -> str:
-    """Return required / provided, rounded up like `report.words.units.ratio`.
-
-    So that 1.00 never hides a failure.
-    """
+    # Rounded up as by `report.words.units.ratio`, so that 1.00 never hides a failure.
     ratio = f"[required]*{unit.si!r}/([provided_m]*unit_clearances_provided_m)"
     return f"""
         IF(OR([required]="",TRIM([provided_m])=""),"",
@@ -234,33 +214,27 @@ def _demand_capacity(unit: Unit) -> str:
 
 def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
     return (
+        FormulaColumn("neighbor", "Neighbor", "as the rule set counts it", _NEIGHBOR, width=29),
         FormulaColumn(
-            name="neighbor",
-            heading="Neighbor",
-            note="as the rule set counts it",
-            formula=_NEIGHBOR,
-            width=29,
-        ),
-        FormulaColumn(
-            name="importance",
-            heading="I",
-            note="importance factor in the separation",
-            formula=_IMPORTANCE,
+            "importance",
+            "I",
+            "importance factor in the separation",
+            _IMPORTANCE,
             number_format="0.00",
         ),
         FormulaColumn(
-            name="required",
-            heading=f"Required, prescriptive [{unit.symbol}]",
-            note="separation for the prescriptive displacement",
-            formula=_required(unit),
-            number_format=_decimals(unit.decimals),
+            "required",
+            f"Required, prescriptive [{unit.symbol}]",
+            "separation for the prescriptive displacement",
+            _required(unit),
+            number_format=decimals_format(unit),
             width=13,
         ),
         FormulaColumn(
-            name="demand_capacity",
-            heading="D/C, prescriptive",
-            note="required / provided, rounded up",
-            formula=_demand_capacity(unit),
+            "demand_capacity",
+            "D/C, prescriptive",
+            "required / provided, rounded up",
+            _demand_capacity(unit),
             number_format="0.00",
             width=13,
         ),
@@ -271,35 +245,11 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
 
 
 def _row_of(name: str, what: str, field: str, section: str) -> FormulaColumn:
-    """Return the column that says where an id is in another table."""
-    return FormulaColumn(
-        name=name,
-        heading=f"Row of {what}",
-        note=f"in the table on {section.capitalize()}",
-        formula=f"MATCH({literal(f'[{field}]')},{section}[id],0)",
-        is_helper=True,
-    )
+    note, row = f"in the table on {section.capitalize()}", f"MATCH({literal(f'[{field}]')}"
+    return FormulaColumn(name, f"Row of {what}", note, f"{row},{section}[id],0)", is_helper=True)
 
 
 SITE_FORMAT = "0.000"
-
-
-def site_answers() -> Mapping[str, tuple[str, str]]:
-    """Return the formula and the defined name of the answer beside each field of the site."""
-    return {
-        "i_e": ('IF(ISNUMBER(site_i_e),site_i_e,"")', "live_i_e"),
-        "edition_name": (
-            'IF(TRIM(site_edition_name)<>"",site_edition_name,rule_edition)',
-            "live_edition",
-        ),
-        "f_a": (_coefficient("site_s_s_g", "f_a"), "live_f_a"),
-        "f_v": (_coefficient("site_s_1_g", "f_v"), "live_f_v"),
-        "s_ms_g": (_maximum("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g"), "live_s_ms"),
-        "s_m1_g": (_maximum("site_s_m1_g", "site_s_1_g", "site_f_v", "site_s_d1_g"), "live_s_m1"),
-        "s_ds_g": (_design("site_s_ds_g", "live_s_ms"), "live_s_ds"),
-        "s_d1_g": (_design("site_s_d1_g", "live_s_m1"), "live_s_d1"),
-        "sdc": (_sdc(), "live_sdc"),
-    }
 
 
 def _coefficient(mapped: str, symbol: str) -> str:
@@ -330,48 +280,53 @@ def _design(given: str, maximum: str) -> str:
     return f'IF(ISNUMBER({given}),{given},IF(ISNUMBER({maximum}),2/3*{maximum},""))'
 
 
-def _sdc() -> str:
-    """Return the most severe category: by S_DS, by S_D1, and by S_1."""
-    steps = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
-    short, long = (
-        steps.format("live_s_ds", "sdc_limits_s_ds"),
-        steps.format("live_s_d1", "sdc_limits_s_d1"),
-    )
-    near = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'
-    return (
-        'IF(OR(live_s_ds="",TRIM(site_risk_category)=""),"",'
-        f'CHAR(MAX(CODE({short}),IF(live_s_d1="",0,CODE({long})),{near})))'
-    )
+# The most severe category: by S_DS, by S_D1, and by S_1.
+_STEPS = 'MID(IF(site_risk_category="IV","ACDD","ABCD"),1+SUMPRODUCT(--({}>={})),1)'
+_BY_S_DS, _BY_S_D1 = (_STEPS.format(f"live_{s}", f"sdc_limits_{s}") for s in ("s_ds", "s_d1"))
+_BY_S_1 = 'IF(N(site_s_1_g)>=sdc_limit_s_1,CODE(IF(site_risk_category="IV","F","E")),0)'
+_SDC = (
+    'IF(OR(live_s_ds="",TRIM(site_risk_category)=""),"",'
+    f'CHAR(MAX(CODE({_BY_S_DS}),IF(live_s_d1="",0,CODE({_BY_S_D1})),{_BY_S_1})))'
+)
 
+SITE_ANSWERS: Mapping[str, tuple[str, str]] = {
+    "i_e": ('IF(ISNUMBER(site_i_e),site_i_e,"")', "live_i_e"),
+    "edition_name": (
+        'IF(TRIM(site_edition_name)<>"",site_edition_name,rule_edition)',
+        "live_edition",
+    ),
+    "f_a": (_coefficient("site_s_s_g", "f_a"), "live_f_a"),
+    "f_v": (_coefficient("site_s_1_g", "f_v"), "live_f_v"),
+    "s_ms_g": (_maximum("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g"), "live_s_ms"),
+    "s_m1_g": (_maximum("site_s_m1_g", "site_s_1_g", "site_f_v", "site_s_d1_g"), "live_s_m1"),
+    "s_ds_g": (_design("site_s_ds_g", "live_s_ms"), "live_s_ds"),
+    "s_d1_g": (_design("site_s_d1_g", "live_s_m1"), "live_s_d1"),
+    "sdc": (_SDC, "live_sdc"),
+}
+"""Formula and defined name of the answer beside each field of the site."""
 
-def prescriptive_formula_in() -> str:
-    """Return the formula of the prescriptive displacement [in], before its minimum."""
-    inside = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
-    return _blank_on_error(f"rule_prescriptive_factor_in*MAX(live_s_ds-0.4,0)^2*{inside}")
+_I_E = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
+PRESCRIPTIVE_FORMULA_IN = _blank_on_error(
+    f"rule_prescriptive_factor_in*MAX(live_s_ds-0.4,0)^2*{_I_E}"
+)
+"""The prescriptive displacement [in], before its minimum."""
 
-
-def prescriptive_in() -> str:
-    """Return the prescriptive displacement [in]."""
-    return _blank_on_error(
-        f'IF(AND(rule_low_sdc="{ONE_VALUE}",live_sdc_used<>"",ISNUMBER(FIND(live_sdc_used,"ABC"))),'
-        "rule_prescriptive_low_sdc_in+0,"
-        "IF(live_prescriptive_formula_in+0>=rule_prescriptive_minimum_in+0,"
-        "live_prescriptive_formula_in,rule_prescriptive_minimum_in))"
-    )
-
-
-def prescriptive_basis() -> str:
-    """Return what governs the prescriptive displacement, in words."""
-    return (
-        'IF(live_prescriptive_in="","",'
-        f'IF(AND(rule_low_sdc="{ONE_VALUE}",ISNUMBER(FIND(live_sdc_used,"ABC"))),"SDC A, B, C",'
-        'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
-    )
-
+PRESCRIPTIVE_IN = _blank_on_error(
+    f'IF(AND(rule_low_sdc="{ONE_VALUE}",live_sdc_used<>"",ISNUMBER(FIND(live_sdc_used,"ABC"))),'
+    "rule_prescriptive_low_sdc_in+0,"
+    "IF(live_prescriptive_formula_in+0>=rule_prescriptive_minimum_in+0,"
+    "live_prescriptive_formula_in,rule_prescriptive_minimum_in))"
+)
+PRESCRIPTIVE_BASIS = (
+    'IF(live_prescriptive_in="","",'
+    f'IF(AND(rule_low_sdc="{ONE_VALUE}",ISNUMBER(FIND(live_sdc_used,"ABC"))),"SDC A, B, C",'
+    'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
+)
+"""What governs the prescriptive displacement, in words."""
 
 ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
     section: frozenset(
-        _label(heading)
+        heading.partition("[")[0].strip().casefold()
         for heading in (STATUS_HEADING, *(a.heading for a in table_answers(section, is_us=True)))
     )
     for section in ("arrays", "clearances", "outlines")

@@ -35,12 +35,12 @@ class BuildingInput(Frozen):
     damping_percent: Annotated[Percent, Cell("Damping", 5.0, "%", usual=(1.0, 10.0))] = 5.0
     """Damping of all modes, in percent of critical."""
     stiffness_ratio: Annotated[
-        Annotated[float, Field(ge=0, le=1000)] | None, Cell("Lateral stiffness ratio", 4.0)
+        float | None, Field(ge=0, le=1000), Cell("Lateral stiffness ratio", 4.0)
     ] = None
     """H sqrt(GA/EI): 0 for shear walls, 1.5 to 6 for walls with frames, over 20 for moment frames.
     Blank: shear deformation only."""
     left_out_percent: Annotated[
-        Annotated[float, Field(ge=0, le=50)], Cell("Modal truncation limit", 5.0, "%")
+        float, Field(ge=0, le=50), Cell("Modal truncation limit", 5.0, "%")
     ] = 5.0
     """Allowed effect of all neglected modes together, in percent of the peak roof acceleration."""
 
@@ -51,27 +51,21 @@ class TargetInput(Frozen):
     tail: Annotated[Tail, Cell("AC156 below 1.3 Hz", "AC156")] = Tail.AC156
     """The line of AC156, or 1/T for periods above 0.77 s as PV1-2012 Sec. 9 permits."""
     t_l_s: Annotated[
-        Annotated[float, Field(gt=0, le=20)] | None, Cell("Long-period transition T_L", 8.0, "s")
+        float | None, Field(gt=0, le=20), Cell("Long-period transition T_L", 8.0, "s")
     ] = None
     """ASCE 7, 11.4.6. Used with S_1 and F_v for the design spectrum of ground motions."""
-    from_s: Annotated[
-        Annotated[float, Field(ge=0.02, le=10)], Cell("Shortest scaling period", 0.2, "s")
-    ] = 0.2
+    from_s: Annotated[float, Field(ge=0.02, le=10), Cell("Shortest scaling period", 0.2, "s")] = 0.2
     """For motions scaled to the target spectrum."""
-    to_s: Annotated[
-        Annotated[float, Field(ge=0.02, le=10)], Cell("Longest scaling period", 5.0, "s")
-    ] = 5.0
+    to_s: Annotated[float, Field(ge=0.02, le=10), Cell("Longest scaling period", 5.0, "s")] = 5.0
     """Long periods govern sliding: use more than 0.77 s (1.3 Hz)."""
 
 
 class SpectrumPoint(Frozen):
     """A point of the project-specific target spectrum."""
 
-    period_s: Annotated[Annotated[float, Field(ge=0.001, le=1000)], Cell("Period", 1.0, "s")]
+    period_s: Annotated[float, Field(ge=0.001, le=1000), Cell("Period", 1.0, "s")]
     """Each period once, in any order. Interpolated on log-log axes."""
-    horizontal_g: Annotated[Annotated[float, Field(gt=0, le=100)], Cell("Horizontal", 0.8, "g")]
+    horizontal_g: Annotated[float, Field(gt=0, le=100), Cell("Horizontal", 0.8, "g")]
     """Pseudo-acceleration, 5 % damping."""
-    vertical_g: Annotated[
-        Annotated[float, Field(gt=0, le=100)] | None, Cell("Vertical", 0.4, "g")
-    ] = None
+    vertical_g: Annotated[float | None, Field(gt=0, le=100), Cell("Vertical", 0.4, "g")] = None
     """In every row, or blank in every row to use AC156."""

@@ -21,7 +21,7 @@ from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from report.words.units import Quantity
+from report.words.units import Quantity, Unit
 from solver.model import Problem
 
 
@@ -43,33 +43,15 @@ class Level(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """Something in a workbook that is refused, or permitted and perhaps not meant.
-
-    Attributes
-    ----------
-    level : Level
-    id : str
-        By which the sheet Acknowledged answers a warning; empty for a limit, which no reason lifts,
-        and for all others.
-    place : Place
-        The cell to look at.
-    text : str
-        What was found; of a warning also what would do.
-    remedy : str
-        What would do, of an error.
-    reason : str
-        From the sheet Acknowledged; empty if not acknowledged.
-    cell : str
-        Address, for a cell that is no input; empty for that of the place.
-    """
+    """Something in a workbook that is refused, or permitted and perhaps not meant."""
 
     level: Level
-    place: Place
-    text: str
-    remedy: str = ""
-    id: str = ""
-    reason: str = ""
-    cell: str = ""
+    place: Place  # the cell to look at
+    text: str  # what was found; of a warning also what would do
+    remedy: str = ""  # what would do, of an error
+    id: str = ""  # by which the sheet Acknowledged answers a warning; a limit has none
+    reason: str = ""  # from the sheet Acknowledged
+    cell: str = ""  # address of a cell that is no input; empty for that of the place
 
     @classmethod
     def error(cls, place: Place, found: str, remedy: str = "") -> Finding:
@@ -100,38 +82,18 @@ class YesNo(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """How a field is presented to the user.
-
-    Attributes
-    ----------
-    label : str
-        Heading.
-    example : str, float, int or date
-        A plausible value, in the US unit of `unit` where that is a quantity.
-    unit : Quantity or str
-        Quantity with a choice of units, or a fixed unit; empty for none.
-    help : str
-        Message shown when the cell is selected; empty for the docstring of the field.
-    need : str
-        In words, where it is required unless something else is given; empty for all others.
-    usual : (float, float)
-        Range beyond which a number is marked, in the unit of `example`; None for the allowed one.
-    unit_from : (str, callable)
-        Field that states the unit of a number without one of its own, and what its text says of it;
-        None if there is no such field.
-    is_rare : bool
-        Whether its column belongs to those that are folded at the right of a table.
-    """
+    """How a field is presented to the user."""
 
     label: str
-    example: str | float | int | dt.date
-    unit: Quantity | str = ""
+    example: str | float | int | dt.date  # in the US unit of `unit` where that is a quantity
+    unit: Quantity | str = ""  # a quantity with a choice of units, or a fixed unit
     _: KW_ONLY
-    help: str = ""
-    need: str = ""
-    usual: tuple[float, float] | None = None
+    help: str = ""  # shown when the cell is selected; empty for the docstring of the field
+    need: str = ""  # in words, where it is required unless something else is given
+    usual: tuple[float, float] | None = None  # a number beyond is marked; in the unit of `example`
+    # Field that states the unit of a number without one of its own, and what its text says of it.
     unit_from: tuple[str, Callable[[str], str]] | None = None
-    is_rare: bool = False
+    is_rare: bool = False  # its column is folded at the right of a table
 
 
 class Frozen(BaseModel):
@@ -153,31 +115,15 @@ class OnSheet:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SheetSection:
-    """A part of the workbook: a block of single cells, or a table.
+    """A part of the workbook: a block of single cells, or a table."""
 
-    Attributes
-    ----------
-    key : str
-        Its attribute of `ProjectInput`, and the prefix of its names in the workbook.
-    sheet, title : str
-        Its sheet, and its heading.
-    model : type
-        Model of the block or of one row.
-    is_table, may_be_absent : bool
-        Whether a workbook may lack it, as workbooks of earlier versions do.
-    hint : str
-        One line of instruction; empty for the docstring of its field.
-    whole : type
-        The model of the whole workbook, of which it is a field.
-    """
-
-    key: str
+    key: str  # its attribute of `ProjectInput`, and the prefix of its names in the workbook
     sheet: str
     title: str
-    model: type[Frozen]
+    model: type[Frozen]  # of the block, or of one row
     is_table: bool
-    may_be_absent: bool
-    hint: str = ""
+    may_be_absent: bool  # as in workbooks of earlier versions
+    hint: str = ""  # one line of instruction; empty for the docstring of its field of `whole`
     whole: type[BaseModel] = BaseModel
 
     @property
@@ -223,37 +169,27 @@ class Bounds:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """One field of a model, as used by template, reader and echo.
-
-    Attributes
-    ----------
-    model : type
-        The model that holds it.
-    name : str
-    cell : Cell
-    kind : type
-        float, int, str, bool, date or one of the enums here.
-    is_required : bool
-    default : object
-        Meaning of a blank cell; None if the field is required.
-    bounds : Bounds
-    max_length : int
-        Of a text.
-    """
+    """One field of a model, as used by template, reader and echo."""
 
     model: type[Frozen]
     name: str
     cell: Cell
-    kind: type[Any]
+    kind: type[Any]  # float, int, str, bool, date, or an enum of `choices`
     is_required: bool
-    default: Any
+    default: Any  # the meaning of a blank cell; None if the field is required
     bounds: Bounds
-    max_length: int
+    max_length: int  # of a text
 
     @property
     def quantity(self) -> Quantity | None:
         """The quantity of the number, if its unit can be chosen."""
         return self.cell.unit if isinstance(self.cell.unit, Quantity) else None
+
+    def unit(self, *, is_us: bool) -> Unit | None:
+        """Return its unit in a system of units; None if it has no choice of units."""
+        if self.quantity is None:
+            return None
+        return self.quantity.us if is_us else self.quantity.si
 
     @property
     def help(self) -> str:
@@ -296,16 +232,17 @@ class Entry:
 @cache
 def entries(model: type[Frozen]) -> tuple[Entry, ...]:
     """Return the fields of a model in order, omitting those without a `Cell`."""
-    fields = model.model_fields.items()
-    return tuple(_entry(model, name, info) for name, info in fields if _cells(info))
+    return tuple(
+        _entry(model, name, info, cell)
+        for name, info in model.model_fields.items()
+        for cell in info.metadata
+        if isinstance(cell, Cell)
+    )
 
 
 @cache
 def _docstrings(model: type[BaseModel]) -> Mapping[str, str]:
-    """Return the text below each field of a model.
-
-    As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.
-    """
+    # As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.
     (definition,) = ast.parse(inspect.getsource(model)).body
     assert isinstance(definition, ast.ClassDef)
     found = {}
@@ -316,35 +253,25 @@ def _docstrings(model: type[BaseModel]) -> Mapping[str, str]:
     return found
 
 
-def _cells(info: FieldInfo) -> list[Cell]:
-    return [item for item in info.metadata if isinstance(item, Cell)]
-
-
-def _entry(model: type[Frozen], name: str, info: FieldInfo) -> Entry:
-    kind, constraints = _taken_apart(info)
-    return Entry(
-        model=model,
-        name=name,
-        cell=_cells(info)[0],
-        kind=kind,
-        is_required=info.is_required(),
-        default=None if info.is_required() else info.default,
-        bounds=_bounds(constraints),
-        max_length=min(
-            (m for c in constraints if (m := getattr(c, "max_length", None))), default=0
-        ),
-    )
-
-
-def _taken_apart(info: FieldInfo) -> tuple[type[Any], list[Any]]:
-    """Return the plain type behind `Annotated[...] | None`, and all its constraints."""
+def _entry(model: type[Frozen], name: str, info: FieldInfo, cell: Cell) -> Entry:
     constraints = list(info.metadata)
     kind: Any = info.annotation
+    # The plain type is behind `Annotated[...] | None`, with constraints of its own.
     while args := [arg for arg in get_args(kind) if arg is not type(None)]:
         kind = args[0]
         for field in args[1:]:
             constraints += getattr(field, "metadata", [])
-    return kind, constraints
+    lengths = [limit for one in constraints if (limit := getattr(one, "max_length", None))]
+    return Entry(
+        model=model,
+        name=name,
+        cell=cell,
+        kind=kind,
+        is_required=info.is_required(),
+        default=None if info.is_required() else info.default,
+        bounds=_bounds(constraints),
+        max_length=min(lengths, default=0),
+    )
 
 
 def _bounds(constraints: list[Any]) -> Bounds:

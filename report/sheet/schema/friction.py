@@ -43,7 +43,7 @@ class FrictionTestRow(Frozen):
 
     surface: Annotated[Surface, Cell("Surface", "wet")]
     """Condition of the roof surface."""
-    number: Annotated[Annotated[int, Field(ge=1, le=1000)], Cell("Run", 1)]
+    number: Annotated[int, Field(ge=1, le=1000), Cell("Run", 1)]
     """Number of the run."""
     mu: Annotated[Mu, Cell("Kinetic coefficient", 0.46, usual=(0.3, 0.8))]
     """Mean friction coefficient while sliding."""

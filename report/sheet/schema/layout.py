@@ -19,28 +19,17 @@ from report.sheet.schema.fields import SheetSection
 LAST_ROW = 500
 """Last row that dropdowns and conditional formats reach."""
 
-_SPECIAL = re.compile(r"(['#\[\]])")
+_SPECIAL, _ESCAPED = re.compile(r"(['#\[\]])"), r"'\1"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TablePlace:
-    """A table as written.
-
-    Attributes
-    ----------
-    section : SheetSection
-    sheet : str
-        Title of its sheet in the workbook.
-    header, size : int
-        Row of its headings, and number of rows below it.
-    headings, letters : mapping of field or answer to str
-        Heading and column.
-    """
+    """A table as written; headings and letters of its columns by field or answer."""
 
     section: SheetSection
-    sheet: str
+    sheet: str  # its title in the workbook, which a user may have changed
     header: int
-    size: int
+    size: int  # rows below the headings
     headings: Mapping[str, str]
     letters: Mapping[str, str]
 
@@ -49,10 +38,8 @@ class TablePlace:
         return f"{self.section.table_name}[[#This Row],{self._column(name)}]"
 
     def here(self, name: str) -> str:
-        """Return the reference to a column in the row of the cell that asks for a defined name.
-
-        References of a name that are not fixed are those of a cell of the first row.
-        """
+        """Return the reference to a column in the row of the cell that asks for a defined name."""
+        # What is not fixed in a name is said for a cell of the first row.
         return f"{quote_sheetname(self.sheet)}!${self.letters[name]}1"
 
     def head(self, name: str) -> str:
@@ -77,8 +64,7 @@ class TablePlace:
         return f"{quote_sheetname(self.sheet)}!${self.letters[name]}${self.header}"
 
     def _column(self, name: str) -> str:
-        escaped = _SPECIAL.sub(r"'\1", self.headings[name])
-        return f"[{escaped}]"
+        return f"[{_SPECIAL.sub(_ESCAPED, self.headings[name])}]"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,10 +88,8 @@ class Layout:
 
     def on(self, sheet: str) -> tuple[Sequence[BlockPlace], Sequence[TablePlace]]:
         """Return the blocks and the tables of a sheet."""
-        return (
-            [place for place in self.blocks.values() if place.section.sheet == sheet],
-            [place for place in self.tables.values() if place.section.sheet == sheet],
-        )
+        blocks = [place for place in self.blocks.values() if place.section.sheet == sheet]
+        return blocks, [place for place in self.tables.values() if place.section.sheet == sheet]
 
 
 def literal(name: str) -> str:
@@ -116,14 +100,15 @@ def literal(name: str) -> str:
     return name
 
 
-def name_cell(book: Workbook, name: str, sheet: Worksheet, row: int, column: int) -> None:
+def name_cell(name: str, sheet: Worksheet, row: int, column: int) -> None:
     """Give a cell a defined name."""
-    name_range(book, name, sheet, f"${get_column_letter(column)}${row}")
+    name_range(name, sheet, f"${get_column_letter(column)}${row}")
 
 
-def name_range(book: Workbook, name: str, sheet: Worksheet, area: str) -> None:
+def name_range(name: str, sheet: Worksheet, area: str) -> None:
     """Give a range, such as `$A$1:$B$2`, a defined name."""
-    name_formula(book, name, f"{quote_sheetname(sheet.title)}!{area}")
+    assert sheet.parent is not None
+    name_formula(sheet.parent, name, f"{quote_sheetname(sheet.title)}!{area}")
 
 
 def name_formula(book: Workbook, name: str, formula: str) -> None:

@@ -24,9 +24,7 @@ LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
 }
 """Earlier labels and headings, by section and field."""
 
-FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {
-    ("site", "stories"): ("storeys",),
-}
+FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {("site", "stories"): ("storeys",)}
 """Earlier names of a field, which defined names of cells end with."""
 
 ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(

@@ -38,7 +38,7 @@ class Links(Frozen):
     block. Their range must include the array's coefficient."""
     stiffness_n_per_m: Annotated[Positive, Cell("Link stiffness", 5000.0, Quantity.STIFFNESS)]
     """Axial force per unit elongation or shortening of a link."""
-    damping_ratio: Annotated[Annotated[float, Field(ge=0, le=1)], Cell("Link damping", 0.02)] = 0.0
+    damping_ratio: Annotated[float, Field(ge=0, le=1), Cell("Link damping", 0.02)] = 0.0
     """Damping ratio of one block on one link. Blank: none."""
 
     @model_validator(mode="after")

@@ -38,15 +38,15 @@ class MotionInput(Frozen):
     units: Annotated[AccelUnit, Cell("Record units", "from file")] = AccelUnit.FROM_FILE
     """Units of all components, if the files do not state them."""
     dt_s: Annotated[
-        Annotated[float, Field(gt=0, le=1)] | None,
-        Cell("Time step", 0.01, "s", usual=(0.001, 0.02)),
+        float | None, Field(gt=0, le=1), Cell("Time step", 0.01, "s", usual=(0.001, 0.02))
     ] = None
     """Leave blank if the file states it or has a time column."""
     scaling: Annotated[Scaling, Cell("Scaling", "as recorded")] = Scaling.AS_RECORDED
     """By a factor, to a PPA (peak of the horizontal record), or to the target spectrum over the
     scaling periods on the sheet Options. All components get the same factor."""
     scale_value: Annotated[
-        Annotated[float, Field(gt=0, le=1000)] | None,
+        float | None,
+        Field(gt=0, le=1000),
         Cell(
             "Factor or PPA",
             1.0,
@@ -62,50 +62,44 @@ class MotionInput(Frozen):
     """Event, station and processing, printed in the package."""
     recorded_at: Annotated[RecordedAt, Cell("Recorded at", "roof")] = RecordedAt.ROOF
     """Ground motions are carried to the roof by the building on the sheet Building."""
-    from_s: Annotated[
-        Annotated[float, Field(ge=0)] | None, Cell("Start time", 2.0, "s", is_rare=True)
-    ] = None
+    from_s: Annotated[float | None, Field(ge=0), Cell("Start time", 2.0, "s", is_rare=True)] = None
     """Measured from the first sample; blank: first sample."""
-    to_s: Annotated[
-        Annotated[float, Field(gt=0)] | None, Cell("End time", 40.0, "s", is_rare=True)
-    ] = None
+    to_s: Annotated[float | None, Field(gt=0), Cell("End time", 40.0, "s", is_rare=True)] = None
     """Measured from the first sample; blank: last sample."""
     baseline: Annotated[Baseline, Cell("Baseline", "linear", is_rare=True)] = Baseline.NONE
     """Fitted to the acceleration and subtracted."""
     highpass_hz: Annotated[
-        Annotated[float, Field(gt=0, le=100)] | None,
-        Cell("High-pass corner", 0.1, "Hz", is_rare=True),
+        float | None, Field(gt=0, le=100), Cell("High-pass corner", 0.1, "Hz", is_rare=True)
     ] = None
     """Zero-phase; blank for none. Removing long periods also removes some slip; the package states
     how much."""
     lowpass_hz: Annotated[
-        Annotated[float, Field(gt=0, le=1000)] | None,
-        Cell("Low-pass corner", 40.0, "Hz", is_rare=True),
+        float | None, Field(gt=0, le=1000), Cell("Low-pass corner", 40.0, "Hz", is_rare=True)
     ] = None
     """Zero-phase; blank for none."""
-    order: Annotated[Annotated[int, Field(ge=2, le=12)], Cell("Filter order", 4, is_rare=True)] = 4
+    order: Annotated[int, Field(ge=2, le=12), Cell("Filter order", 4, is_rare=True)] = 4
     """Order of both filters. The power at the corner is one half."""
     new_dt_s: Annotated[
-        Annotated[float, Field(gt=0, le=1)] | None, Cell("New time step", 0.005, "s", is_rare=True)
+        float | None, Field(gt=0, le=1), Cell("New time step", 0.005, "s", is_rare=True)
     ] = None
     """Resampled without aliasing; blank: unchanged."""
     pad_s: Annotated[
-        Annotated[float, Field(gt=0, le=600)] | None, Cell("Zero padding", 5.0, "s", is_rare=True)
+        float | None, Field(gt=0, le=600), Cell("Zero padding", 5.0, "s", is_rare=True)
     ] = None
     """Added at the end, for the array to come to rest; blank: none."""
     event: Annotated[Text, Cell("Event", "Kobe 1995", is_rare=True)] = ""
     """Earthquake and year of a record; blank for a generated motion."""
     magnitude: Annotated[
-        Annotated[float, Field(ge=3, le=10)] | None, Cell("M", 6.9, usual=(5.0, 8.5), is_rare=True)
+        float | None, Field(ge=3, le=10), Cell("M", 6.9, usual=(5.0, 8.5), is_rare=True)
     ] = None
     """Moment magnitude of the event of a record."""
     distance_km: Annotated[
-        Annotated[float, Field(ge=0, le=1000)] | None,
-        Cell("R", 7.1, "km", usual=(0.0, 150.0), is_rare=True),
+        float | None, Field(ge=0, le=1000), Cell("R", 7.1, "km", usual=(0.0, 150.0), is_rare=True)
     ] = None
     """Distance of the recording station from the rupture."""
     v_s30_mps: Annotated[
-        Annotated[float, Field(ge=50, le=3000)] | None,
+        float | None,
+        Field(ge=50, le=3000),
         Cell("V_s30", 312.0, "m/s", usual=(150.0, 1500.0), is_rare=True),
     ] = None
     """Mean shear-wave velocity of the upper 30 m at the station."""

@@ -89,16 +89,12 @@ class Site(Frozen):
     """Mapped value at 1 s. At 0.75 g or more the SDC is E or F."""
     site_class: Annotated[SiteClass | None, Cell("Site class", "D")] = None
     """ASCE 7 chapter 20."""
-    f_a: Annotated[
-        Annotated[float, Field(gt=0, le=10)] | None, Cell("F_a", 1.2, usual=(0.8, 2.4))
-    ] = None
+    f_a: Annotated[float | None, Field(gt=0, le=10), Cell("F_a", 1.2, usual=(0.8, 2.4))] = None
     """Site coefficient at 0.2 s, ASCE 7-16. ASCE 7-22 has none."""
-    f_v: Annotated[
-        Annotated[float, Field(gt=0, le=10)] | None, Cell("F_v", 1.7, usual=(0.8, 4.2))
-    ] = None
+    f_v: Annotated[float | None, Field(gt=0, le=10), Cell("F_v", 1.7, usual=(0.8, 4.2))] = None
     """Site coefficient at 1 s, ASCE 7-16. ASCE 7-22 has none."""
     s_ds_g: Annotated[
-        Annotated[float, Field(gt=0, le=5)] | None, Cell("S_DS", 1.566, "g", usual=(0.1, 2.5))
+        float | None, Field(gt=0, le=5), Cell("S_DS", 1.566, "g", usual=(0.1, 2.5))
     ] = None
     """Design value, short period. Blank: 2/3 S_MS, unrounded."""
     sdc: Annotated[Sdc, Cell("Seismic design category", "D")]
@@ -130,14 +126,10 @@ class Site(Frozen):
     """When the values were read, or of the report."""
     hazard_report: Annotated[Text, Cell("Report number of hazard", "GE-2026-41")] = ""
     """Of the report on a site-specific analysis."""
-    force_factor: Annotated[
-        Annotated[float, Field(gt=0, le=5)] | None, Cell("a_p or C_AR", 1.0)
-    ] = None
+    force_factor: Annotated[float | None, Field(gt=0, le=5), Cell("a_p or C_AR", 1.0)] = None
     """Amplification factor of a component: a_p in ASCE 7-16, C_AR in ASCE 7-22. For F_p, which the
     package prints for comparison."""
-    force_divisor: Annotated[
-        Annotated[float, Field(ge=1, le=12)] | None, Cell("R_p or R_po", 1.5)
-    ] = None
+    force_divisor: Annotated[float | None, Field(ge=1, le=12), Cell("R_p or R_po", 1.5)] = None
     """R_p in ASCE 7-16, R_po in ASCE 7-22."""
 
     @model_validator(mode="after")

@@ -1,4 +1,4 @@
-"""What is on the roof: arrays, the objects and edges around them, and the clearances.
+"""The roof and what is on it: arrays, the objects and edges around them, and the clearances.
 
 Read `report.sheet.schema` first.
 """
@@ -50,10 +50,18 @@ _HELP = (
     "Rectangle in roof plan, from any fixed corner of the roof. Another shape: leave all four blank"
     " and give its outline on the sheet Outlines."
 )
+_ROOF_HELP = (
+    "Roof edge in the coordinates of the arrays. Give all four sides, or none. Another shape: its"
+    " outline on the sheet Outlines, under the name roof."
+)
 
 
 def _plan(edge: str, need: str = "") -> Cell:
     return Cell(edge, _EXAMPLES[edge], Quantity.PLAN, need=need, help=_HELP)
+
+
+def _edge(side: str, example: float) -> Cell:
+    return Cell(f"Roof {side}", example, Quantity.PLAN, help=_ROOF_HELP)
 
 
 class Placed(Frozen):
@@ -83,6 +91,31 @@ def rectangle(sides: object) -> Rectangle | None:
 
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
 """Fields of a rectangle in roof plan."""
+
+
+class Roof(Placed):
+    """The outline of the roof, if given, and north."""
+
+    x_from_m: Annotated[float | None, _edge("x from", 0.0)] = None
+    x_to_m: Annotated[float | None, _edge("x to", 360.0)] = None
+    y_from_m: Annotated[float | None, _edge("y from", 0.0)] = None
+    y_to_m: Annotated[float | None, _edge("y to", 240.0)] = None
+    north_deg: Annotated[
+        float, Field(ge=0.0, le=360.0), Cell("Direction of north", 90.0, "deg")
+    ] = 90.0
+    """In plan, counterclockwise from +x: 90 is +y."""
+
+
+def friction_law(
+    mu: float, mu_fast: float | None, rate_s_per_m: float | None, mu_static: float | None
+) -> Friction:
+    """Return a friction law; what is not given is as the coefficient says."""
+    return Friction(
+        mu_slow=mu,
+        mu_fast=mu if mu_fast is None else mu_fast,
+        rate_s_per_m=rate_s_per_m or 0.0,
+        mu_static=mu if mu_static is None else mu_static,
+    )
 
 
 class Array(Placed):
@@ -165,12 +198,7 @@ class Array(Placed):
     @property
     def friction(self) -> Friction:
         """The friction coefficient as a function of velocity."""
-        return Friction(
-            mu_slow=self.mu,
-            mu_fast=self.mu if self.mu_fast is None else self.mu_fast,
-            rate_s_per_m=self.mu_rate_s_per_m or 0.0,
-            mu_static=self.mu if self.mu_static is None else self.mu_static,
-        )
+        return friction_law(self.mu, self.mu_fast, self.mu_rate_s_per_m, self.mu_static)
 
     @property
     def minimum_mu(self) -> float:

@@ -140,10 +140,9 @@ def _nearest(a: tuple[float, float], b: tuple[float, float]) -> tuple[float, flo
 
 
 def _facing_sides(a: Shape, b: Shape) -> tuple[float, Point, Point]:
-    """Return the closest points of shapes that do not overlap, midway along facing sides.
+    """Return the length [m] over which the closest sides face each other, and midway points.
 
-    Of all sides at the smallest distance, those that face each other over the longest stretch;
-    before the points, its length [m].
+    Of all sides at the smallest distance, those that face each other over the longest stretch.
     """
     import numpy as np
     import shapely
@@ -236,7 +235,8 @@ def room(shape: Shape) -> Rectangle:
     half = math.dist((x, y), (on_x, on_y)) * math.sqrt(0.5)
     best = Rectangle(x - half, x + half, y - half, y + half)
     boxes = [Rectangle(*xs, *ys) for xs in _ranges(shape, 0) for ys in _ranges(shape, 1)]
-    is_within = shapely.covers(solid(shape), [shapely.box(*_corners(box)) for box in boxes])
+    solids = [shapely.box(box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m) for box in boxes]
+    is_within = shapely.covers(solid(shape), solids)
     within = [box for box, found in zip(boxes, is_within, strict=True) if found]
     return max((best, *within), key=lambda box: box.area_m2)
 
@@ -246,10 +246,6 @@ def _ranges(shape: Polygon, axis: int) -> list[tuple[float, float]]:
     found = sorted({point[axis] for point in shape.points})
     some = found[:: math.ceil(len(found) / _MOST_COORDINATES)]
     return [(low, high) for k, low in enumerate(some) for high in some[k + 1 :]]
-
-
-def _corners(box: Rectangle) -> tuple[float, float, float, float]:
-    return box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m
 
 
 def between(a: Shape, b: Shape) -> Shape | None:

@@ -19,7 +19,7 @@ START = "Start"
 COUNTS_COLUMN = 4
 """Column of the names of the sheets in the list; the counts are beside it."""
 
-_NEED_ROWS = ("arrays", "motions")
+_NEED_ROWS = ("arrays", "motions")  # as `checks` requires
 COUNT_FORMAT = '[<0]"no row yet";[=0]"✓";0" open"'
 
 
@@ -37,10 +37,10 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
         name = f"lacks_{sheet_name}"
         count = start.cell(row, COUNTS_COLUMN + 1)
         style.put_answer(count, "+".join(lacks) or "0", COUNT_FORMAT)
-        name_cell(book, name, start, row, COUNTS_COLUMN + 1)
+        name_cell(name, start, row, COUNTS_COLUMN + 1)
         mark_count(start, count.coordinate, f"${get_column_letter(COUNTS_COLUMN + 1)}{row}")
         _write_line(book, title, name, "+".join(wrong) or "0")
-        name_cell(book, f"line_{sheet_name}", book[title], 3, 1)
+        name_cell(f"line_{sheet_name}", book[title], 3, 1)
 
 
 def _lacking_in(place: TablePlace) -> str:

@@ -136,14 +136,7 @@ def project(units: UnitsFirst = UnitsFirst.US) -> ProjectInput:
     )
 
 
-def _array(
-    name: str,
-    slope: float,
-    mu: float,
-    x: Range,
-    y: Range,
-    **more: object,
-) -> Row:
+def _array(name: str, slope: float, mu: float, x: Range, y: Range, **more: object) -> Row:
     """Return an array of the same product with its rectangle in feet; south is downslope."""
     area_sqft = (x[1] - x[0]) * (y[1] - y[0])
     return {

@@ -18,15 +18,15 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import UnitsFirst, provision_name
 from report.sheet.schema.answers import (
+    SITE_ANSWERS,
     SITE_FORMAT,
     STATUS,
     STATUS_FORMAT,
     STATUS_HEADING,
     FormulaColumn,
-    site_answers,
     table_answers,
 )
-from report.sheet.schema.fields import Bounds, Entry, Frozen, SheetSection, entries
+from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
 from report.sheet.writing import style
 from report.sheet.writing.needs import row_status, status_name
@@ -40,11 +40,17 @@ HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
 STATUS_WIDTH = 13  # "12 missing" in bold, in the wider type of a computer without Calibri too
 MANY, MANY_WIDTH = 6, 12
-_WIDER = 0.85
-"""Of a column for text that is typed, as fonts may be wider than Calibri."""
-
+_WIDER = 0.85  # of a column for text that is typed, as fonts may be wider than Calibri
 DATA_LINES = 2
 """Lines of text that a row of a table shows."""
+
+_SOURCES = {
+    ("overrides", "provision"): "rule_names",
+    ("clearances", "array"): "live_array_names",
+    ("clearances", "object"): "live_names",
+    ("links", "array"): "live_array_names",
+}
+"""Names of the ranges that supply the dropdowns of columns."""
 
 
 def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bool]:
@@ -60,64 +66,56 @@ def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bo
 
 
 def write_block(
-    book: Workbook, section: SheetSection, units: UnitsFirst, rows: Sequence[Frozen]
+    book: Workbook, section: SheetSection, units: UnitsFirst, given: Frozen | None
 ) -> BlockPlace:
     """Write a block, and return where its fields are."""
     sheet = book[section.sheet]
     top, is_first = _put_section_title(sheet, section)
-    computes = section.key == "site"
-    for column, (head, width) in enumerate(zip(BLOCK_HEADS, BLOCK_WIDTHS, strict=True), start=1):
-        if is_first:
-            sheet.column_dimensions[get_column_letter(column)].width = width
-        head = "" if head == "Computed" and not computes else head
-        style.put(sheet, top, column, head, bold=True).border = style.LINE
-    fields = entries(section.model)
-    for row, entry in enumerate(fields, start=top + 1):
-        value = getattr(rows[0], entry.name) if rows else _preset(entry, units)
-        style.put_input(sheet.cell(row, 2), entry, value, unit_of(entry, units))
-        _write_block_row(book, row, section, entry, unit_of(entry, units))
-    _level(sheet, range(top + 1, top + 1 + len(fields)))
+    unused = "" if section.key == "site" else "Computed"
+    style.put_values(
+        sheet, top, [head if head != unused else "" for head in BLOCK_HEADS], are_heads=True
+    )
+    rows = {entry.name: row for row, entry in enumerate(entries(section.model), start=top + 1)}
+    for entry in entries(section.model):
+        value = units if entry.kind is UnitsFirst else entry.default
+        if given is not None:
+            value = getattr(given, entry.name)
+        row, unit = rows[entry.name], entry.unit(is_us=units.is_us)
+        style.put_input(sheet.cell(row, 2), entry, value, unit)
+        _write_block_row(sheet, row, section, entry, unit)
+    height = max(sheet.row_dimensions[row].height or 0 for row in rows.values())
+    for row in rows.values():
+        sheet.row_dimensions[row].height = height
     if is_first:
+        for column, width in enumerate(BLOCK_WIDTHS, start=1):
+            sheet.column_dimensions[get_column_letter(column)].width = width
         sheet.freeze_panes = f"B{top + 1}"
         sheet.print_title_rows = f"{top}:{top}"
-    return BlockPlace(
-        section=section, rows={entry.name: top + 1 + count for count, entry in enumerate(fields)}
-    )
-
-
-def _level(sheet: Worksheet, rows: Sequence[int]) -> None:
-    """Give rows the height of the tallest one."""
-    height = max(sheet.row_dimensions[row].height or 0 for row in rows)
-    for row in rows:
-        sheet.row_dimensions[row].height = height
-
-
-def _preset(entry: Entry, units: UnitsFirst) -> object:
-    return units if entry.kind is UnitsFirst else entry.default
+    return BlockPlace(section=section, rows=rows)
 
 
 def _write_block_row(
-    book: Workbook, row: int, section: SheetSection, entry: Entry, unit: Unit | None
+    sheet: Worksheet, row: int, section: SheetSection, entry: Entry, unit: Unit | None
 ) -> None:
-    sheet, needed = book[section.sheet], entry.is_required
+    needed = entry.is_required
     style.put(sheet, row, 1, f"{entry.cell.label}{' *' if needed else ''}", bold=needed)
     # Bounds of quantities are 0 or open, so they are valid in any unit.
     texts = (_allowed(entry, unit), _example(entry, unit), entry.help)
     for column, text in enumerate(texts, start=5):
         style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
     sheet.row_dimensions[row].height = 6 + 13 * _lines(texts, BLOCK_WIDTHS[4:])
-    name_cell(book, section.cell_name(entry.name), sheet, row, 2)
+    name_cell(section.cell_name(entry.name), sheet, row, 2)
     style.validate(sheet, f"B{row}", entry, 1.0)
-    if section.key == "site" and entry.name in site_answers():
-        formula, name = site_answers()[entry.name]
+    if section.key == "site" and entry.name in SITE_ANSWERS:
+        formula, name = SITE_ANSWERS[entry.name]
         style.put_answer(sheet.cell(row, 4), formula, SITE_FORMAT)
-        name_cell(book, name, sheet, row, 4)
+        name_cell(name, sheet, row, 4)
     if entry.quantity is None or unit is None:
         style.put(sheet, row, 3, str(entry.cell.unit), color=style.GRAY)
         return
     sheet.cell(row, 3).value = unit.symbol
     style.style_input(sheet.cell(row, 3), str)
-    name_cell(book, section.unit_name(entry.name), sheet, row, 3)
+    name_cell(section.unit_name(entry.name), sheet, row, 3)
     style.offer(sheet, f"C{row}", entry.quantity.accepted, "Unit", "Unit of the value to the left.")
 
 
@@ -134,9 +132,8 @@ class GridColumn:
     @property
     def is_folded(self) -> bool:
         """Whether it is folded at the right."""
-        if self.entry is not None:
-            return self.entry.cell.is_rare
-        return self.answer is not None and self.answer.is_helper
+        is_rare = self.entry is not None and self.entry.cell.is_rare
+        return is_rare or (self.answer is not None and self.answer.is_helper)
 
 
 def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
@@ -150,11 +147,7 @@ def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
         for answer in table_answers(section.key, is_us=units is UnitsFirst.US)
     ]
     status = GridColumn(STATUS, STATUS_HEADING, STATUS_WIDTH)
-    return [status, *sorted((*fields, *answers), key=_rank)]
-
-
-def _rank(column: GridColumn) -> int:
-    return 2 * column.is_folded + (column.answer is not None)
+    return [status, *sorted((*fields, *answers), key=lambda c: (c.is_folded, bool(c.answer)))]
 
 
 def write_table(
@@ -180,20 +173,10 @@ def write_table(
     lines = 1
     for number, column in enumerate(columns, start=1):
         _write_heading(sheet, header, number, column)
-        if column.entry is None:
-            continue
-        width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
-        values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
-        unit = unit_of(column.entry, units)
-        first = None
-        for row in range(place.size):
-            value = _in_words(column.entry, values[row]) if row < len(values) else None
-            cell = sheet.cell(header + 1 + row, number)
-            style.put_input(cell, column.entry, value, unit, like=first)
-            first = first or cell
-            shown = style.in_cell(value, unit)
-            lines = max(lines, _lines([str(shown or "")], [_WIDER * width]))
-        _write_help(sheet, place, column.entry, unit)
+        if column.entry is not None:
+            values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
+            unit = column.entry.unit(is_us=units.is_us)
+            lines = max(lines, _write_column(sheet, place, number, column.entry, values, unit))
     for row in range(header + 1, header + 1 + place.size):
         sheet.row_dimensions[row].height = 4 + 14 * min(lines, DATA_LINES)
     _add_table(sheet, place)
@@ -204,9 +187,30 @@ def write_table(
     return place
 
 
-def _in_words(entry: Entry, value: object) -> object:
-    """Return a value as the sheet shows it: a provision by its name."""
-    return provision_name(str(value)) if entry.name == "provision" else value
+def _write_column(
+    sheet: Worksheet,
+    place: TablePlace,
+    number: int,
+    entry: Entry,
+    values: Sequence[object],
+    unit: Unit | None,
+) -> int:
+    """Write the inputs of a column with their messages; return the lines of its tallest text."""
+    width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
+    if entry.name == "provision":
+        values = [provision_name(str(value)) for value in values]
+    first, lines = None, 1
+    for row in range(place.size):
+        value = values[row] if row < len(values) else None
+        cell = sheet.cell(place.header + 1 + row, number)
+        style.put_input(cell, entry, value, unit, like=first)
+        first = first or cell
+        lines = max(lines, _lines([str(style.in_cell(value, unit) or "")], [_WIDER * width]))
+    if source := _SOURCES.get((place.section.key, entry.name)):
+        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
+    else:
+        style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
+    return lines
 
 
 def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
@@ -242,55 +246,30 @@ def _write_hints(
             is_example = row == top + 2
             hint = style.put(sheet, row, number, text, color=style.GRAY, size=9, italic=is_example)
             hint.fill, hint.border = style.HINT_FILL, style.BOX
-    widths = [
-        int(sheet.column_dimensions[get_column_letter(number)].width)
-        for number, column in enumerate(columns[1:], start=2)
-        if not column.is_folded
-    ]
+    shown = [number for number, column in enumerate(columns[1:], start=2) if not column.is_folded]
+    widths = [int(sheet.column_dimensions[get_column_letter(at)].width) for at in shown]
     for row in range(top, top + len(HINT_ROWS)):
-        said = [
-            str(sheet.cell(row, number).value)
-            for number, column in enumerate(columns[1:], start=2)
-            if not column.is_folded
-        ]
-        lines = max(map(_wrapped, said, widths))
-        sheet.row_dimensions[row].height = 5 + 12.5 * lines
+        said = [str(sheet.cell(row, number).value) for number in shown]
+        # Broken between words, in a type wider than Calibri.
+        broken = map(textwrap.wrap, said, (max(width - 1, 1) for width in widths))
+        sheet.row_dimensions[row].height = 5 + 12.5 * max(1, *map(len, broken))
 
 
 def _hints(column: GridColumn, units: UnitsFirst) -> tuple[str, str, str]:
     if column.entry is None:
         return "computed", column.answer.note if column.answer else "", ""
-    unit = unit_of(column.entry, units)
+    unit = column.entry.unit(is_us=units.is_us)
     return column.entry.need, _allowed(column.entry, unit), _example(column.entry, unit)
 
 
 def _write_heading(sheet: Worksheet, row: int, number: int, column: GridColumn) -> None:
-    is_input = column.entry is not None
-    color = style.WHITE if is_input else style.INK
-    cell = style.put(sheet, row, number, column.heading, bold=True, color=color)
-    cell.fill = style.ANSWER_HEAD_FILL
+    color, fill = style.INK, style.ANSWER_HEAD_FILL
     if column.entry is not None:
-        cell.fill = style.REQUIRED_FILL if column.entry.is_expected else style.OPTIONAL_FILL
-    cell.border = style.BOX
+        is_expected = column.entry.is_expected
+        color, fill = style.WHITE, style.REQUIRED_FILL if is_expected else style.OPTIONAL_FILL
+    cell = style.put(sheet, row, number, column.heading, bold=True, color=color)
+    cell.fill, cell.border = fill, style.BOX
     sheet.row_dimensions[row].height = 44
-
-
-def _write_help(sheet: Worksheet, place: TablePlace, entry: Entry, unit: Unit | None) -> None:
-    source = _source(place.section, entry)
-    if source:
-        style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
-    else:
-        style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
-
-
-def _source(section: SheetSection, entry: Entry) -> str:
-    """Return the name of the range that supplies the dropdown of a column; empty for none."""
-    return {
-        ("overrides", "provision"): "rule_names",
-        ("clearances", "array"): "live_array_names",
-        ("clearances", "object"): "live_names",
-        ("links", "array"): "live_array_names",
-    }.get((section.key, entry.name), "")
 
 
 def _add_table(sheet: Worksheet, place: TablePlace) -> None:
@@ -335,16 +314,9 @@ def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: b
             first = first or cell
 
 
-def unit_of(entry: Entry, units: UnitsFirst) -> Unit | None:
-    """Return the unit of a field in a system of units; None if it has no choice of units."""
-    if entry.quantity is None:
-        return None
-    return entry.quantity.us if units is UnitsFirst.US else entry.quantity.si
-
-
 def heading_of(entry: Entry, units: UnitsFirst) -> str:
     """Return the heading of a column, with its unit."""
-    unit = unit_of(entry, units)
+    unit = entry.unit(is_us=units.is_us)
     symbol = unit.symbol if unit else str(entry.cell.unit)
     return f"{entry.cell.label} [{symbol}]" if symbol else entry.cell.label
 
@@ -355,13 +327,12 @@ def _allowed(entry: Entry, unit: Unit | None) -> str:
     if entry.kind in (int, float):
         si = unit.si if unit else 1.0
         words = entry.bounds.words(si) or "any number"
-        return f"{words}; usually {_rounded(entry.expected, si)}" if entry.cell.usual else words
+        if entry.cell.usual is None:
+            return words
+        usual = (entry.expected.low, entry.expected.high)
+        low, high = (float(f"{bound / si:.3g}") for bound in usual)
+        return f"{words}; usually {low:g} to {high:g}"
     return "a date" if entry.kind is date else "text"
-
-
-def _rounded(usual: Bounds, si: float) -> str:
-    low, high = (f"{bound / si:.3g}" for bound in (usual.low, usual.high))
-    return f"{float(low):g} to {float(high):g}"
 
 
 def _example(entry: Entry, unit: Unit | None) -> str:
@@ -385,13 +356,9 @@ def _width(entry: Entry) -> int:
     return max(CODE_WIDTH if entry.kind is date else NUMBER_WIDTH, longest)
 
 
-def _wrapped(text: str, width: float) -> int:
-    """Return the number of lines of a hint, broken between words, in a type wider than Calibri."""
-    return max(1, len(textwrap.wrap(text, max(int(width) - 1, 1))))
-
-
 def _lines(texts: Sequence[str], widths: Sequence[float]) -> int:
     """Return the number of lines of the tallest text at its column's width."""
+    # A width is counted in digits; of letters of size 10 more fit in.
     return max(
         math.ceil(max(len(text), 1) / (1.2 * width))
         for text, width in zip(texts, widths, strict=True)

@@ -27,11 +27,11 @@ from report.sheet.reading.positions import (
     labels_of,
 )
 from report.sheet.schema import SECTIONS, UnitsFirst
-from report.sheet.schema.answers import STATUS, site_answers
+from report.sheet.schema.answers import SITE_ANSWERS, STATUS
 from report.sheet.schema.fields import Finding, Place, SheetSection
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.writing.counts import START, write_counts
-from report.sheet.writing.grids import GridColumn, columns_of, table_formulas
+from report.sheet.writing.grids import columns_of, table_formulas
 from report.sheet.writing.lookups import write_lookups
 from report.sheet.writing.needs import status_in
 from report.sheet.writing.results_panel import write_panel
@@ -47,23 +47,12 @@ _ASIDE = 20
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Overwritten:
-    """A cell that has lost its live formula.
-
-    Attributes
-    ----------
-    position : CellPosition
-    found : Found
-        What it contains instead.
-    title : str
-        What the formula computes.
-    formula : str
-        What it should be, with its equals sign.
-    """
+    """A cell that has lost its live formula."""
 
     position: CellPosition
-    found: Found
-    title: str
-    formula: str
+    found: Found  # what it contains instead
+    title: str  # what the formula computes
+    formula: str  # what it should be, with its equals sign
 
     @property
     def can_be_restored(self) -> bool:
@@ -83,11 +72,8 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
         if _differs(found := found_at(book, position), formula)
     ]
     titles = book.book.sheetnames
-    return tuple(
-        sorted(
-            lost, key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row)
-        )
-    )
+    lost.sort(key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row))
+    return tuple(lost)
 
 
 def _differs(found: Found, formula: str) -> bool:
@@ -128,17 +114,13 @@ def _text(item: Overwritten, count: int) -> str:
     if found.is_blank:
         what = f"is blank, and its formula is gone: {cut(formula, _SHOWN)}"
     elif found.formula:
-        start = _start_of_difference(found.formula, formula)
+        # From where their difference is seen.
+        pairs = enumerate(zip(found.formula, formula, strict=False))
+        start = max(next((i for i, (a, b) in pairs if a != b), 0) - _SHOWN // 2, 0)
         what = f"is {_from(found.formula, start)}, and its formula is {_from(formula, start)}"
     else:
         what = f"is {cut(plain(found.value))}, typed over its formula {cut(formula, _SHOWN)}"
     return f"{title} {what}; roofslip check --repair restores it"
-
-
-def _start_of_difference(one: str, other: str) -> int:
-    """Return where two formulas are to be shown from, so that their difference is seen."""
-    same = next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), 0)
-    return max(same - _SHOWN // 2, 0)
 
 
 def _from(formula: str, start: int) -> str:
@@ -170,14 +152,15 @@ def live_formulas(book: OpenBook) -> Mapping[CellPosition, str]:
     panel = area_named(book.book, _PANEL)
     if panel is None:
         return {}
-    is_us = panel[1][0] == 2
+    is_us = panel[1][0] == 2  # inches are in the first of its columns
     units = UnitsFirst.US if is_us else UnitsFirst.SI
     layout = Layout(
         blocks={s.key: BlockPlace(section=s, rows={}) for s in SECTIONS if not s.is_table}
     )
     areas = {s.key: area for s in SECTIONS if s.is_table and (area := table_area(book, s))}
-    for section in (section for section in SECTIONS if section.is_table):
-        layout.tables[section.key] = _place(book, section, areas.get(section.key), units)
+    for section in SECTIONS:
+        if section.is_table:
+            layout.tables[section.key] = _place(book, section, areas.get(section.key), units)
     formulas = dict(_in_tables(book, layout, areas, is_us=is_us))
     return formulas | dict(_named(book, _written(layout, is_us=is_us)))
 
@@ -187,7 +170,10 @@ def _place(
 ) -> TablePlace:
     headings, letters = {}, {}
     for column in columns_of(section, units):
-        at = _heading(section, column, area) if area else None
+        entry = column.entry
+        labels = labels_of(section, entry) if entry else {label_key(column.heading)}
+        given = area.headings if area else {}
+        at = next((given[label] for label in labels if label in given), None)
         headings[column.name] = str(found_at(book, at).value) if at else _BROKEN
         letters[column.name] = get_column_letter(at.column) if at else _BROKEN
     return TablePlace(
@@ -198,11 +184,6 @@ def _place(
         headings=headings,
         letters=letters,
     )
-
-
-def _heading(section: SheetSection, column: GridColumn, area: TableArea) -> CellPosition | None:
-    labels = labels_of(section, column.entry) if column.entry else {label_key(column.heading)}
-    return next((area.headings[label] for label in labels if label in area.headings), None)
 
 
 def _in_tables(
@@ -224,9 +205,9 @@ def _written(layout: Layout, *, is_us: bool) -> Workbook:
     book = Workbook()
     for title in dict.fromkeys((START, *(section.sheet for section in SECTIONS))):
         book.create_sheet(title)
-    for row, (formula, name) in enumerate(site_answers().values(), start=1):
+    for row, (formula, name) in enumerate(SITE_ANSWERS.values(), start=1):
         book["Site"].cell(row, _ASIDE).value = f"={formula}"
-        name_cell(book, name, book["Site"], row, _ASIDE)
+        name_cell(name, book["Site"], row, _ASIDE)
     write_panel(book, is_us=is_us)
     write_rules(book, layout)
     write_lookups(book, layout)

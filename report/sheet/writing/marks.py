@@ -23,12 +23,14 @@ from report.sheet.writing.needs import block_begun, condition, is_wrong
 
 RED, AMBER, GREEN, VIOLET = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC"
 RED_INK = "B3261E"
-_RED_FILL = PatternFill("solid", start_color=RED, end_color=RED)
-_AMBER_FILL = PatternFill("solid", start_color=AMBER, end_color=AMBER)
-_VIOLET_FILL = PatternFill("solid", start_color=VIOLET, end_color=VIOLET)
-_GREEN_FONT = Font(color=GREEN, bold=True)
-_RED_FONT = Font(color=RED_INK, bold=True)
-_EQUAL = 1e-9
+_RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
+    DifferentialStyle(fill=PatternFill("solid", start_color=color, end_color=color))
+    for color in (RED, AMBER, VIOLET)
+)
+_GREEN_FONT, _RED_FONT = (
+    DifferentialStyle(font=Font(color=color, bold=True)) for color in (GREEN, RED_INK)
+)
+_EQUAL = 1e-9  # difference from a limit / limit that is rounding error of a conversion of units
 _IS_FORMULA = "_xlfn.ISFORMULA"  # Excel 2013 writes it so; LibreOffice reads it so
 
 
@@ -43,12 +45,12 @@ def mark_table(sheet: Worksheet, place: TablePlace) -> None:
         if needed:
             lacks = f'{begun},TRIM({cell})=""'
             test = f"AND({lacks})" if entry.is_required else f"AND({lacks},{needed})"
-            _mark(sheet, place.cells(entry.name), test, fill=_RED_FILL)
+            _mark(sheet, place.cells(entry.name), test, _RED_FILL)
         unit = f"unit_{place.section.key}_{entry.name}"
         _mark_values(sheet, place.cells(entry.name), cell, entry, unit)
     _mark_names(sheet, place)
-    _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}=0)", font=_GREEN_FONT)
-    _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}<>0)", font=_RED_FONT)
+    _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}=0)", _GREEN_FONT)
+    _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}<>0)", _RED_FONT)
 
 
 def _mark_names(sheet: Worksheet, place: TablePlace) -> None:
@@ -57,13 +59,13 @@ def _mark_names(sheet: Worksheet, place: TablePlace) -> None:
     if "id" in place.letters:
         ids = place.cells("id").replace(place.letters["id"], f"${place.letters['id']}$")
         twice = f'AND(TRIM({cell("id")})<>"",SUMPRODUCT(--(TRIM({ids})=TRIM({cell("id")})))>1)'
-        _mark(sheet, place.cells("id"), twice, fill=_RED_FILL)
+        _mark(sheet, place.cells("id"), twice, _RED_FILL)
     if place.section.key == "clearances":
         rows = {"array": ("array_row",), "object": ("other_row", "object_row")}
         for name, found in rows.items():
             nowhere = f'{"&".join(map(cell, found))}=""'
             unknown = f'AND(TRIM({cell(name)})<>"",{nowhere})'
-            _mark(sheet, place.cells(name), unknown, fill=_RED_FILL)
+            _mark(sheet, place.cells(name), unknown, _RED_FILL)
 
 
 def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
@@ -73,13 +75,13 @@ def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
         cell = place.cell(entry.name)
         at = cell.replace("$", "")
         if entry.is_required:
-            _mark(sheet, at, f'AND({begun},TRIM({cell})="")', fill=_RED_FILL)
+            _mark(sheet, at, f'AND({begun},TRIM({cell})="")', _RED_FILL)
             label = at.replace("B", "A")
-            _mark(sheet, label, f'TRIM({cell})<>""', font=_GREEN_FONT)
+            _mark(sheet, label, f'TRIM({cell})<>""', _GREEN_FONT)
         needed = condition(place.section.key, entry, place.cell)
         if needed:
             starts = f"{begun}," if begun else ""
-            _mark(sheet, at, f'AND({starts}{needed},TRIM({cell})="")', fill=_RED_FILL)
+            _mark(sheet, at, f'AND({starts}{needed},TRIM({cell})="")', _RED_FILL)
         _mark_values(sheet, at, cell, entry, f"unit_{place.section.key}_{entry.name}")
 
 
@@ -90,37 +92,36 @@ def mark_lost(book: Workbook, layout: Layout) -> None:
         for cell in (cell for row in sheet for cell in row if cell.data_type == "f"):
             if not any(cell.coordinate in area for area in areas):
                 lost = f"NOT({_IS_FORMULA}({cell.coordinate}))"
-                _mark(sheet, cell.coordinate, lost, fill=_VIOLET_FILL)
+                _mark(sheet, cell.coordinate, lost, _VIOLET_FILL)
     for place in layout.tables.values():
-        sheet, first = book[place.section.sheet], next(iter(entries(place.section.model)))
-        row = place.header + 1
+        sheet, first = book[place.section.sheet], entries(place.section.model)[0]
         for letter in place.letters.values():
-            if sheet[f"{letter}{row}"].data_type == "f":
-                at = f"{letter}{row}"
+            at = f"{letter}{place.header + 1}"
+            if sheet[at].data_type == "f":
                 begun = f'OR({at}<>"",TRIM({place.cell(first.name)})<>"")'
                 lost = f"AND({begun},NOT({_IS_FORMULA}({at})))"
-                _mark(sheet, f"{at}:{letter}{LAST_ROW}", lost, fill=_VIOLET_FILL)
+                _mark(sheet, f"{at}:{letter}{LAST_ROW}", lost, _VIOLET_FILL)
 
 
 def mark_ratio(sheet: Worksheet, cells: str, cell: str) -> None:
     """Mark a demand/capacity ratio: red above 1, green otherwise."""
-    _mark(sheet, cells, f'OR({cell}="∞",AND(ISNUMBER({cell}),{cell}>1))', font=_RED_FONT)
-    _mark(sheet, cells, f"AND(ISNUMBER({cell}),{cell}<=1)", font=_GREEN_FONT)
+    _mark(sheet, cells, f'OR({cell}="∞",AND(ISNUMBER({cell}),{cell}>1))', _RED_FONT)
+    _mark(sheet, cells, f"AND(ISNUMBER({cell}),{cell}<=1)", _GREEN_FONT)
 
 
 def mark_count(sheet: Worksheet, cell: str, count: str) -> None:
     """Mark the line at the top of a sheet by the number of cells that it lacks."""
-    _mark(sheet, cell, f"{count}=0", font=_GREEN_FONT)
-    _mark(sheet, cell, f"{count}<>0", font=_RED_FONT)
+    _mark(sheet, cell, f"{count}=0", _GREEN_FONT)
+    _mark(sheet, cell, f"{count}<>0", _RED_FONT)
 
 
 def _mark_values(sheet: Worksheet, cells: str, cell: str, entry: Entry, unit: str) -> None:
     """Mark what is refused, and a number that is not usual."""
     for test in is_wrong(cell, entry, unit):
-        _mark(sheet, cells, test, fill=_RED_FILL)
+        _mark(sheet, cells, test, _RED_FILL)
     if entry.kind in (int, float) and not entry.choices:
         value = f"{cell}*{unit}" if entry.quantity else cell
-        _mark(sheet, cells, f"AND(ISNUMBER({cell}),{_outside(value, entry)})", fill=_AMBER_FILL)
+        _mark(sheet, cells, f"AND(ISNUMBER({cell}),{_outside(value, entry)})", _AMBER_FILL)
 
 
 def _outside(value: str, entry: Entry) -> str:
@@ -134,14 +135,5 @@ def _outside(value: str, entry: Entry) -> str:
     return f"OR({','.join(parts)})" if parts else "FALSE"
 
 
-def _mark(
-    sheet: Worksheet,
-    cells: str,
-    formula: str,
-    *,
-    fill: PatternFill | None = None,
-    font: Font | None = None,
-) -> None:
-    look = DifferentialStyle(font=font, fill=fill)
-    rule = Rule(type="expression", dxf=look, formula=[formula])
-    sheet.conditional_formatting.add(cells, rule)
+def _mark(sheet: Worksheet, cells: str, formula: str, look: DifferentialStyle) -> None:
+    sheet.conditional_formatting.add(cells, Rule(type="expression", dxf=look, formula=[formula]))

@@ -9,16 +9,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
-from report.sheet.checking.conditions import (
-    MAX_SLOPE_DEG,
-    ORDERED,
-    OTHER_NAMES,
-    REFERENCES,
-    REQUIRED,
-    UNIQUE,
-)
+from report.sheet.checking import conditions
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace
 
@@ -28,7 +21,7 @@ WRONG = 1_000_000
 
 def condition(section: str, entry: Entry, refer: Callable[[str], str]) -> str:
     """Return when an optional cell is required, with references to cells; empty for never."""
-    required = REQUIRED.get((section, entry.name))
+    required = conditions.REQUIRED.get((section, entry.name))
     return required.when.formula(refer) if required else ""
 
 
@@ -56,7 +49,6 @@ def status_in(row: int, place: TablePlace, layout: Layout) -> str:
 
 
 def _lacking(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:
-    """Yield 1 for each cell that is required and blank, else 0."""
     for entry in entries(section.model):
         blank = f'TRIM({refer(entry.name)})=""'
         needed = condition(section.key, entry, refer)
@@ -70,13 +62,21 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
     """Yield what makes a cell of a row wrong."""
     section = place.section.key
     yield from _refused(place.section, place.here)
-    for alike in UNIQUE:
+    for alike in conditions.UNIQUE:
         if section in alike:
-            yield is_twice(place.here("id"), alike, layout)
-    for (home, field), tables in REFERENCES.items():
+            given = f"TRIM({place.here('id')})"  # with any capitals
+            ids = (layout.tables[table].all("id") for table in alike)
+            count = "+".join(f"SUMPRODUCT(--(TRIM({column})={given}))" for column in ids)
+            yield f'AND({given}<>"",{count}>1)'
+    for (home, field), tables in conditions.REFERENCES.items():
         if home == section:
-            yield is_nowhere(place.here(field), tables, OTHER_NAMES.get((home, field), ""), layout)
-    for low, high in ORDERED:
+            given = f"TRIM({place.here(field)})"
+            ids = (layout.tables[table].all("id") for table in tables)
+            count = "+".join(f"SUMPRODUCT(--EXACT(TRIM({column}),{given}))" for column in ids)
+            if other := conditions.OTHER_NAMES.get((home, field)):
+                count += f'+(LOWER({given})="{other}")'
+            yield f'AND({given}<>"",{count}=0)'
+    for low, high in conditions.ORDERED:
         if high in place.letters:
             cells = [place.here(name) for name in (low, high)]
             given = ",".join(f"ISNUMBER({cell})" for cell in cells)
@@ -84,7 +84,7 @@ def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
             yield f"AND({given},{least}>={most})"
     if "slope_deg" in place.letters:
         slope = place.here("slope_deg")
-        yield f"AND(ISNUMBER({slope}),{slope}>={MAX_SLOPE_DEG:g})"
+        yield f"AND(ISNUMBER({slope}),{slope}>={conditions.MAX_SLOPE_DEG:g})"
 
 
 def _refused(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:
@@ -96,7 +96,8 @@ def _refused(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str
 def is_wrong(cell: str, entry: Entry, unit: str) -> Iterator[str]:
     """Yield whether a filled cell has what its field does not accept, where a formula can tell."""
     if entry.choices:
-        yield is_unknown(cell, entry)
+        known = f"|{'|'.join(entry.choices)}|".casefold()
+        yield f'AND(TRIM({cell})<>"",ISERROR(FIND("|"&LOWER(TRIM({cell}))&"|","{known}")))'
     elif entry.kind in (int, float):
         tests = [*_beyond(f"{cell}*{unit}" if entry.quantity else cell, entry)]
         tests += [f"{cell}<>INT({cell})"] if entry.kind is int else []
@@ -111,27 +112,6 @@ def _beyond(value: str, entry: Entry) -> Iterator[str]:
         yield f"{value}{'<=' if bounds.excludes_low else '<'}{bounds.low:.12g}"
     if math.isfinite(bounds.high):
         yield f"{value}{'>=' if bounds.excludes_high else '>'}{bounds.high:.12g}"
-
-
-def is_unknown(cell: str, entry: Entry) -> str:
-    """Return whether a filled cell has a text that is none of its choices."""
-    known = f"|{'|'.join(entry.choices)}|".casefold()
-    return f'AND(TRIM({cell})<>"",ISERROR(FIND("|"&LOWER(TRIM({cell}))&"|","{known}")))'
-
-
-def is_twice(cell: str, tables: Sequence[str], layout: Layout) -> str:
-    """Return whether an id is given more than once in some tables, with any capitals."""
-    ids = [layout.tables[table].all("id") for table in tables]
-    count = "+".join(f"SUMPRODUCT(--(TRIM({column})=TRIM({cell})))" for column in ids)
-    return f'AND(TRIM({cell})<>"",{count}>1)'
-
-
-def is_nowhere(cell: str, tables: Sequence[str], other: str, layout: Layout) -> str:
-    """Return whether a name is that of no row of some tables."""
-    ids = [layout.tables[table].all("id") for table in tables]
-    count = "+".join(f"SUMPRODUCT(--EXACT(TRIM({column}),TRIM({cell})))" for column in ids)
-    count += f'+(LOWER(TRIM({cell}))="{other}")' if other else ""
-    return f'AND(TRIM({cell})<>"",{count}=0)'
 
 
 def table_lacks(place: TablePlace) -> str:

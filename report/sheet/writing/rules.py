@@ -7,22 +7,24 @@ the other formulas refer to it by name. Read `write_rules`.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from openpyxl import Workbook
+from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import PROVISION_KEYS, provision_name, provision_unit
 from report.sheet.schema.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
-from report.sheet.schema.layout import Layout, name_cell, name_range
+from report.sheet.schema.layout import Layout, TablePlace, name_cell, name_range
 from report.sheet.writing import style
-from solver.rules.rulesets import ALLOWED, RULE_SETS, Provision, RuleSet, usual
+from solver.rules.rulesets import ALLOWED, RULE_SETS, RuleSet, usual
 
 PROVISIONS = "Provisions"
 _HEADS = ("Rule", "Unit", "In use", "Clause in use", "Override, allowed", "Override, usual")
 _WIDTHS = (56, 7, 11, 20, 12, 12)
 _RULE_WIDTHS = (10, 20)
 _FIRST = len(_HEADS) + 1
+_FROM, _TO = map(get_column_letter, (_FIRST, _FIRST + 2 * len(RULE_SETS) - 1))
 _HINT = (
     "Value and clause of each rule by rule set. Override a number on the sheet Options, within the"
     " range allowed. This sheet has no input cells."
@@ -33,9 +35,25 @@ _MARKS = (
 )
 
 
-def mark(provision: Provision) -> str:
-    """Return the mark of a number: a dagger where it is to be verified."""
-    return "" if provision.verified else "†"
+_FACTS: Sequence[tuple[str, str, Callable[[RuleSet], str]]] = (
+    (
+        "importance",
+        "The importance factor is applied",
+        lambda rules: IN_SEPARATION if rules.importance_in_separation else IN_DISPLACEMENT,
+    ),
+    (
+        "low_sdc",
+        "In SDC A, B, C the prescriptive displacement is",
+        lambda rules: ONE_VALUE if rules.low_sdc_is_flat else BY_FORMULA,
+    ),
+    ("edition", "Edition of ASCE 7, unless Site names one", lambda rules: rules.edition),
+    (
+        "low_profile",
+        "The height of the center of gravity is limited by a fraction of the",
+        lambda rules: rules.low_profile_length.value,
+    ),
+)
+"""What of a rule set is no number: its name, words, and what a rule set says."""
 
 
 def write_rules(book: Workbook, layout: Layout) -> None:
@@ -45,24 +63,22 @@ def write_rules(book: Workbook, layout: Layout) -> None:
     style.put(sheet, 3, 1, _MARKS, color=style.GRAY, size=9, wrap=False)
     names = (head for rules in RULE_SETS.values() for head in (rules.name, "Clause"))
     head = 5
-    last_column = sheet_column(_FIRST + 2 * len(RULE_SETS) - 1)
-    name_range(book, "rule_sets", sheet, f"${sheet_column(_FIRST)}${head}:${last_column}${head}")
-    for column, text in enumerate((*_HEADS, *names), start=1):
-        style.put(sheet, head, column, text, bold=True).border = style.LINE
+    name_range("rule_sets", sheet, f"${_FROM}${head}:${_TO}${head}")
+    style.put_values(sheet, head, (*_HEADS, *names), are_heads=True)
     for column, width in enumerate((*_WIDTHS, *(_RULE_WIDTHS * len(RULE_SETS))), start=1):
-        sheet.column_dimensions[sheet.cell(head, column).column_letter].width = width
+        sheet.column_dimensions[get_column_letter(column)].width = width
     sheet.row_dimensions[head].height = 32
     first = head + 1
     for row, key in enumerate(PROVISION_KEYS, start=first):
-        _write_rule(book, sheet, layout, row, key)
+        _write_rule(sheet, layout.tables["overrides"], row, key)
     last = first + len(PROVISION_KEYS) - 1
-    name_range(book, "rule_names", sheet, f"$A${first}:$A${last}")
-    _write_facts(book, sheet, last + 2)
+    name_range("rule_names", sheet, f"$A${first}:$A${last}")
+    _write_facts(sheet, last + 2)
     sheet.freeze_panes = f"B{first}"
     sheet.print_title_rows = f"{head}:{head}"
 
 
-def _write_rule(book: Workbook, sheet: Worksheet, layout: Layout, row: int, key: str) -> None:
+def _write_rule(sheet: Worksheet, overrides: TablePlace, row: int, key: str) -> None:
     style.put(sheet, row, 1, provision_name(key)).border = style.LINE
     style.put(sheet, row, 2, provision_unit(key), color=style.GRAY).border = style.LINE
     for column, span in enumerate((ALLOWED[key].span, usual(key).span), start=_FIRST - 2):
@@ -72,28 +88,26 @@ def _write_rule(book: Workbook, sheet: Worksheet, layout: Layout, row: int, key:
         if provision is None:
             _write_pair(sheet, row, count, "–", "no such rule")
         else:
-            _write_pair(sheet, row, count, provision.value, f"{provision.clause}{mark(provision)}")
-    overrides = layout.tables["overrides"]
-    # A book may name a rule in words, or by the key of earlier versions.
-    found = [f"MATCH({name},{overrides.all('provision')},0)" for name in (f"$A{row}", f'"{key}"')]
-    value = _chosen(row, 0)
-    clause = _chosen(row, 1)
-    for at in found[::-1]:
+            mark = "" if provision.verified else "†"
+            _write_pair(sheet, row, count, provision.value, f"{provision.clause}{mark}")
+    value, clause = _chosen(row, 0), _chosen(row, 1)
+    # A book may name a rule by the key of earlier versions, or in words.
+    for name in (f'"{key}"', f"$A{row}"):
+        at = f"MATCH({name},{overrides.all('provision')},0)"
         value = f"IFERROR(INDEX({overrides.all('value')},{at}),{value})"
         clause = f'IF(ISNUMBER({at}),"override‡",{clause})'
-    _write_in_use(book, sheet, row, key, value, clause)
+    style.put_answer(sheet.cell(row, 3), value, "0.####")
+    style.put_answer(sheet.cell(row, 4), clause)
+    name_cell(f"rule_{key}", sheet, row, 3)
+    name_cell(f"rule_{key}_clause", sheet, row, 4)
+    lines = math.ceil(len(provision_name(key)) / _WIDTHS[0])
+    sheet.row_dimensions[row].height = 7 + 13 * lines
 
 
 def _chosen(row: int, offset: int) -> str:
     """Return the value or the clause of the rule set that governs."""
-    last = sheet_column(_FIRST + 2 * len(RULE_SETS) - 1)
-    cells = f"${sheet_column(_FIRST)}{row}:${last}{row}"
+    cells = f"${_FROM}{row}:${_TO}{row}"
     return f'IFERROR(INDEX({cells},1,MATCH(site_rule_set,rule_sets,0)+{offset}),"")'
-
-
-def sheet_column(number: int) -> str:
-    """Return the letter of a column within the first 26."""
-    return chr(ord("A") + number - 1)
 
 
 def _write_pair(sheet: Worksheet, row: int, count: int, value: str | float, clause: str) -> None:
@@ -107,27 +121,15 @@ def _write_pair(sheet: Worksheet, row: int, count: int, value: str | float, clau
     style.put(sheet, row, column + 1, clause, color=style.GRAY, size=9).border = style.LINE
 
 
-def _write_in_use(
-    book: Workbook, sheet: Worksheet, row: int, key: str, value: str, clause: str
-) -> None:
-    style.put_answer(sheet.cell(row, 3), value, "0.####")
-    style.put_answer(sheet.cell(row, 4), clause)
-    name_cell(book, f"rule_{key}", sheet, row, 3)
-    name_cell(book, f"rule_{key}_clause", sheet, row, 4)
-    lines = math.ceil(len(provision_name(key)) / _WIDTHS[0])
-    sheet.row_dimensions[row].height = 7 + 13 * lines
-
-
-def _write_facts(book: Workbook, sheet: Worksheet, top: int) -> None:
-    """Write what of a rule set is no number."""
+def _write_facts(sheet: Worksheet, top: int) -> None:
     style.put(sheet, top, 1, "How each rule set works", bold=True, wrap=False)
-    for row, (key, words, texts) in enumerate(_facts(), start=top + 1):
+    for row, (key, words, fact) in enumerate(_FACTS, start=top + 1):
         style.put(sheet, row, 1, words).border = style.LINE
-        for count, text in enumerate(texts):
-            _write_pair(sheet, row, count, text, "")
+        for count, rules in enumerate(RULE_SETS.values()):
+            _write_pair(sheet, row, count, fact(rules), "")
             _merge(sheet, row, _FIRST + 2 * count)
         style.put_answer(sheet.cell(row, 3), _chosen(row, 0))
-        name_cell(book, f"rule_{key}", sheet, row, 3)
+        name_cell(f"rule_{key}", sheet, row, 3)
         _merge(sheet, row, 3)
         sheet.row_dimensions[row].height = 32
 
@@ -135,29 +137,3 @@ def _write_facts(book: Workbook, sheet: Worksheet, top: int) -> None:
 def _merge(sheet: Worksheet, row: int, column: int) -> None:
     """Give a text the width of a value and its clause."""
     sheet.merge_cells(start_row=row, end_row=row, start_column=column, end_column=column + 1)
-
-
-def _facts() -> Sequence[tuple[str, str, Sequence[str]]]:
-    rules = tuple(RULE_SETS.values())
-    return (
-        ("importance", "The importance factor is applied", [_importance(r) for r in rules]),
-        ("low_sdc", "In SDC A, B, C the prescriptive displacement is", [_low(r) for r in rules]),
-        (
-            "edition",
-            "Edition of ASCE 7, unless Site names one",
-            [r.edition for r in rules],
-        ),
-        (
-            "low_profile",
-            "The height of the center of gravity is limited by a fraction of the",
-            [r.low_profile_length.value for r in rules],
-        ),
-    )
-
-
-def _importance(rules: RuleSet) -> str:
-    return IN_SEPARATION if rules.importance_in_separation else IN_DISPLACEMENT
-
-
-def _low(rules: RuleSet) -> str:
-    return ONE_VALUE if rules.low_sdc_is_flat else BY_FORMULA

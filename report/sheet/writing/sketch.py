@@ -28,7 +28,10 @@ def sketch_png() -> bytes:
     plan, section = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.45, 1.0)})
     _draw_plan(plan)
     _draw_section(section)
-    for axes in (plan, section):
+    for axes, title, left, right in ((plan, "Roof plan", -30, 130), (section, "Section", -8, 112)):
+        axes.set_xlim(left, right)
+        axes.set_ylim(-24, 84)
+        axes.set_title(title, loc="left", fontsize=11, fontweight="bold", color=_INK)
         axes.set_aspect("equal", anchor="N")
         axes.axis("off")
     figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.03, wspace=0.04)
@@ -55,9 +58,6 @@ def _say(axes: Axes, x: float, y: float, text: str, color: str = _INK, ha: str =
 
 
 def _draw_plan(axes: Axes) -> None:
-    axes.set_xlim(-30, 130)
-    axes.set_ylim(-24, 84)
-    axes.set_title("Roof plan", loc="left", fontsize=11, fontweight="bold", color=_INK)
     _box(axes, 0, 0, 120, 74, "#FFFFFF")
     _box(axes, 20, 20, 52, 40, _ARRAY)
     _box(axes, 94, 28, 14, 14, _OBJECT)
@@ -81,9 +81,6 @@ def _draw_plan(axes: Axes) -> None:
 
 
 def _draw_section(axes: Axes) -> None:
-    axes.set_xlim(-8, 112)
-    axes.set_ylim(-24, 84)
-    axes.set_title("Section", loc="left", fontsize=11, fontweight="bold", color=_INK)
     _box(axes, 4, 0, 88, 40, "#FFFFFF")
     axes.plot((4, 92), (50, 40), color=_INK, linewidth=2)
     axes.plot((4, 4, 92), (40, 50, 40), color=_INK, linewidth=1.2)

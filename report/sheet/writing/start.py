@@ -6,11 +6,10 @@ Has no inputs. Read `write_start`.
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
 
 from openpyxl import Workbook
 from openpyxl.drawing.image import Image
-from openpyxl.styles import Font, PatternFill
+from openpyxl.styles import PatternFill
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import SECTIONS
@@ -46,9 +45,9 @@ _NOTES = (
     " lists it, and roofslip check --repair restores its formula. Formulas in yellow cells are"
     " accepted. Macros are not: .xlsm files are rejected.",
 )
-_AMBER_FILL = PatternFill("solid", start_color=marks.AMBER)
-_RED_FILL = PatternFill("solid", start_color=marks.RED)
-_VIOLET_FILL = PatternFill("solid", start_color=marks.VIOLET)
+_RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
+    PatternFill("solid", start_color=color) for color in (marks.RED, marks.AMBER, marks.VIOLET)
+)
 _SAMPLES = (
     ("input", "000000", style.INPUT_FILL, "Input cell."),
     ("heading", style.WHITE, style.REQUIRED_FILL, "Required column; other required cells have *."),
@@ -72,18 +71,22 @@ _SAMPLES = (
 )
 
 
-def write_start(book: Workbook, *, is_us: bool) -> int:
+def write_start(book: Workbook) -> int:
     """Write the sheet; return the first row of the list of what each sheet lacks."""
     sheet = book[START]
     for column, width in zip("ABCDE", _WIDTHS, strict=True):
         sheet.column_dimensions[column].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
+    sheet.page_setup.fitToHeight = 1
     picture = _write_steps(sheet, 4)
     counts = _put_heading(sheet, picture, "Missing or wrong", COUNTS_COLUMN)
     titles = {section.sheet for section in SECTIONS}
     row = max(_put_picture(sheet, picture), counts + len(titles) + 1)
-    row = _write_colors(sheet, row)
-    _write_notes(sheet, row, _NOTES)
+    row = _put_heading(sheet, _write_colors(sheet, row), "Notes")
+    for at, note in enumerate(_NOTES, start=row):
+        style.put(sheet, at, 2, note)
+        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=5)
+        sheet.row_dimensions[at].height = 34
     return counts
 
 
@@ -94,12 +97,11 @@ def _put_heading(sheet: Worksheet, row: int, title: str, column: int = 1) -> int
 
 
 def _write_steps(sheet: Worksheet, row: int) -> int:
-    for number, step in enumerate(STEPS, start=1):
-        style.put(sheet, row, 1, str(number), bold=True, size=12)
-        style.put(sheet, row, 2, step, size=11, wrap=False)
-        sheet.row_dimensions[row].height = 20
-        row += 1
-    return row + 1
+    for at, step in enumerate(STEPS, start=row):
+        style.put(sheet, at, 1, str(at - row + 1), bold=True, size=12)
+        style.put(sheet, at, 2, step, size=11, wrap=False)
+        sheet.row_dimensions[at].height = 20
+    return row + len(STEPS) + 1
 
 
 def _put_picture(sheet: Worksheet, row: int) -> int:
@@ -112,21 +114,9 @@ def _put_picture(sheet: Worksheet, row: int) -> int:
 
 def _write_colors(sheet: Worksheet, row: int) -> int:
     row = _put_heading(sheet, row, "Colors")
-    for sample, color, fill, meaning in _SAMPLES:
-        cell = style.put(sheet, row, 2, sample, color=color)
-        cell.font = Font(name="Calibri", size=10, color=color, bold=color != "000000")
+    for at, (sample, color, fill, meaning) in enumerate(_SAMPLES, start=row):
+        cell = style.put(sheet, at, 2, sample, color=color, bold=color != "000000")
         cell.fill, cell.border = fill, style.BOX
-        style.put(sheet, row, 3, meaning, color=style.GRAY)
-        sheet.row_dimensions[row].height = 18
-        row += 1
-    return row + 1
-
-
-def _write_notes(sheet: Worksheet, row: int, notes: Sequence[str]) -> int:
-    row = _put_heading(sheet, row, "Notes")
-    for note in notes:
-        style.put(sheet, row, 2, note)
-        sheet.merge_cells(start_row=row, end_row=row, start_column=2, end_column=5)
-        sheet.row_dimensions[row].height = 34
-        row += 1
-    return row
+        style.put(sheet, at, 3, meaning, color=style.GRAY)
+        sheet.row_dimensions[at].height = 18
+    return row + len(_SAMPLES) + 1

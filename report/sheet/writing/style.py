@@ -12,10 +12,10 @@ from collections.abc import Iterable
 from copy import copy
 from datetime import date
 from enum import StrEnum
-from typing import Any, NamedTuple
+from typing import Any
 from weakref import WeakKeyDictionary
 
-from openpyxl.cell import Cell as SheetCell
+from openpyxl.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.properties import PageSetupProperties
@@ -45,16 +45,7 @@ _INDENTED = Alignment(vertical="center", horizontal="left", wrap_text=True, inde
 _ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 
 
-class _Look(NamedTuple):
-    """How a text is written."""
-
-    color: str
-    bold: bool
-    italic: bool
-    size: int
-    wrap: bool
-    indent: int
-
+_Look = tuple[str, bool, bool, int, bool, int]
 
 _LOOKS: WeakKeyDictionary[Worksheet, dict[_Look, Any]] = WeakKeyDictionary()
 """Formats of texts by sheet: set part by part they take a third of the time of a template."""
@@ -71,29 +62,48 @@ def put(
     italic: bool = False,
     size: int = 10,
     wrap: bool = True,
-) -> SheetCell:
+) -> Cell:
     """Write a text in a cell that has no format yet; return the cell."""
-    cell = sheet.cell(row, column)
-    assert isinstance(cell, SheetCell)  # no cell is merged here
-    cell.value = text
-    cell.data_type = "s"
+    cell: Any = sheet.cell(row, column)
+    cell.value, cell.data_type = text, "s"
     indent = 1 if wrap and column > 1 else 0
-    _style_text(cell, sheet, _Look(color, bold, italic, size, wrap, indent))
+    looks, look = _LOOKS.setdefault(sheet, {}), (color, bold, italic, size, wrap, indent)
+    if look not in looks:
+        cell.font = Font(name="Calibri", size=size, bold=bold, italic=italic, color=color)
+        cell.alignment = Alignment(
+            vertical="center", horizontal="left", wrap_text=wrap, indent=indent
+        )
+        looks[look] = copy(cell._style)
+    cell._style = copy(looks[look])
+    assert isinstance(cell, Cell)  # no cell is merged here
     return cell
 
 
-def _style_text(cell: Any, sheet: Worksheet, look: _Look) -> None:
-    looks = _LOOKS.setdefault(sheet, {})
-    if look in looks:
-        cell._style = copy(looks[look])
-        return
-    cell.font = Font(
-        name="Calibri", size=look.size, bold=look.bold, italic=look.italic, color=look.color
-    )
-    cell.alignment = Alignment(
-        vertical="center", horizontal="left", wrap_text=look.wrap, indent=look.indent
-    )
-    looks[look] = copy(cell._style)
+class Answer(str):
+    """A formula to write, without its equals sign."""
+
+    __slots__ = ()
+
+
+Value = Answer | str | float
+"""What a row of a static sheet has in a cell."""
+
+
+def put_values(
+    sheet: Worksheet, row: int, values: Iterable[Value], *, are_heads: bool = False
+) -> None:
+    """Write the cells of a row of a static sheet; NaN where a table has no number."""
+    for column, value in enumerate(values, start=1):
+        match value:
+            case Answer():
+                put_answer(sheet.cell(row, column), value)
+            case str():
+                put(sheet, row, column, value, bold=are_heads).border = LINE
+            case _ if math.isnan(value):
+                put(sheet, row, column, "site-specific", color=GRAY, size=9)
+            case _:
+                cell = put(sheet, row, column, "")
+                cell.value, cell.data_type, cell.border = value, "n", LINE
 
 
 def put_title(sheet: Worksheet, title: str, hint: str) -> None:
@@ -169,8 +179,11 @@ def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
     if entry.choices:
         offer(sheet, cells, entry.choices, label, message)
     elif entry.kind in (int, float):
-        _add(sheet, cells, _number_rule(entry, si), label, _message(entry, si), wish(entry, "", si))
+        if allowed := entry.bounds.words(si):
+            message = f"{message} Allowed: {allowed}."
+        _add(sheet, cells, _number_rule(entry, si), label, message, wish(entry, "", si))
     elif entry.kind is date:
+        # After the serial number of 2000-01-01, `EARLIEST` of the reader.
         rule = DataValidation(type="date", operator="greaterThan", formula1="36526")
         _add(sheet, cells, rule, label, f"{message} For example 2026-03-05.", wish(entry))
     else:
@@ -201,17 +214,13 @@ def _add(
 ) -> None:
     rule.allow_blank = True
     rule.showInputMessage = rule.showErrorMessage = True
+    # As many characters as Excel allows.
     rule.promptTitle = rule.errorTitle = title[:32]
     rule.prompt = message[:255]
     error = f"{title}: {wanted}. Retry corrects the entry, Cancel restores the former one."
     rule.error = error if len(error) <= 225 else f"{error[:224]}…"
     rule.add(cells)
     sheet.add_data_validation(rule)
-
-
-def _message(entry: Entry, si: float) -> str:
-    allowed = entry.bounds.words(si)
-    return f"{entry.help} Allowed: {allowed}." if allowed else entry.help
 
 
 def _number_rule(entry: Entry, si: float) -> DataValidation:
@@ -235,26 +244,17 @@ def finish(sheet: Worksheet, is_us: bool) -> None:
     sheet.sheet_view.showGridLines = False
     sheet.sheet_view.zoomScale = 100
     page = sheet.page_setup
-    page.orientation, page.fitToWidth, page.fitToHeight = "landscape", 1, 0
+    page.orientation, page.fitToWidth = "landscape", 1
+    page.fitToHeight = page.fitToHeight or 0  # as many pages as the rows take
     page.paperSize = 1 if is_us else 9
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
-    if _width(sheet) > _WIDEST and sheet.tables:
+    shown = (column for column in sheet.column_dimensions.values() if not column.hidden)
+    if sheet.tables and sum(column.width for column in shown) > _WIDEST:
         page.fitToWidth = 2
         sheet.print_title_cols = "A:B"
     margins = sheet.page_margins
     # A4 is lower and wider than letter: the same rows fill a page of both.
     margins.left = margins.right = 0.4 if is_us else 0.75
     margins.top, margins.bottom, margins.footer = (0.4, 0.6, 0.3) if is_us else (0.3, 0.46, 0.2)
-    footer = ("left", "Roofslip input"), ("center", "&A"), ("right", "&P of &N")
-    for side, text in footer:
-        getattr(sheet.oddFooter, side).text = text
-
-
-def _width(sheet: Worksheet) -> float:
-    """Return the width of the columns that are not folded [characters]."""
-    return sum(column.width for column in sheet.column_dimensions.values() if not column.hidden)
-
-
-def fit_on_one_page(sheet: Worksheet) -> None:
-    """Print a sheet on one page, however long it is."""
-    sheet.page_setup.fitToHeight = 1
+    footer: Any = sheet.oddFooter
+    footer.left.text, footer.center.text, footer.right.text = "Roofslip input", "&A", "&P of &N"

@@ -8,13 +8,14 @@ here may change.
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from openpyxl import Workbook
 
 from report.sheet.schema import SECTIONS, ProjectInput, UnitsFirst
-from report.sheet.schema.fields import Frozen, SheetSection
+from report.sheet.schema.fields import SheetSection
 from report.sheet.schema.layout import Layout
 from report.sheet.writing import style
 from report.sheet.writing.counts import START, write_counts
@@ -28,62 +29,55 @@ from solver.files import write_whole
 
 
 def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | None = None) -> None:
-    """Write an input workbook, blank or with the values of a project.
+    """Write or replace an input workbook, with the values of a project or blank but for defaults.
 
     Parameters
     ----------
-    path : Path
-        The .xlsx file to write or replace.
     units : UnitsFirst
         System of units of the sheets.
-    example : ProjectInput, optional
-        Values to fill in; without it the inputs are blank except for defaults.
     """
-    is_us = units is UnitsFirst.US
-    book = Workbook()
-    book.worksheets[0].title = START
-    layout = Layout()
-    for section in SECTIONS:
-        _write_section(book, layout, section, units, _rows(section, example))
-    write_panel(book, is_us=is_us)
+    book, layout = book_of(SECTIONS, START, units, example)
+    write_panel(book, is_us=units.is_us)
     write_rules(book, layout)
     write_lookups(book, layout)
-    for place in layout.tables.values():
-        write_answers(book, layout, place, is_us=is_us)
-        mark_table(book[place.section.sheet], place)
-    for block in layout.blocks.values():
-        mark_block(book[block.section.sheet], block)
     clearances = layout.tables["clearances"]
     ratio = clearances.cell("demand_capacity")
     mark_ratio(book["Clearances"], clearances.cells("demand_capacity"), ratio)
-    write_counts(book, layout, write_start(book, is_us=is_us))
+    write_counts(book, layout, write_start(book))
     mark_lost(book, layout)
+    save(book, path, units)
+
+
+def book_of(
+    sections: Iterable[SheetSection], first_sheet: str, units: UnitsFirst, example: object
+) -> tuple[Workbook, Layout]:
+    """Return a book with the blocks and tables of sections, their formulas and marks.
+
+    An example has the values of each section as an attribute; None leaves the inputs blank.
+    """
+    book, layout = Workbook(), Layout()
+    book.worksheets[0].title = first_sheet
+    for section in sections:
+        if section.sheet not in book.sheetnames:
+            book.create_sheet(section.sheet)
+        given: Any = getattr(example, section.key, None)
+        if section.is_table:
+            layout.tables[section.key] = write_table(book, section, units, given or ())
+        else:
+            layout.blocks[section.key] = write_block(book, section, units, given)
+    for place in layout.tables.values():
+        write_answers(book, layout, place, is_us=units.is_us)
+        mark_table(book[place.section.sheet], place)
+    for block in layout.blocks.values():
+        mark_block(book[block.section.sheet], block)
+    return book, layout
+
+
+def save(book: Workbook, path: Path, units: UnitsFirst) -> None:
+    """Set up the pages of a finished book and write it; programs compute it when they open it."""
     for sheet in book.worksheets:
-        style.finish(sheet, is_us)
-    style.fit_on_one_page(book[START])
+        style.finish(sheet, units.is_us)
     book.calculation.fullCalcOnLoad = True
     buffer = io.BytesIO()
     book.save(buffer)
     write_whole(path, buffer.getvalue())
-
-
-def _rows(section: SheetSection, example: ProjectInput | None) -> Sequence[Frozen]:
-    if example is None:
-        return ()
-    value = getattr(example, section.key)
-    return value if section.is_table else (value,)
-
-
-def _write_section(
-    book: Workbook,
-    layout: Layout,
-    section: SheetSection,
-    units: UnitsFirst,
-    rows: Sequence[Frozen],
-) -> None:
-    if section.sheet not in book.sheetnames:
-        book.create_sheet(section.sheet)
-    if section.is_table:
-        layout.tables[section.key] = write_table(book, section, units, rows)
-        return
-    layout.blocks[section.key] = write_block(book, section, units, rows)

@@ -1,0 +1,30 @@
+"""The cells of a draft that could be read, and those that repeat an earlier one.
+
+Yields no fault of its own. `checks` and the checks that it runs use it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from typing import Any
+
+from report.sheet.schema.fields import Draft, Place
+
+
+def column(draft: Draft, sections: Iterable[str], field: str) -> Iterator[tuple[Place, Any]]:
+    """Yield the readable cells of a field in the tables that have it, each with its place."""
+    for section in sections:
+        for index, row in enumerate(draft[section]):
+            if field in row:
+                yield Place(section, index, field), row[field]
+
+
+def repeated(
+    cells: Iterable[tuple[Place, Any]], key: Callable[[Any], Hashable] = lambda value: value
+) -> Iterator[tuple[Place, Any, Place]]:
+    """Yield place and value of what is given again, and the place at which it was given first."""
+    places: dict[Hashable, Place] = {}
+    for place, value in cells:
+        first = places.setdefault(key(value), place)
+        if first is not place:
+            yield place, value, first
