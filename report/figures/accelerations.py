@@ -9,9 +9,8 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from report.figures.base import GRAY, INK, WIDTH_IN, Broken, style, svg_text, tick_text
+from report.figures.base import GRAY, INK, Broken, canvas, style, svg_text, tick_text
 from report.figures.history import envelope
 from report.memoized import memoized
 from report.words.units import G_MPS2, round_below
@@ -35,11 +34,8 @@ def accelerations(motions: Sequence[Motion]) -> str:
     seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)
     height = _ROW_IN * len(motions) + _TOP_IN + _BOTTOM_IN
     with style():
-        figure = Figure(figsize=(WIDTH_IN, height))
-        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.set_axis_off()
-        axes.set_xlim(-_LABELS, len(_COLUMNS))
-        axes.set_ylim(-len(motions) - _BOTTOM_IN / _ROW_IN, _TOP_IN / _ROW_IN)
+        rows = (-len(motions) - _BOTTOM_IN / _ROW_IN, _TOP_IN / _ROW_IN)
+        figure, axes = canvas(height, (-_LABELS, len(_COLUMNS)), rows)
         _lines(axes, motions, scaled, reach, seconds)
         _words(axes, motions, scaled)
         _scales(axes, len(motions), reach, seconds)

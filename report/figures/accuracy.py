@@ -8,12 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from matplotlib.axes import Axes
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from report.assessment.sensitivity import MethodRun, Rivals
-from report.figures.base import bare, framed, style, svg_text
+from report.figures.base import framed, labeled, style, svg_text
 from report.figures.methods import LOOKS
-from report.figures.scales import decades
+from report.figures.scales import decades, ticks
 from report.memoized import memoized
 from report.words.units import Quantity
 
@@ -71,12 +70,6 @@ def _axes(axes: Axes, maximum: float) -> None:
     axes.set_yscale("log")
     axes.set_xlim(0.82, 1.25 * maximum)
     axes.set_ylim(1e-15, 300.0)
-    axes.xaxis.set_major_locator(FixedLocator([n for n in _STEPS if n <= 1.2 * maximum]))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
+    ticks(axes.xaxis, _STEPS)
     decades(axes.yaxis)
-    axes.set_xlabel("Steps per sampling interval")
-    axes.set_ylabel("Error in PRD [%]")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    labeled(axes, "Steps per sampling interval", "Error in PRD [%]")

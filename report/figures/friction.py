@@ -10,7 +10,17 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.figures.base import ACCENT, ACROSS, GRAY, INK, WIDTH_IN, bare, framed, style, svg_text
+from report.figures.base import (
+    ACCENT,
+    ACROSS,
+    GRAY,
+    INK,
+    WIDTH_IN,
+    framed,
+    labeled,
+    style,
+    svg_text,
+)
 from report.figures.labels import TYPE_PT, width_in
 from report.memoized import memoized
 from report.sheet.schema import Array
@@ -127,11 +137,7 @@ def _law_words(law: Friction, names: str) -> str:
 
 
 def _finish(axes: Axes, unit: Unit) -> None:
-    axes.set_xlabel(f"Sliding velocity [{unit.symbol}]")
-    axes.set_ylabel("Kinetic friction coefficient μ")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    labeled(axes, f"Sliding velocity [{unit.symbol}]", "Kinetic friction coefficient μ")
     axes.legend(
         loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, handlelength=3.0, borderaxespad=0.0
     )

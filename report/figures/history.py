@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from report.assessment.runs import MotionRun
@@ -19,8 +18,8 @@ from report.figures.base import (
     GRAY,
     INK,
     PALE,
-    WIDTH_IN,
     Broken,
+    canvas,
     style,
     svg_text,
     tick_text,
@@ -51,11 +50,8 @@ def histories(
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     grid = _Grid(motions, followed, unit)
     with style():
-        figure = Figure(figsize=(WIDTH_IN, ROW_IN * grid.rows + 0.3))
-        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.set_axis_off()
-        axes.set_xlim(-0.1 * grid.columns, grid.columns)
-        axes.set_ylim(-grid.rows - 0.3, 0.0)
+        across, up = (-0.1 * grid.columns, grid.columns), (-grid.rows - 0.3, 0.0)
+        figure, axes = canvas(ROW_IN * grid.rows + 0.3, across, up)
         _rules(axes, grid, len(motions))
         _traces(axes, grid)
         for index, run in enumerate(motions):

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from report.assessment.runs import MotionRun
-from report.figures.base import GRAY, INK, WIDTH_IN, style, svg_text, tick_text
+from report.figures.base import GRAY, INK, WIDTH_IN, canvas, style, svg_text, tick_text
 from report.memoized import memoized
 from report.words.units import Quantity, round_below
 from solver.model import Floats, SlideHistory
@@ -40,11 +39,7 @@ def hodographs(
     rows = math.ceil(len(paths) / columns)
     tall = rows * (panel.tall_in + TITLE_IN) + FOOT_IN
     with style():
-        figure = Figure(figsize=(WIDTH_IN, tall))
-        axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        axes.set_axis_off()
-        axes.set_xlim(0.0, WIDTH_IN)
-        axes.set_ylim(0.0, tall)
+        figure, axes = canvas(tall, (0.0, WIDTH_IN), (0.0, tall))
         for index, (run, path) in enumerate(zip(motions, paths, strict=True)):
             left = index % columns * panel.wide_in
             top = tall - index // columns * (panel.tall_in + TITLE_IN)
@@ -126,18 +121,8 @@ def thinned(x: Floats, y: Floats, step: float = STEP_IN) -> tuple[Floats, Floats
 
 def _arrow(axes: Axes) -> None:
     """Draw the downslope direction at the lower left."""
-    axes.annotate(
-        "",
-        xy=(APART_IN, 0.02),
-        xytext=(APART_IN, 0.24),
-        arrowprops={
-            "arrowstyle": "-|>",
-            "color": INK,
-            "linewidth": 0.9,
-            "shrinkA": 0,
-            "shrinkB": 0,
-        },
-    )
+    look = {"arrowstyle": "-|>", "color": INK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", (APART_IN, 0.02), (APART_IN, 0.24), arrowprops=look)
     axes.text(2 * APART_IN, 0.1, "downslope", va="center")
 
 

@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, framed, labeled, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, bare, boxed, framed, labeled, style, svg_text
 from report.figures.scales import decades, ticks
 from report.words.letters import lettered
 from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneRun
@@ -72,8 +71,7 @@ def work(points: Sequence[PlaneRun]) -> str:
     """Return a line for each method, from coarse to fine; failed runs are not drawn."""
     names = list(dict.fromkeys(point.method for point in points))
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.4))
-        axes = figure.add_axes((0.085, 0.17, 0.5, 0.79))
+        figure, axes = boxed(2.4, (0.085, 0.17, 0.5, 0.79))
         for name, look in zip(names, _LOOKS, strict=False):
             own = [p for p in points if p.method == name and not math.isnan(p.seconds)]
             axes.plot(
@@ -101,8 +99,7 @@ def _logarithmic(axes: Axes, x: str, y: str, across: int, up: int) -> None:
 def bounds(groups: Sequence[BoundRatios]) -> str:
     """Return, for each kind, the share of the pairs whose ratio to the bound exceeds a value."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.5))
-        axes = figure.add_axes((0.085, 0.165, 0.58, 0.8))
+        figure, axes = boxed(2.5, (0.085, 0.165, 0.58, 0.8))
         axes.axvline(1.0, color=INK, linewidth=0.8)
         axes.text(1.15, 0.9, "bound", color=INK)
         for group, look in zip(groups, _LOOKS, strict=False):

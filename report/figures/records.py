@@ -6,17 +6,17 @@ needs no font. Read `report.figures.base` first.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+from matplotlib.ticker import MaxNLocator
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, png_bytes, style, svg_text
 from report.figures.history import envelope
+from report.figures.scales import ticks
 from report.words.units import G_MPS2
 from solver.model import Floats
 from solver.records.record import Record
@@ -25,7 +25,6 @@ MOST = 12
 """Maximum number of channels in one picture."""
 
 _POINTS = 3000
-_DPI = 200
 _PANEL_IN, _TITLE_IN, _SPECTRUM_IN = 0.72, 0.24, 2.5
 _BOTTOM_IN, _GAP_IN, _LEGEND_IN = 0.42, 0.72, 0.19
 _LEFT, _RIGHT = 0.085, 0.985
@@ -54,10 +53,7 @@ def records_svg(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> s
 def records_png(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> bytes:
     """Return the picture of `records_svg` as a PNG."""
     with style():
-        out = io.BytesIO()
-        figure = _figure(records, periods_s, sa_g)
-        figure.savefig(out, format="png", dpi=_DPI, metadata={"Software": None})
-        return out.getvalue()
+        return png_bytes(_figure(records, periods_s, sa_g))
 
 
 def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figure:
@@ -108,10 +104,7 @@ def _history(axes: Axes, record: Record) -> None:
     axes.set_title(_cut(record.name, 70), loc="left", weight="semibold", pad=2.0)
     peak = f"PGA {abs(a_g[top]):.3g} g at {t[top]:.2f} s"
     axes.set_title(peak, loc="right", pad=2.0)
-    axes.set_ylabel("a [g]")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    labeled(axes, y="a [g]")
 
 
 def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> None:
@@ -124,16 +117,9 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
     axes.set_xscale("log")
     axes.set_xlim(periods_s[0], periods_s[-1])
     axes.set_ylim(0.0, None)
-    axes.xaxis.set_major_locator(FixedLocator(_TICKS_S))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xlabel("Period T [s]")
-    axes.set_ylabel("Pseudo-acceleration [g]")
-    word = "spectrum" if len(records) == 1 else "spectra"
-    axes.set_title(f"Response {word}, 5 % damping", loc="left", weight="semibold")
-    axes.grid(True)
-    axes.set_axisbelow(True)
-    bare(axes)
+    ticks(axes.xaxis, _TICKS_S)
+    title = f"Response {'spectrum' if len(records) == 1 else 'spectra'}, 5 % damping"
+    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", title)
 
 
 def _cut(name: str, maximum: int) -> str:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
@@ -72,14 +73,15 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
     axes.plot(
         part.periods_s, part.target_g, color=INK, linewidth=1.4, linestyle=_DASHES, label="target"
     )
-    _plain_levels(axes, _LEVELS if high < 30.0 * low else _LEVELS[::3])
+    _label(axes.yaxis, _LEVELS if high < 30.0 * low else _LEVELS[::3])
     axes.set_title(f"{part.title} [g]", loc="left", weight="semibold", pad=3)
 
 
-def _plain_levels(axes: Axes, levels: Sequence[float]) -> None:
-    axes.yaxis.set_major_locator(FixedLocator(levels))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.yaxis.set_minor_locator(NullLocator())
+def _label(axis: Axis, values: Sequence[float]) -> None:
+    # Not `scales.ticks`: a power of ten in letters is too wide beside this panel.
+    axis.set_major_locator(FixedLocator(values))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
 
 
 def _ratios(axes: Axes, part: Spectra) -> None:
@@ -90,7 +92,7 @@ def _ratios(axes: Axes, part: Spectra) -> None:
     if high > _FACTOR:
         axes.set_ylim(0.85 * min(low, 1.0), 1.2 * high)
         axes.set_yscale("log")
-        _plain_levels(axes, _LEVELS if high < 20.0 else _LEVELS[::3])
+        _label(axes.yaxis, _LEVELS if high < 20.0 else _LEVELS[::3])
     else:
         axes.set_ylim(min(low, 1.0) - 0.04, max(high, 1.0) + 0.04)
         axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
@@ -113,9 +115,7 @@ def _lines(axes: Axes, periods_s: Floats, rows: Floats) -> None:
 def _finish(axes: Axes, part: Spectra, ticks: Sequence[float], *, is_last: bool) -> None:
     axes.set_xscale("log")
     axes.set_xlim(ticks[0], part.periods_s[-1])
-    axes.xaxis.set_major_locator(FixedLocator(ticks))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
+    _label(axes.xaxis, ticks)
     if is_last:
         axes.set_xlabel("Period T [s]")
     else:
