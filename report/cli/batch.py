@@ -47,7 +47,6 @@ class BatchOutcome:
 
     Attributes
     ----------
-    source : Path
     verdict : str
         Empty without a package.
     ratios : tuple of float
@@ -58,7 +57,6 @@ class BatchOutcome:
         Input errors.
     internal : str
         Traceback of an internal error; empty for none.
-    seconds : float
     """
 
     source: Path

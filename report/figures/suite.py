@@ -38,7 +38,6 @@ class Panel:
 
     Attributes
     ----------
-    title : str
     fits : tuple of SpectrumFit
         One per motion, all at the same frequencies.
     band_hz, limits : tuple of float

@@ -35,12 +35,10 @@ class ReadPackage:
 
     Attributes
     ----------
-    path : Path
     data : bytes
         The whole file.
     first : bytes
         Its first revision: what `roofslip report` wrote, unless the file was rewritten.
-    manifest : Manifest
     files : mapping of str to bytes
         Attachments of the first revision by name.
     pdf : PdfReader

@@ -36,9 +36,11 @@ MOST_RECORDS = 20_000_000
 SHORT = 12
 """Characters of a hash where there is no room for all 64."""
 
-_XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
-_JSON = "application/json"
-
+_MIMES = {
+    ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    ".json": "application/json",
+    ".csv": "text/csv",
+}
 
 _Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 
@@ -215,12 +217,7 @@ def _attached(source: SourceFile) -> Attached:
     return Attached(
         name=source.name,
         content=source.content,
-        mime=_mime(source.name),
+        mime=_MIMES.get(posixpath.splitext(source.name)[1].lower(), "text/plain"),
         relationship=relationship,
         description=description,
     )
-
-
-def _mime(name: str) -> str:
-    known = {".xlsx": _XLSX, ".json": _JSON, ".csv": "text/csv"}
-    return known.get(posixpath.splitext(name)[1].lower(), "text/plain")

@@ -60,7 +60,6 @@ def _beside(results: StudyResults, building: int) -> Floats:
 
 
 def _against_intensity(results: StudyResults, building: int, m: int) -> str:
-    """Return the curves of a friction against intensity, by slope."""
     given = results.plan.input
     shown = some(given.slopes_deg, MOST_LINES)
     values, mean = results.displacements[results.leading][building], _beside(results, building)
@@ -74,7 +73,6 @@ def _against_intensity(results: StudyResults, building: int, m: int) -> str:
 
 
 def _against_slope(results: StudyResults, building: int, m: int) -> str:
-    """Return the curves of a friction against slope, by intensity."""
     given = results.plan.input
     shown = some(given.intensities, MOST_LINES)
     values, mean = results.displacements[results.leading][building], _beside(results, building)

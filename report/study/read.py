@@ -99,7 +99,6 @@ class StudySheet:
 
     Attributes
     ----------
-    book : OpenBook
     gathered : Gathered
         For the addresses of the cells.
     unseen : tuple of Unseen

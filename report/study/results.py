@@ -45,7 +45,6 @@ class LimitState:
         Such as LS2, and what it is.
     limit_m : float
         PRD above which it is exceeded [m]; 0 for the beginning of slip.
-    fragility : Fragility
     effects : mapping of str to float
         As in `ArrayCapacities`.
     """
@@ -63,11 +62,8 @@ class ArrayStudyResult:
 
     Attributes
     ----------
-    plan : ArrayPlan
-    states : tuple of LimitState
     exceedances : tuple of Exceedance
         That the clearance is exceeded at the site; empty without an intensity there.
-    bars : tuple of Bar
     center_m : float
         Mean PRD with all variables at their centers [m]; NaN without an intensity at the site.
     capacity_runs : int
@@ -88,7 +84,6 @@ class StudyResults:
 
     Attributes
     ----------
-    plan : StudyPlan
     manifest : mapping
         Of the finished runs.
     curves : Statistics
@@ -101,7 +96,6 @@ class StudyResults:
         Mean peak horizontal acceleration at the roof for an intensity of 1 [g].
     fits : tuple of Fit or str
         By building; a text says why there is none.
-    arrays : tuple of ArrayStudyResult
     allow_matched : bool
         Whether fragilities without a record-to-record dispersion are exported, with a warning.
     """
@@ -221,10 +215,7 @@ def results_of(
         spread=spectral_spread(plan.motions.motions),
         ppa_g=ppa,
         fits=tuple(_fit(plan, analysis[b], float(ppa[b])) for b in range(plan.shape[0])),
-        arrays=tuple(
-            _array(plan, array, runner, prd, slip, on_grid, number)
-            for number, array in enumerate(plan.arrays)
-        ),
+        arrays=tuple(_array(plan, array, runner, prd, slip, on_grid) for array in plan.arrays),
         allow_matched=allow_matched,
     )
 
@@ -249,13 +240,11 @@ def _array(
     prd: Floats,
     slip: NDArray[np.bool_],
     offset: int,
-    number: int,
 ) -> ArrayStudyResult:
     def of(cases: slice) -> slice:
         return slice(cases.start - offset, cases.stop - offset)
 
     study, clearance = plan.input.study, array.array.clearance_m
-    seed = study.seed + 1000 * number
     peaks_m, slips = prd[of(array.fragility)].T, slip[of(array.fragility)].T
     lost = np.isnan(peaks_m)
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
@@ -272,7 +261,7 @@ def _array(
                 ~(peaks_m <= share * clearance) if share else slips | lost,
                 counts,
                 searched.found[k],
-                seed=seed,
+                seed=array.seed,
             ),
             effects=searched.effects[k],
         )
@@ -282,7 +271,7 @@ def _array(
     bars: tuple[Bar, ...] = ()
     center = math.nan
     if array.samples.stop > array.samples.start:
-        exceedances = (exceedance(prd[of(array.samples)], clearance, seed=seed),)
+        exceedances = (exceedance(prd[of(array.samples)], clearance, seed=array.seed),)
         means = prd[of(array.bars)].mean(axis=1)
         bars, center = tornado(array.spreads, means), float(means[0])
     return ArrayStudyResult(
