@@ -195,17 +195,12 @@ _COLUMNS = ("project", "verdict", "D/C", "time", "package")
 
 
 def table(outcomes: Sequence[BatchOutcome]) -> Iterator[str]:
-    """Yield a line for each project."""
+    """Return the headings and a line for each project."""
+    from report.words.formats import aligned
     from report.words.units import ratio
 
-    rows = [
-        _COLUMNS,
-        *(
-            (str(o.source), o.word, "".join(map(ratio, o.largest)), f"{o.seconds:.1f} s", o.package)
-            for o in outcomes
-        ),
-    ]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
-        yield "  ".join(cells).rstrip()
+    rows = (
+        (str(o.source), o.word, "".join(map(ratio, o.largest)), f"{o.seconds:.1f} s", o.package)
+        for o in outcomes
+    )
+    return aligned([_COLUMNS, *rows])

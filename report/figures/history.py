@@ -50,6 +50,7 @@ def histories(
     unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
     grid = _Grid(motions, followed, unit)
     with style():
+        # Room for the labels of the levels at the left, and of the times below the last row.
         across, up = (-0.1 * grid.columns, grid.columns), (-grid.rows - 0.3, 0.0)
         figure, axes = canvas(ROW_IN * grid.rows + 0.3, across, up)
         _rules(axes, grid, len(motions))

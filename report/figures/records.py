@@ -17,6 +17,7 @@ from matplotlib.ticker import MaxNLocator
 from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, png_bytes, style, svg_text
 from report.figures.history import envelope
 from report.figures.scales import ticks
+from report.words.formats import shortened
 from report.words.units import G_MPS2
 from solver.model import Floats
 from solver.records.record import Record
@@ -101,7 +102,7 @@ def _history(axes: Axes, record: Record) -> None:
     axes.plot(*envelope(t, a_g, _POINTS), color=ACCENT, linewidth=0.5)
     top = int(np.abs(a_g).argmax())
     axes.plot([t[top]], [a_g[top]], linestyle="", marker="o", markersize=3.0, color=INK)
-    axes.set_title(_cut(record.name, 70), loc="left", weight="semibold", pad=2.0)
+    axes.set_title(shortened(record.name, 70), loc="left", weight="semibold", pad=2.0)
     peak = f"PGA {abs(a_g[top]):.3g} g at {t[top]:.2f} s"
     axes.set_title(peak, loc="right", pad=2.0)
     labeled(axes, y="a [g]")
@@ -112,7 +113,12 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
         color = _COLORS[place % len(_COLORS)]
         dash = _DASHES[place % len(_DASHES)]
         axes.plot(
-            periods_s, row, color=color, linestyle=dash, linewidth=1.2, label=_cut(record.name, 30)
+            periods_s,
+            row,
+            color=color,
+            linestyle=dash,
+            linewidth=1.2,
+            label=shortened(record.name, 30),
         )
     axes.set_xscale("log")
     axes.set_xlim(periods_s[0], periods_s[-1])
@@ -120,7 +126,3 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
     ticks(axes.xaxis, _TICKS_S)
     title = f"Response {'spectrum' if len(records) == 1 else 'spectra'}, 5 % damping"
     labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", title)
-
-
-def _cut(name: str, maximum: int) -> str:
-    return name if len(name) <= maximum else f"{name[: maximum - 1]}…"

@@ -221,6 +221,7 @@ def _nrml(results: StudyResults) -> bytes:
         imls.text = " ".join(f"{x:.9g}" for x in levels)
         for state, row in zip(one.states, probabilities_of(results, one), strict=True):
             poes = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
+            # Rounded to the safe side: a probability of exceedance is never understated.
             poes.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"

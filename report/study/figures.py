@@ -54,6 +54,7 @@ def curves(
     """
     with style():
         figure, axes = boxed(3.6, (0.085, 0.285, 0.89, 0.69))
+        # A member without any value is named, so that nobody looks for its line.
         named = [(f"{label}: none" if np.isnan(v).all() else label, v) for label, v in family]
         draw_family(axes, x, ((label, prd_m / unit.si) for label, prd_m in named))
         for count, prd_m in enumerate(v for v in beside if not np.isnan(v).all()):

@@ -131,6 +131,7 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     for number, (array, building) in enumerate(
         (array, building) for array in given.study_arrays for building in range(buildings)
     ):
+        # Arrays draw apart: with one seed, all would be at the same quantiles.
         seed = given.study.seed + 1000 * number
         made, parts = _array(given, motions, array, building, start, seed)
         arrays.append(made)

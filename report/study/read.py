@@ -71,7 +71,7 @@ class StudyInput:
 
     def friction(self, mat_id: str) -> Spread:
         """Return the distribution of the friction coefficient of a mat."""
-        mat = next(row for row in self.mats if row.id.casefold() == mat_id.casefold())
+        mat = self._mat(mat_id)
         tests = tested(mat.tested)
         if not tests:
             return Spread(center=float(mat.mu or 0.0))
@@ -80,8 +80,11 @@ class StudyInput:
 
     def tests(self, mat_id: str) -> tuple[float, ...]:
         """Return the tested values of a mat, or its coefficient alone."""
-        mat = next(row for row in self.mats if row.id.casefold() == mat_id.casefold())
+        mat = self._mat(mat_id)
         return tested(mat.tested) or (float(mat.mu or 0.0),)
+
+    def _mat(self, mat_id: str) -> Mat:
+        return next(row for row in self.mats if row.id.casefold() == mat_id.casefold())
 
 
 def tested(text: str) -> tuple[float, ...]:

@@ -187,6 +187,7 @@ def results_of(
     slips: list[NDArray[np.bool_]] = []
     for number, part in enumerate(campaign.parts):
         found = peaks(read_part(folder, done[number]), campaign)
+        # The grid comes first; one part may hold its last cases and the first of the arrays.
         cut = min(max(on_grid - part.start, 0), part.stop - part.start)
         one = statistics(found.prd_m[:cut])
         for column, values in zip(
@@ -258,6 +259,7 @@ def _array(
             limit_m=share * clearance,
             fragility=fragility(
                 np.array(plan.input.intensities),
+                # A run without a value exceeds every limit; whether it counts is `counts`.
                 ~(peaks_m <= share * clearance) if share else slips | lost,
                 counts,
                 searched.found[k],
