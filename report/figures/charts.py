@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
+from report.entities.columns import UnitFormat
 from report.figures.accelerations import accelerations
 from report.figures.base import (
     ACCENT,
@@ -33,7 +34,7 @@ from report.figures.plan import is_wide, roof_plan
 from report.figures.plan_sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.figures.spectra import spectra
 from report.memoized import memoized
-from report.words.units import Quantity, Unit
+from report.words.units import Unit
 
 __all__ = [
     "FAMILY",
@@ -57,7 +58,7 @@ __all__ = [
 @memoized
 def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     """Return prescriptive value, floor, PRD of each motion, mean and design value by array."""
-    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
+    first, second = UnitFormat(us_first).units()
     with style():
         height = 1.3 + _row_in(len(arrays)) * len(arrays)
         names = [tick_text(array.id) for array in arrays]
@@ -72,6 +73,7 @@ def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
         axes.grid(True, axis="x")
         axes.set_axisbelow(True)
         marks, names = axes.get_legend_handles_labels()
+        # In the order of a row: matplotlib lists bars last.
         order = sorted(range(len(names)), key=lambda k: _LEGEND.index(names[k]))
         figure.legend(
             [marks[k] for k in order],
@@ -161,7 +163,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labele
 @memoized
 def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -> str:
     """Return required and provided separations as bars, numbered from `start`."""
-    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
+    first, second = UnitFormat(us_first).units()
     provided = [gap.clearance.provided_m / first.si for gap in gaps]
     required = [gap.required_m / first.si for gap in gaps]
     rows = np.arange(len(gaps), dtype=float)

@@ -14,9 +14,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from report.assessment.runs import MotionRun
+from report.entities.columns import UnitFormat
 from report.figures.base import GRAY, INK, WIDTH_IN, canvas, style, svg_text, tick_text
 from report.memoized import memoized
-from report.words.units import Quantity, round_below
+from report.words.units import round_below
 from solver.model import Floats, SlideHistory
 
 COLUMNS = 7
@@ -128,7 +129,7 @@ def _arrow(axes: Axes) -> None:
 
 def _scale_bar(axes: Axes, m_per_in: float, us_first: bool) -> None:
     """Draw a bar of a round length at the lower right."""
-    unit = Quantity.SIZE.us if us_first else Quantity.SIZE.si
+    unit = UnitFormat(us_first).units()[0]
     length = round_below(1.2 * m_per_in / unit.si)
     wide = length * unit.si / m_per_in
     right = WIDTH_IN - 0.9

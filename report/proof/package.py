@@ -75,6 +75,7 @@ def open_package(path: Path) -> ReadPackage:
     end = _END.search(data)
     if not data.startswith(b"%PDF-") or end is None:
         raise InputError("is no PDF, or is cut off; get the file again from where it was issued")
+    # What was appended later has an end of its own.
     first = data[: end.end()]
     pdf = guarded(lambda: reader(first))
     files = guarded(lambda: _attachments(pdf))

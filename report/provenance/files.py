@@ -9,7 +9,7 @@ import hashlib
 import json
 import posixpath
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
@@ -164,7 +164,7 @@ def _unlike(found: Sequence[SourceFile]) -> Iterator[SourceFile]:
         if name.casefold() in taken:
             name = f"renamed/{count}/{posixpath.basename(source.path)}"
         taken.add(name.casefold())
-        yield SourceFile(path=source.path, name=name, content=source.content, kind=source.kind)
+        yield replace(source, name=name)
 
 
 def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:

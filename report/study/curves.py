@@ -92,7 +92,7 @@ def _sheets(results: StudyResults, building: int) -> Iterator[tuple[str, str, bo
     allowed_m = given.study.allowed_m or math.nan
     for x, cut, along, name in _cuts(results):
         if len(x) < 2 or len(given.slopes_deg) < 2 or np.isnan(values[cut]).all():
-            continue
+            continue  # one row or column has no contours
         svg = figures.contours(
             np.array(x),
             np.array(given.slopes_deg),

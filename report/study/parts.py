@@ -108,6 +108,7 @@ def parquet(
     signs = np.array([orientation.polarity for _, orientation in columns], dtype=np.int8)
     table = {
         "building": keys(names, np.repeat(cases.building, each)),
+        # Rounded, it is what was typed, by which readers select rows.
         "slope_deg": by_case(np.asarray(np.degrees(cases.slope_rad), dtype=float).round(12)),
         "slope_rad": by_case(cases.slope_rad),
         "mu": by_case(cases.mu),

@@ -16,12 +16,13 @@ from typing import Any
 import numpy as np
 import xlsxwriter
 
+from report.entities.columns import UnitFormat
 from report.entities.marks import UNVERIFIED
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
 from report.words.counts import capitalized
-from report.words.units import Quantity, Unit
+from report.words.units import Unit
 from solver.model import Floats
 from solver.studies.fit import Fit
 
@@ -59,8 +60,7 @@ def _cases(results: StudyResults) -> Iterator[tuple[Row, tuple[int, ...]]]:
 
 def length_unit(results: StudyResults) -> Unit:
     """Return the unit of displacements that is printed first."""
-    quantity = Quantity.DISPLACEMENT
-    return quantity.us if results.plan.input.study.units_first.is_us else quantity.si
+    return UnitFormat(results.plan.input.study.units_first.is_us).units()[0]
 
 
 def study_xlsx(results: StudyResults) -> bytes:
