@@ -24,6 +24,7 @@ from report.cli.terminal import (
     AS_JSON,
     FAIL_ON_NG,
     INPUT_ERROR,
+    INTERNAL_ERROR,
     NOT_OK,
     QUIET,
     SCHEMA_VERSION,
@@ -37,8 +38,6 @@ from report.words.counts import numbered
 
 if TYPE_CHECKING:
     from solver.model import Problem
-
-INTERNAL_ERROR = 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
