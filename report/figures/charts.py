@@ -70,8 +70,6 @@ def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)
-        axes.grid(True, axis="x")
-        axes.set_axisbelow(True)
         marks, names = axes.get_legend_handles_labels()
         # In the order of a row: matplotlib lists bars last.
         order = sorted(range(len(names)), key=lambda k: _LEGEND.index(names[k]))
@@ -98,18 +96,14 @@ def _row_in(count: int) -> float:
     return min(0.4, 5.4 / count)
 
 
-def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
+def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
+    """Add the second unit at the top; the grid is that of the first."""
     ratio = first.si / second.si
-
-    def forth(value: Any) -> Any:
-        return value * ratio
-
-    def back(value: Any) -> Any:
-        return value / ratio
-
-    other = axes.secondary_xaxis("top", functions=(forth, back))
+    other = axes.secondary_xaxis("top", functions=(lambda v: v * ratio, lambda v: v / ratio))
     other.set_xlabel(f"[{second.symbol}]")
     axes.spines["right"].set_visible(False)
+    axes.grid(True, axis="x")
+    axes.set_axisbelow(True)
 
 
 def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labeled: bool) -> None:
@@ -212,7 +206,5 @@ def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -
         axes.margins(x=0.12)
         axes.set_xlim(0, None)
         _second_scale(axes, first, second)
-        axes.grid(True, axis="x")
-        axes.set_axisbelow(True)
         figure.legend(loc="lower center", ncols=2)
         return svg_text(figure)

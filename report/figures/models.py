@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from report.figures.base import ACCENT, GRAY, INK, bare, boxed, framed, labeled, style, svg_text
-from report.figures.scales import decades, ticks
+from report.figures.scales import logarithmic, ticks
 from report.words.letters import lettered
 from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneRun
 
@@ -83,15 +83,12 @@ def work(points: Sequence[PlaneRun]) -> str:
                 linewidth=1.2,
                 label=lettered(name),
             )
-        _logarithmic(axes, "Time per run [s]", "Error [% of the PRD]", 9, 8)
+        logarithmic(axes, 9, 8)
+        _finish(axes, "Time per run [s]", "Error [% of the PRD]")
         return svg_text(figure)
 
 
-def _logarithmic(axes: Axes, x: str, y: str, across: int, up: int) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    decades(axes.xaxis, across)
-    decades(axes.yaxis, up)
+def _finish(axes: Axes, x: str, y: str) -> None:
     labeled(axes, x, y)
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
 
@@ -106,7 +103,8 @@ def bounds(groups: Sequence[BoundRatios]) -> str:
             above = 1.0 - np.arange(group.ratios.size) / max(group.ratios.size, 1)
             ratios, label = np.maximum(group.ratios, LEAST_RATIO), group.kind.replace("mu", "μ")
             axes.plot(ratios, above, **look | {"marker": ""}, linewidth=1.2, label=label)
+        logarithmic(axes, 8, 9)
         x = "Difference of the two runs of a pair / sum of their bounds"
-        _logarithmic(axes, x, "Share of pairs exceeding", 8, 9)
+        _finish(axes, x, "Share of pairs exceeding")
         axes.set_xlim(LEAST_RATIO, 10.0)
         return svg_text(figure)
