@@ -78,7 +78,7 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
 
 
 def _label(axis: Axis, values: Sequence[float]) -> None:
-    # Not `scales.ticks`: a power of ten in letters is too wide beside this panel.
+    # Not `scales.ticks`: small ordinates are printed in full here.
     axis.set_major_locator(FixedLocator(values))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(NullLocator())
