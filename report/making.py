@@ -54,7 +54,7 @@ def make(
 
     `on_assessment` is given the assessment before the package is made, which takes longer.
     """
-    worker.submit(load)
+    worker.submit(load)  # before the imports below, so that both processes import at once
     from report.assessment.project import assess
     from report.package.html import pages
     from report.results.publish import publish

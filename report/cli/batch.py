@@ -24,6 +24,7 @@ from report.cli.terminal import (
     AS_JSON,
     FAIL_ON_NG,
     INPUT_ERROR,
+    INTERNAL_ERROR,
     NOT_OK,
     QUIET,
     SCHEMA_VERSION,
@@ -38,8 +39,6 @@ from report.words.counts import numbered
 if TYPE_CHECKING:
     from solver.model import Problem
 
-INTERNAL_ERROR = 1
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BatchOutcome:
@@ -47,7 +46,6 @@ class BatchOutcome:
 
     Attributes
     ----------
-    source : Path
     verdict : str
         Empty without a package.
     ratios : tuple of float
@@ -58,7 +56,6 @@ class BatchOutcome:
         Input errors.
     internal : str
         Traceback of an internal error; empty for none.
-    seconds : float
     """
 
     source: Path
@@ -197,17 +194,12 @@ _COLUMNS = ("project", "verdict", "D/C", "time", "package")
 
 
 def table(outcomes: Sequence[BatchOutcome]) -> Iterator[str]:
-    """Yield a line for each project."""
+    """Return the headings and a line for each project."""
+    from report.words.formats import aligned
     from report.words.units import ratio
 
-    rows = [
-        _COLUMNS,
-        *(
-            (str(o.source), o.word, "".join(map(ratio, o.largest)), f"{o.seconds:.1f} s", o.package)
-            for o in outcomes
-        ),
-    ]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
-        yield "  ".join(cells).rstrip()
+    rows = (
+        (str(o.source), o.word, "".join(map(ratio, o.largest)), f"{o.seconds:.1f} s", o.package)
+        for o in outcomes
+    )
+    return aligned([_COLUMNS, *rows])

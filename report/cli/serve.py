@@ -22,8 +22,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.batch import INTERNAL_ERROR
-from report.cli.terminal import INPUT_ERROR, input_errors
+from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR, input_errors
 
 if TYPE_CHECKING:
     import uvicorn

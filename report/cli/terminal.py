@@ -61,9 +61,9 @@ def plain(text: object) -> str:
 SCHEMA_VERSION = 1
 """Raised where a key that `--json` prints changes its name or meaning."""
 
-INPUT_ERROR, NOT_OK, NOT_COMPARED, INTERRUPTED = 2, 3, 4, 130
-"""Exit codes: an error in the input; not OK where that is asked for; not all could be compared;
-cut off by Ctrl+C."""
+INTERNAL_ERROR, INPUT_ERROR, NOT_OK, NOT_COMPARED, INTERRUPTED = 1, 2, 3, 4, 130
+"""Exit codes: an error of the program; an error in the input; not OK where that is asked for; not
+all could be compared; cut off by Ctrl+C."""
 
 QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
 AS_JSON = click.option(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -54,8 +54,7 @@ def verify(out: Path, quick: bool, records: Path | None, table: Path | None) -> 
             f"{row.tolerance:.1e}"
         )
     for tests in verification.tables:
-        for line in _judgment(tests):
-            click.echo(line)
+        click.echo(_judgment(tests))
     for name in files:
         click.echo(out / name)
     is_refuted = not all(tests.is_accepted for tests in verification.tables)
@@ -82,8 +81,7 @@ def _verification(
     return verification, files(verification, dt.date.today(), progress)
 
 
-def _judgment(tests: ShakeTable) -> Iterator[str]:
-    """Yield the outcome of the tests of a shake table."""
+def _judgment(tests: ShakeTable) -> str:
     from report.manual.shake_table import result
 
-    yield f"shake table: {len(tests.runs)} tests, median ratio {tests.median:.3f}. {result(tests)}"
+    return f"shake table: {len(tests.runs)} tests, median ratio {tests.median:.3f}. {result(tests)}"

@@ -139,13 +139,11 @@ def _both(context: Context, value_si: float, quantity: str = "DISPLACEMENT") -> 
 
 @pass_context
 def _friction_basis(context: Context, array: Array) -> str:
-    """Return where the friction of an array comes from."""
     return basis_words(context["p"].data, array)
 
 
 @pass_context
 def _mark(context: Context, key: str) -> str:
-    """Return the marks of a provision."""
     said: str = context["p"].mark(key)
     return said
 

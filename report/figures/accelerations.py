@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from report.drawing.widths import tick_text
-from report.figures.base import GRAY, INK, WIDTH_IN, Broken, canvas, style, svg_text
+from report.figures.base import GRAY, INK, Broken, canvas, style, svg_text
 from report.figures.history import envelope
 from report.memoized import memoized
 from report.words.units import G_MPS2, round_below
@@ -30,21 +30,17 @@ def accelerations(motions: Sequence[Motion]) -> str:
 
     All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
-    scaled = [[m.scale / G_MPS2 * a for a in _components(m)] for m in motions]
+    scaled = [[m.scale / G_MPS2 * a for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
     reach = max(float(np.abs(a_g).max()) for row in scaled for a_g in row if a_g.size) or 1.0
     seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)
     height = _ROW_IN * len(motions) + _TOP_IN + _BOTTOM_IN
     with style():
         rows = (-len(motions) - _BOTTOM_IN / _ROW_IN, _TOP_IN / _ROW_IN)
-        figure, axes = canvas(WIDTH_IN, height, (-_LABELS, len(_COLUMNS)), rows)
+        figure, axes = canvas(height, (-_LABELS, len(_COLUMNS)), rows)
         _lines(axes, motions, scaled, reach, seconds)
         _words(axes, motions, scaled)
         _scales(axes, len(motions), reach, seconds)
         return svg_text(figure)
-
-
-def _components(motion: Motion) -> tuple[Floats, Floats, Floats]:
-    return motion.ax_mps2, motion.ay_mps2, motion.az_mps2
 
 
 def _lines(

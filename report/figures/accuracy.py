@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 
 from report.assessment.sensitivity import MethodRun, Rivals
+from report.entities.columns import UnitFormat
 from report.figures.base import framed, labeled, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import decades, ticks
 from report.memoized import memoized
-from report.words.units import Quantity
 
 FLOOR = 1e-16  # an error of zero is drawn here: the resolution of a double
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
@@ -23,7 +23,7 @@ _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 @memoized
 def work_precision(rivals: Rivals, us_first: bool) -> str:
     """Return the error in PRD against steps per sampling interval, one line per method."""
-    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
+    unit = UnitFormat(us_first).units()[0]
     with style():
         figure, axes = framed(1.95, 0.62, 2.75, 0.1, 0.5)
         for name in dict.fromkeys(run.method.name for run in rivals.runs):

@@ -19,10 +19,15 @@ from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from solver.model import Floats
+
 WIDTH_IN = 6.7
 INK, GRAY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
 ACROSS = "#c8651b"  # distinct from ACCENT with color blindness and in gray
 FAMILY = "Source Sans 3"
+DASHED, DOTTED, DASHDOT = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4))
+LINES: tuple[Any, ...] = ("-", DASHED, DASHDOT, DOTTED)
+MARKERS = "os^DvXP*"
 
 Range = tuple[float, float]
 
@@ -82,21 +87,28 @@ def svg_text(figure: Figure) -> str:
     return _DIGITS.sub(r"\1", text[text.index("<svg") :])
 
 
-def framed(height: float, left: float, right: float, top: float, bottom: float) -> Any:
-    """Return a figure and its axes with margins [in]; automatic layout takes as long as drawing."""
+def png_bytes(figure: Figure) -> bytes:
+    """Return a figure as a PNG that names no software."""
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=200, metadata={"Software": None})
+    return out.getvalue()
+
+
+def boxed(height: float, box: tuple[float, float, float, float]) -> tuple[Figure, Axes]:
+    """Return a figure and its axes: left, bottom, width and height, in shares of the figure."""
     figure = Figure(figsize=(WIDTH_IN, height))
-    box = (
-        left / WIDTH_IN,
-        bottom / height,
-        1.0 - (left + right) / WIDTH_IN,
-        1.0 - (top + bottom) / height,
-    )
     return figure, figure.add_axes(box)
 
 
-def canvas(wide: float, tall: float, x: Range, y: Range) -> tuple[Figure, Axes]:
+def framed(height: float, left: float, right: float, top: float, bottom: float) -> Any:
+    """Return a figure and its axes with margins [in]; automatic layout takes as long as drawing."""
+    wide, tall = 1.0 - (left + right) / WIDTH_IN, 1.0 - (top + bottom) / height
+    return boxed(height, (left / WIDTH_IN, bottom / height, wide, tall))
+
+
+def canvas(height: float, x: Range, y: Range, width: float = WIDTH_IN) -> tuple[Figure, Axes]:
     """Return a figure, and axes with these limits over all of it that are not drawn."""
-    figure = Figure(figsize=(wide, tall))
+    figure = Figure(figsize=(width, height))
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_axis_off()
     axes.set_xlim(*x)
@@ -118,6 +130,21 @@ def labeled(axes: Axes, x: str = "", y: str = "", title: str = "") -> None:
     axes.grid(True)
     axes.set_axisbelow(True)
     bare(axes)
+
+
+def draw_family(axes: Axes, x: Floats, family: Iterable[tuple[str, Floats]], **look: Any) -> None:
+    """Draw a line for each member of a family; line and marker tell them apart without color."""
+    for count, (label, y) in enumerate(family):
+        axes.plot(
+            x, y, linestyle=LINES[count % 4], marker=MARKERS[count % 8], markersize=3.2,
+            linewidth=0.9, color=INK if count % 2 == 0 else ACCENT, label=label, **look,
+        )  # fmt: skip
+
+
+def legend_below(axes: Axes, down: float, columns: int, **look: Any) -> None:
+    """Add a legend below the axes, down by a share of their height."""
+    look = {"handlelength": 2.4, "columnspacing": 1.0} | look
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -down), ncols=columns, **look)
 
 
 def panels(

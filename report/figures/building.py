@@ -74,6 +74,7 @@ def _histories(axes: Axes, roof: RoofComparison) -> None:
     width = round(SHOWN_S / roof.dt_s)
     part = strongest(roof.roof_mps2**2, width)
     t = np.arange(roof.roof_mps2.size)[part] * roof.dt_s
+    # More points a second than print can show make the file larger and no line clearer.
     every = max(1, round(0.02 / roof.dt_s))
     for a_mps2, color, line in (
         (roof.roof_mps2, INK, "-"),

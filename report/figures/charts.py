@@ -16,14 +16,24 @@ from matplotlib.axes import Axes
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.drawing.widths import tick_text
+from report.entities.columns import UnitFormat
 from report.figures.accelerations import accelerations
-from report.figures.base import ACCENT, FAMILY, GRAY, INK, framed, load_fonts, style, svg_text
+from report.figures.base import (
+    ACCENT,
+    FAMILY,
+    GRAY,
+    INK,
+    framed,
+    load_fonts,
+    style,
+    svg_text,
+)
 from report.figures.history import MAX_POINTS, envelope, histories
 from report.figures.hodograph import hodographs
 from report.figures.plan import roof_plan
 from report.figures.spectra import spectra
 from report.memoized import memoized
-from report.words.units import Quantity, Unit
+from report.words.units import Unit
 
 __all__ = [
     "FAMILY",
@@ -43,7 +53,7 @@ __all__ = [
 @memoized
 def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     """Return prescriptive value, floor, PRD of each motion, mean and design value by array."""
-    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
+    first, second = UnitFormat(us_first).units()
     with style():
         height = 1.3 + _row_in(len(arrays)) * len(arrays)
         names = [tick_text(array.id) for array in arrays]
@@ -55,9 +65,8 @@ def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)
-        axes.grid(True, axis="x")
-        axes.set_axisbelow(True)
         marks, names = axes.get_legend_handles_labels()
+        # In the order of a row: matplotlib lists bars last.
         order = sorted(range(len(names)), key=lambda k: _LEGEND.index(names[k]))
         figure.legend(
             [marks[k] for k in order],
@@ -82,18 +91,14 @@ def _row_in(count: int) -> float:
     return min(0.4, 5.4 / count)
 
 
-def _second_scale(axes: Axes, first: Unit, second: Unit) -> None:
+def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
+    """Add the second unit at the top; the grid is that of the first."""
     ratio = first.si / second.si
-
-    def forth(value: Any) -> Any:
-        return value * ratio
-
-    def back(value: Any) -> Any:
-        return value / ratio
-
-    other = axes.secondary_xaxis("top", functions=(forth, back))
+    other = axes.secondary_xaxis("top", functions=(lambda v: v * ratio, lambda v: v / ratio))
     other.set_xlabel(f"[{second.symbol}]")
     axes.spines["right"].set_visible(False)
+    axes.grid(True, axis="x")
+    axes.set_axisbelow(True)
 
 
 def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labeled: bool) -> None:
@@ -147,7 +152,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labele
 @memoized
 def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -> str:
     """Return required and provided separations as bars, numbered from `start`."""
-    first, second = Quantity.DISPLACEMENT.value if us_first else Quantity.DISPLACEMENT.value[::-1]
+    first, second = UnitFormat(us_first).units()
     provided = [gap.clearance.provided_m / first.si for gap in gaps]
     required = [gap.required_m / first.si for gap in gaps]
     rows = np.arange(len(gaps), dtype=float)
@@ -196,7 +201,5 @@ def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -
         axes.margins(x=0.12)
         axes.set_xlim(0, None)
         _second_scale(axes, first, second)
-        axes.grid(True, axis="x")
-        axes.set_axisbelow(True)
         figure.legend(loc="lower center", ncols=2)
         return svg_text(figure)

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from report.drawing.widths import TYPE_PT, width_in
+from report.entities.columns import UnitFormat
 from report.figures.base import (
     ACCENT,
     ACROSS,
@@ -61,7 +62,7 @@ def friction_by_velocity(
     fits : mapping of Surface to FittedLaw
         Drawn as dashed lines.
     """
-    unit = Quantity.VELOCITY.us if us_first else Quantity.VELOCITY.si
+    unit = UnitFormat(us_first).units(Quantity.VELOCITY)[0]
     shown = [run for run in runs if not math.isnan(run.velocity_mps)]
     most = 1.08 * max(run.velocity_mps for run in shown) or unit.si
     v = np.linspace(0.0, most, _POINTS)

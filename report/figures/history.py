@@ -13,13 +13,13 @@ from matplotlib.ticker import MaxNLocator
 
 from report.assessment.runs import MotionRun
 from report.drawing.widths import tick_text
+from report.entities.columns import UnitFormat
 from report.figures.base import (
     ACCENT,
     ACROSS,
     GRAY,
     INK,
     PALE,
-    WIDTH_IN,
     Broken,
     canvas,
     style,
@@ -48,11 +48,11 @@ def histories(
 
     All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
-    unit = Quantity.DISPLACEMENT.us if us_first else Quantity.DISPLACEMENT.si
-    grid = _Grid(motions, followed, unit)
+    grid = _Grid(motions, followed, UnitFormat(us_first).units()[0])
     with style():
+        # Room for the labels of the levels at the left, and of the times below the last row.
         across, up = (-0.1 * grid.columns, grid.columns), (-grid.rows - 0.3, 0.0)
-        figure, axes = canvas(WIDTH_IN, ROW_IN * grid.rows + 0.3, across, up)
+        figure, axes = canvas(ROW_IN * grid.rows + 0.3, across, up)
         _rules(axes, grid, len(motions))
         _traces(axes, grid)
         for index, run in enumerate(motions):

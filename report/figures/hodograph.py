@@ -15,9 +15,10 @@ from matplotlib.axes import Axes
 
 from report.assessment.runs import MotionRun
 from report.drawing.widths import tick_text
+from report.entities.columns import UnitFormat
 from report.figures.base import GRAY, INK, WIDTH_IN, canvas, style, svg_text
 from report.memoized import memoized
-from report.words.units import Quantity, round_below
+from report.words.units import round_below
 from solver.model import Floats, SlideHistory
 
 COLUMNS = 7
@@ -40,7 +41,7 @@ def hodographs(
     rows = math.ceil(len(paths) / columns)
     tall = rows * (panel.tall_in + TITLE_IN) + FOOT_IN
     with style():
-        figure, axes = canvas(WIDTH_IN, tall, (0.0, WIDTH_IN), (0.0, tall))
+        figure, axes = canvas(tall, (0.0, WIDTH_IN), (0.0, tall))
         for index, (run, path) in enumerate(zip(motions, paths, strict=True)):
             left = index % columns * panel.wide_in
             top = tall - index // columns * (panel.tall_in + TITLE_IN)
@@ -122,24 +123,14 @@ def thinned(x: Floats, y: Floats, step: float = STEP_IN) -> tuple[Floats, Floats
 
 def _arrow(axes: Axes) -> None:
     """Draw the downslope direction at the lower left."""
-    axes.annotate(
-        "",
-        xy=(APART_IN, 0.02),
-        xytext=(APART_IN, 0.24),
-        arrowprops={
-            "arrowstyle": "-|>",
-            "color": INK,
-            "linewidth": 0.9,
-            "shrinkA": 0,
-            "shrinkB": 0,
-        },
-    )
+    look = {"arrowstyle": "-|>", "color": INK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", (APART_IN, 0.02), (APART_IN, 0.24), arrowprops=look)
     axes.text(2 * APART_IN, 0.1, "downslope", va="center")
 
 
 def _scale_bar(axes: Axes, m_per_in: float, us_first: bool) -> None:
     """Draw a bar of a round length at the lower right."""
-    unit = Quantity.SIZE.us if us_first else Quantity.SIZE.si
+    unit = UnitFormat(us_first).units()[0]
     length = round_below(1.2 * m_per_in / unit.si)
     wide = length * unit.si / m_per_in
     right = WIDTH_IN - 0.9

@@ -9,19 +9,18 @@ from collections.abc import Mapping
 from itertools import cycle
 from typing import Any
 
-from report.figures.base import ACCENT, GRAY, INK
+from report.figures.base import ACCENT, DASHDOT, DASHED, DOTTED, GRAY, INK
 from solver.rivals.methods import METHODS
 
-_DASHED, _DOTTED, _DASHDOT, _LONG = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4)), (0, (9, 2))
-
+_LONG = (0, (9, 2))
 _STYLES = (
     ("*", "none", INK, INK),
     ("o", "-", ACCENT, "white"),
-    ("s", _DASHED, INK, "white"),
-    ("^", _DASHDOT, ACCENT, ACCENT),
-    ("v", _DOTTED, INK, INK),
+    ("s", DASHED, INK, "white"),
+    ("^", DASHDOT, ACCENT, ACCENT),
+    ("v", DOTTED, INK, INK),
     ("D", _LONG, GRAY, GRAY),
-    ("X", _DASHED, GRAY, GRAY),
+    ("X", DASHED, GRAY, GRAY),
     ("P", "none", GRAY, GRAY),
 )
 """Marker, line style, color, and color within the marker."""

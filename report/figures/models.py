@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, framed, labeled, style, svg_text
-from report.figures.scales import decades, ticks
+from report.figures.base import ACCENT, GRAY, INK, bare, boxed, framed, labeled, style, svg_text
+from report.figures.scales import logarithmic, ticks
 from report.words.letters import lettered
 from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneRun
 
@@ -72,8 +71,7 @@ def work(points: Sequence[PlaneRun]) -> str:
     """Return a line for each method, from coarse to fine; failed runs are not drawn."""
     names = list(dict.fromkeys(point.method for point in points))
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.4))
-        axes = figure.add_axes((0.085, 0.17, 0.5, 0.79))
+        figure, axes = boxed(2.4, (0.085, 0.17, 0.5, 0.79))
         for name, look in zip(names, _LOOKS, strict=False):
             own = [p for p in points if p.method == name and not math.isnan(p.seconds)]
             axes.plot(
@@ -85,15 +83,12 @@ def work(points: Sequence[PlaneRun]) -> str:
                 linewidth=1.2,
                 label=lettered(name),
             )
-        _logarithmic(axes, "Time per run [s]", "Error [% of the PRD]", 9, 8)
+        logarithmic(axes, 9, 8)
+        _finish(axes, "Time per run [s]", "Error [% of the PRD]")
         return svg_text(figure)
 
 
-def _logarithmic(axes: Axes, x: str, y: str, across: int, up: int) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    decades(axes.xaxis, across)
-    decades(axes.yaxis, up)
+def _finish(axes: Axes, x: str, y: str) -> None:
     labeled(axes, x, y)
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=3.2)
 
@@ -101,15 +96,15 @@ def _logarithmic(axes: Axes, x: str, y: str, across: int, up: int) -> None:
 def bounds(groups: Sequence[BoundRatios]) -> str:
     """Return, for each kind, the share of the pairs whose ratio to the bound exceeds a value."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.5))
-        axes = figure.add_axes((0.085, 0.165, 0.58, 0.8))
+        figure, axes = boxed(2.5, (0.085, 0.165, 0.58, 0.8))
         axes.axvline(1.0, color=INK, linewidth=0.8)
         axes.text(1.15, 0.9, "bound", color=INK)
         for group, look in zip(groups, _LOOKS, strict=False):
             above = 1.0 - np.arange(group.ratios.size) / max(group.ratios.size, 1)
             ratios, label = np.maximum(group.ratios, LEAST_RATIO), group.kind.replace("mu", "μ")
             axes.plot(ratios, above, **look | {"marker": ""}, linewidth=1.2, label=label)
+        logarithmic(axes, 8, 9)
         x = "Difference of the two runs of a pair / sum of their bounds"
-        _logarithmic(axes, x, "Share of pairs exceeding", 8, 9)
+        _finish(axes, x, "Share of pairs exceeding")
         axes.set_xlim(LEAST_RATIO, 10.0)
         return svg_text(figure)

@@ -8,9 +8,21 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, bare, labeled, panels, style, svg_text
+from report.figures.base import (
+    ACCENT,
+    DASHED,
+    GRAY,
+    INK,
+    bare,
+    boxed,
+    draw_family,
+    labeled,
+    legend_below,
+    panels,
+    style,
+    svg_text,
+)
 from report.figures.history import envelope
 from report.figures.scales import decades, ticks
 from solver.model import Floats
@@ -22,10 +34,6 @@ PAPER_P64_PERCENT = 0.48
 FIG_10_SLOPE_DEG, FIG_11_MU, FIG_12_PPA_G = 1.0, 0.5, 1.5
 READ_OFF = (2.0, 0.5)
 """The paper's example on Fig. 12: slope [deg] and limit on PRD [m]."""
-
-_DASHED, _DOTTED, _DASHDOT = (0, (4, 1.6)), (0, (1, 1.4)), (0, (5, 1.4, 1, 1.4))
-_LINES: tuple[Any, ...] = ("-", _DASHED, _DASHDOT, _DOTTED)
-_MARKERS = ("o", "s", "^", "D", "v", "X", "P", "*")
 
 
 def convergence(studies: Sequence[Convergence]) -> str:
@@ -63,7 +71,7 @@ def _errors(axes: Axes, study: Convergence) -> None:
         study.largest_error_p256_percent[by_finest],
         marker="s",
         markerfacecolor="white",
-        linestyle=_DASHED,
+        linestyle=DASHED,
         color=ACCENT,
         markersize=4,
         label=f"against P = {study.substeps[-1]}, as in the paper",
@@ -97,7 +105,7 @@ def links(comparisons: Sequence[LinkComparison]) -> str:
 def _history(axes: Axes, comparison: LinkComparison) -> None:
     for u_m, line, color, width, label in (
         (comparison.history_exact_m, "-", INK, 1.0, "exact"),
-        (comparison.history_link_m, _DASHED, ACCENT, 1.4, "link"),
+        (comparison.history_link_m, DASHED, ACCENT, 1.4, "link"),
     ):
         t, u = envelope(comparison.history_t_s, 1e3 * u_m)
         axes.plot(t, u, linestyle=line, color=color, linewidth=width, label=label)
@@ -110,7 +118,7 @@ def _over_mu(axes: Axes, comparison: LinkComparison) -> None:
     looks: tuple[tuple[str, Floats, str, Any, str, str], ...] = (
         ("PRD, exact", comparison.prd_exact_m, "o", "-", INK, INK),
         ("PRD, link", comparison.prd_link_m, "x", "", ACCENT, ACCENT),
-        ("RRD, exact", comparison.rrd_exact_m, "s", _DASHED, INK, "white"),
+        ("RRD, exact", comparison.rrd_exact_m, "s", DASHED, INK, "white"),
         ("RRD, link", comparison.rrd_link_m, "+", "", ACCENT, ACCENT),
     )
     for label, values, marker, line, color, fill in looks:
@@ -165,27 +173,10 @@ def _every(values: Floats) -> list[tuple[int, float]]:
 
 
 def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None:
-    for count, (label, prd_m) in enumerate(family):
-        axes.plot(
-            x,
-            1e3 * prd_m,
-            linestyle=_LINES[count % 4],
-            marker=_MARKERS[count % 8],
-            markersize=3.2,
-            linewidth=0.9,
-            color=INK if count % 2 == 0 else ACCENT,
-            label=label,
-            clip_on=False,
-        )
+    draw_family(axes, x, ((label, 1e3 * prd_m) for label, prd_m in family), clip_on=False)
     axes.set_ylim(0.0, None)
     axes.set_xlim(x[0], x[-1])
-    axes.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.22),
-        ncols=4,
-        handlelength=2.4,
-        columnspacing=1.0,
-    )
+    legend_below(axes, 0.22, 4)
 
 
 def contours(study: DesignCurves) -> str:
@@ -194,8 +185,7 @@ def contours(study: DesignCurves) -> str:
     prd_mm = 1e3 * study.prd_m[:, :, ppa]
     slope_deg, wanted_m = READ_OFF
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.1))
-        axes = figure.add_axes((0.085, 0.135, 0.9, 0.82))
+        figure, axes = boxed(3.1, (0.085, 0.135, 0.9, 0.82))
         levels = [v for v in _LEVELS_MM if prd_mm.min() < v < prd_mm.max()]
         drawn = axes.contour(
             study.mus,
@@ -204,7 +194,7 @@ def contours(study: DesignCurves) -> str:
             levels,
             colors=INK,
             linewidths=[1.5 if v in (500.0, 1000.0) else 0.8 for v in levels],
-            linestyles=["-" if v in (500.0, 1000.0) else _DASHED for v in levels],
+            linestyles=["-" if v in (500.0, 1000.0) else DASHED for v in levels],
         )
         axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", inline_spacing=2)
         least = study.minimum_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)

@@ -72,7 +72,7 @@ def roof_plan(assessment: Assessment, size: PlanSize) -> str:
 def plan_figure(assessment: Assessment, size: PlanSize) -> Figure:
     """Paint the plan."""
     paper = plan_on_paper(assessment, size)
-    figure, axes = canvas(paper.wide, paper.tall, (0.0, paper.wide), (0.0, paper.tall))
+    figure, axes = canvas(paper.tall, (0.0, paper.wide), (0.0, paper.tall), paper.wide)
     for order, item in enumerate(paper.items):
         axes.add_artist(_artist(item)).set_zorder(order)
     return figure

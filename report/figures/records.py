@@ -6,7 +6,6 @@ needs no font. Read `report.figures.base` first.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 import matplotlib as mpl
@@ -15,9 +14,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, style, svg_text
+from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, png_bytes, style, svg_text
 from report.figures.history import envelope
 from report.figures.scales import ticks
+from report.words.formats import shortened
 from report.words.units import G_MPS2
 from solver.model import Floats
 from solver.records.record import Record
@@ -26,7 +26,6 @@ MOST = 12
 """Maximum number of channels in one picture."""
 
 _POINTS = 3000
-_DPI = 200
 _PANEL_IN, _TITLE_IN, _SPECTRUM_IN = 0.72, 0.24, 2.5
 _BOTTOM_IN, _GAP_IN, _LEGEND_IN = 0.42, 0.72, 0.19
 _LEFT, _RIGHT = 0.085, 0.985
@@ -55,10 +54,7 @@ def records_svg(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> s
 def records_png(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> bytes:
     """Return the picture of `records_svg` as a PNG."""
     with style():
-        out = io.BytesIO()
-        figure = _figure(records, periods_s, sa_g)
-        figure.savefig(out, format="png", dpi=_DPI, metadata={"Software": None})
-        return out.getvalue()
+        return png_bytes(_figure(records, periods_s, sa_g))
 
 
 def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figure:
@@ -106,7 +102,7 @@ def _history(axes: Axes, record: Record) -> None:
     axes.plot(*envelope(t, a_g, _POINTS), color=ACCENT, linewidth=0.5)
     top = int(np.abs(a_g).argmax())
     axes.plot([t[top]], [a_g[top]], linestyle="", marker="o", markersize=3.0, color=INK)
-    axes.set_title(_cut(record.name, 70), loc="left", weight="semibold", pad=2.0)
+    axes.set_title(shortened(record.name, 70), loc="left", weight="semibold", pad=2.0)
     peak = f"PGA {abs(a_g[top]):.3g} g at {t[top]:.2f} s"
     axes.set_title(peak, loc="right", pad=2.0)
     labeled(axes, y="a [g]")
@@ -117,15 +113,16 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
         color = _COLORS[place % len(_COLORS)]
         dash = _DASHES[place % len(_DASHES)]
         axes.plot(
-            periods_s, row, color=color, linestyle=dash, linewidth=1.2, label=_cut(record.name, 30)
+            periods_s,
+            row,
+            color=color,
+            linestyle=dash,
+            linewidth=1.2,
+            label=shortened(record.name, 30),
         )
     axes.set_xscale("log")
     axes.set_xlim(periods_s[0], periods_s[-1])
     axes.set_ylim(0.0, None)
     ticks(axes.xaxis, _TICKS_S)
-    word = "spectrum" if len(records) == 1 else "spectra"
-    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", f"Response {word}, 5 % damping")
-
-
-def _cut(name: str, maximum: int) -> str:
-    return name if len(name) <= maximum else f"{name[: maximum - 1]}…"
+    title = f"Response {'spectrum' if len(records) == 1 else 'spectra'}, 5 % damping"
+    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", title)

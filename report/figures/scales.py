@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
@@ -32,6 +33,14 @@ def decades(axis: Axis, maximum: int = 9) -> None:
     axis.set_major_locator(LogLocator(numticks=maximum))
     axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
     axis.set_minor_locator(NullLocator())
+
+
+def logarithmic(axes: Axes, across: int, up: int) -> None:
+    """Make both axes logarithmic, each with at most so many powers of ten."""
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    decades(axes.xaxis, across)
+    decades(axes.yaxis, up)
 
 
 def ticks(axis: Axis, values: Sequence[float]) -> None:

@@ -40,7 +40,7 @@ def array_section(array: Array, us_first: bool) -> str:
     """Return the section with b, c, slope and friction, and the forces during downslope slip."""
     drawn = math.radians(drawn_slope_deg(array))
     with style(), mpl.rc_context(_TYPE):
-        figure, axes = canvas(WIDTH_IN, _HEIGHT_IN, (0.0, WIDTH_IN), (0.0, _HEIGHT_IN))
+        figure, axes = canvas(_HEIGHT_IN, (0.0, WIDTH_IN), (0.0, _HEIGHT_IN))
         rise = math.tan(drawn)
         _section(axes, _Roof(0.15, 0.58 + 3.0 * rise, drawn), array, us_first)
         _free_body(axes, _Roof(_SPLIT_IN + 0.45, 0.72 + 2.0 * rise, drawn))

@@ -9,12 +9,12 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from report.assessment.spectra import Spectra
 from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, Broken, bare, style, svg_text
-from report.figures.scales import ticks
 from report.memoized import memoized
 from solver.model import Floats
 
@@ -73,8 +73,15 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
     axes.plot(
         part.periods_s, part.target_g, color=INK, linewidth=1.4, linestyle=_DASHES, label="target"
     )
-    ticks(axes.yaxis, _LEVELS if high < 30.0 * low else _LEVELS[::3])
+    _label(axes.yaxis, _LEVELS if high < 30.0 * low else _LEVELS[::3])
     axes.set_title(f"{part.title} [g]", loc="left", weight="semibold", pad=3)
+
+
+def _label(axis: Axis, values: Sequence[float]) -> None:
+    # Not `scales.ticks`: small ordinates are printed in full here.
+    axis.set_major_locator(FixedLocator(values))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
 
 
 def _ratios(axes: Axes, part: Spectra) -> None:
@@ -85,7 +92,7 @@ def _ratios(axes: Axes, part: Spectra) -> None:
     if high > _FACTOR:
         axes.set_ylim(0.85 * min(low, 1.0), 1.2 * high)
         axes.set_yscale("log")
-        ticks(axes.yaxis, _LEVELS if high < 20.0 else _LEVELS[::3])
+        _label(axes.yaxis, _LEVELS if high < 20.0 else _LEVELS[::3])
     else:
         axes.set_ylim(min(low, 1.0) - 0.04, max(high, 1.0) + 0.04)
         axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
@@ -105,10 +112,10 @@ def _lines(axes: Axes, periods_s: Floats, rows: Floats) -> None:
     axes.plot(periods_s, rows.mean(axis=0), color=ACCENT, linewidth=1.8, label="mean")
 
 
-def _finish(axes: Axes, part: Spectra, marked: Sequence[float], *, is_last: bool) -> None:
+def _finish(axes: Axes, part: Spectra, ticks: Sequence[float], *, is_last: bool) -> None:
     axes.set_xscale("log")
-    axes.set_xlim(marked[0], part.periods_s[-1])
-    ticks(axes.xaxis, marked)
+    axes.set_xlim(ticks[0], part.periods_s[-1])
+    _label(axes.xaxis, ticks)
     if is_last:
         axes.set_xlabel("Period T [s]")
     else:

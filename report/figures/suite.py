@@ -5,19 +5,27 @@ Computes only the layout; the picture is a stand-alone file. Read `report.figure
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, Broken, labeled, style
+from report.figures.base import (
+    ACCENT,
+    GRAY,
+    INK,
+    PALE,
+    Broken,
+    labeled,
+    panels,
+    png_bytes,
+    style,
+)
 from report.figures.scales import ticks
+from solver.model import Floats
 from solver.synthesis import SpectrumFit
 
-_DPI = 200
 _PANEL_IN, _GAP_IN, _TOP_IN, _BOTTOM_IN = 1.55, 0.5, 0.5, 0.46
 _TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _TICKS_G = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
@@ -30,7 +38,6 @@ class Panel:
 
     Attributes
     ----------
-    title : str
     fits : tuple of SpectrumFit
         One per motion, all at the same frequencies.
     band_hz, limits : tuple of float
@@ -43,21 +50,15 @@ class Panel:
     limits: tuple[float, float]
 
 
-def suite_png(panels: Sequence[Panel]) -> bytes:
+def suite_png(components: Sequence[Panel]) -> bytes:
     """Return a picture with a row for each component: spectra left, ratios right."""
     with style():
-        height = _TOP_IN + _BOTTOM_IN + len(panels) * (_PANEL_IN + _GAP_IN) - _GAP_IN
-        figure = Figure(figsize=(WIDTH_IN, height))
-        grid = figure.subplots(len(panels), 2, squeeze=False)
-        figure.subplots_adjust(
-            left=0.075,
-            right=0.985,
-            top=1 - _TOP_IN / height,
-            bottom=_BOTTOM_IN / height,
-            hspace=_GAP_IN / _PANEL_IN,
-            wspace=0.16,
-        )
-        for (left, right), panel in zip(grid, panels, strict=True):
+        rows = len(components)
+        height = _TOP_IN + _BOTTOM_IN + rows * (_PANEL_IN + _GAP_IN) - _GAP_IN
+        margins = {"left": 0.075, "right": 0.985, "above": _TOP_IN, "below": _BOTTOM_IN}
+        between = {"hspace": _GAP_IN / _PANEL_IN, "wspace": 0.16}
+        figure, grid = panels(rows, 2, height, **margins, **between)
+        for (left, right), panel in zip(grid, components, strict=True):
             _spectra(left, panel)
             _ratios(right, panel)
         for axes in grid[-1]:
@@ -65,9 +66,7 @@ def suite_png(panels: Sequence[Panel]) -> bytes:
         marks, names = grid[0][0].get_legend_handles_labels()
         more = grid[0][1].get_legend_handles_labels()
         figure.legend(marks + more[0], names + more[1], loc="upper center", ncols=5, borderpad=0.2)
-        out = io.BytesIO()
-        figure.savefig(out, format="png", dpi=_DPI, metadata={"Software": None})
-        return out.getvalue()
+        return png_bytes(figure)
 
 
 def _spectra(axes: Axes, panel: Panel) -> None:
@@ -88,8 +87,8 @@ def _spectra(axes: Axes, panel: Panel) -> None:
     )
     axes.set_yscale("log")
     ticks(axes.yaxis, _TICKS_G)
+    _periods(axes, periods)
     labeled(axes, y="Pseudo-acceleration [g]", title=panel.title)
-    _periods(axes, periods[-1], periods[0])
 
 
 def _ratios(axes: Axes, panel: Panel) -> None:
@@ -109,11 +108,11 @@ def _ratios(axes: Axes, panel: Panel) -> None:
     axes.axvspan(slow, periods[0], color=PALE, alpha=0.5, linewidth=0, label=beyond)
     axes.axvspan(periods[-1], fast, color=PALE, alpha=0.5, linewidth=0)
     axes.set_ylim(*_RATIO_RANGE)
+    _periods(axes, periods)
     labeled(axes, y="Achieved / target")
-    _periods(axes, periods[-1], periods[0])
 
 
-def _periods(axes: Axes, shortest_s: float, longest_s: float) -> None:
+def _periods(axes: Axes, periods_s: Floats) -> None:
     axes.set_xscale("log")
-    axes.set_xlim(shortest_s, longest_s)
+    axes.set_xlim(periods_s[-1], periods_s[0])
     ticks(axes.xaxis, _TICKS_S)

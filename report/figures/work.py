@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from report.figures.base import GRAY, INK, PALE, Broken, labeled, panels, style, svg_text
 from report.figures.methods import LOOKS
-from report.figures.scales import decades
+from report.figures.scales import logarithmic
 from solver.model import Floats
 from solver.verification.evidence import WorkPoint, by_setting
 
@@ -85,7 +85,7 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
                 if curve.method == "exact":
                     _name_floor(axes, curve)
             labeled(axes, "Time per run [s]", title=f"Error in {name}")
-            _log_axes(axes)
+            logarithmic(axes, 9, 12)
         grid[0, 0].set_ylabel(f"Median error over analysis cases [{UNITS[unit]}]")
         handles, labels = grid[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="lower center", ncols=4, handlelength=3.2)
@@ -100,13 +100,6 @@ def _name_floor(axes: Axes, curve: WorkCurve) -> None:
         textcoords="offset points",
         va="center",
     )
-
-
-def _log_axes(axes: Axes, across: int = 9, up: int = 12) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    decades(axes.xaxis, across)
-    decades(axes.yaxis, up)
 
 
 def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
@@ -158,4 +151,4 @@ def _panel(axes: Axes, curve: WorkCurve, shown: Sequence[WorkCurve]) -> None:
         axes.vlines(curve.seconds, curve.low, curve.high, color=INK, linewidth=0.8, zorder=2.5)
     labeled(axes)
     axes.set_title(look["label"], loc="left")
-    _log_axes(axes, across=5, up=6)
+    logarithmic(axes, 5, 6)

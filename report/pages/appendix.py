@@ -134,6 +134,7 @@ def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Ech
     equal = [cells[0] for cells in given if _is_equal(cells, len(lines), changed)]
     shown = [cells for cells in given if cells[0] not in equal]
     alike = [f"{_column_letters(row)} {row.label} {_as_entered(row, row.unit)}" for row in equal]
+    # The notes stand below the last part. Where all columns are in them, one stands for the rows.
     *chunks, last = list(_chunks(shown)) or [[given[0]]]
     for chunk in chunks:
         yield _columns(lines, chunk, changed), (), ()

@@ -89,7 +89,6 @@ def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
 
 
 def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
-    """Return the peaks of each component on the ground and at the roof."""
     columns = (
         (words("Motion", 1.2), lambda item: item.motion),
         (words("Component", 1.3), lambda item: item.name),

@@ -54,7 +54,6 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
 
 
 def _requirements(package: PackageData) -> Table:
-    """Return the requirements beside the numeric limits, each with its verdict."""
     columns = (
         (words("Item", 0.9), lambda row: row.subject or "Project"),
         (words("Requirement", 2.3), lambda row: with_symbols(row.title)),

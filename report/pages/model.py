@@ -59,7 +59,6 @@ def _limited(demand: float) -> str:
 
 
 def _stability_table(package: PackageData) -> Table:
-    """Return the checks of uplift and tipping."""
     columns = (
         (words("Array", 0.8), lambda item: item.id),
         (plain("Min. N", unit="m g"), lambda item: item.uplift.n_min_g),

@@ -41,7 +41,6 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 
 def _motion_table(package: PackageData) -> Table:
-    """Return the list of the motions as run."""
     shaking = package.assessment.shaking
     place: Column = (words("Given at", 1.25), lambda row: row[1].recorded_at.value)
     columns = (

@@ -78,6 +78,7 @@ def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[st
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
     """Return what the tables and sentences of the summary leave of its last sheet [in]."""
+    # Estimated: the plan is drawn before the pages are laid out.
     assessment, found = package.assessment, limits.troubles(package)
     failed = sum(gap.verdict is Verdict.NG for gap in assessment.clearances)
     # Their conditions take two lines.

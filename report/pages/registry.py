@@ -37,10 +37,6 @@ Fill = Callable[[PackageData, Evidence], Content]
 Below = tuple[tuple[str, str], ...]
 
 
-def _nothing_below(_: PackageData) -> Below:
-    return ()
-
-
 @dataclass(frozen=True, slots=True)
 class Page:
     """A part of the package.
@@ -61,7 +57,7 @@ class Page:
     id: str
     title: str
     fill: Fill
-    below: Callable[[PackageData], Below] = _nothing_below
+    below: Callable[[PackageData], Below] = lambda _: ()
     is_appendix: bool = False
 
 

@@ -32,7 +32,8 @@ def answers(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, ob
     if not remedies:
         return {}
     found = [_answer(package, remedy) for remedy in remedies]
-    groups = groupby(found, key=lambda one: (one.remedy.clearance, _of_array(one.remedy)))
+    # Of a clearance all arrays together; what is of none, each array by itself.
+    groups = groupby(found, key=lambda one: one.remedy.clearance or one.remedy.array)
     return {
         "groups": [_group(package, list(group)) for _, group in groups],
         "bases": dict.fromkeys(
@@ -42,10 +43,6 @@ def answers(package: PackageData, remedies: Sequence[Remedy]) -> Mapping[str, ob
         ),
         "table": _table(package, found),
     }
-
-
-def _of_array(remedy: Remedy) -> str:
-    return "" if remedy.clearance else remedy.array
 
 
 def _answer(package: PackageData, remedy: Remedy) -> PrintedRemedy:

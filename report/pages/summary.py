@@ -24,6 +24,7 @@ from report.sheet.schema import ModelChoice
 from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
 from report.words.counts import lowered
+from report.words.formats import aligned
 from report.words.units import Quantity, compared, no_less, pair, ratio, rounding
 from solver.model import Status
 
@@ -54,10 +55,7 @@ def summary(assessment: Assessment) -> Iterator[str]:
     """Yield the table of the arrays, what needs attention, and the verdict."""
     marked = Marked(assessment=assessment, has_daggers=False)
     rows = [_COLUMNS, *(_row(marked.fmt, item) for item in array_results(marked))]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
-        yield "  ".join(cells).rstrip()
+    yield from aligned(rows)
     if assessment.is_overridden:
         yield MEANING
     for line in attention(assessment):

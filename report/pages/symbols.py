@@ -90,6 +90,7 @@ SYMBOLS: Mapping[str, str] = {
 
 
 _STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
+# Those with a subscript: a letter alone may be a word.
 _NAME = re.compile(rf"\b(?:{'|'.join(name for name in SYMBOLS if '_' in name)})\b")
 
 

@@ -93,7 +93,10 @@ def _is_number(value: Any) -> bool:
 
 
 def _short(value: Any) -> str:
-    text = json.dumps(value, ensure_ascii=False)
+    return _cut(json.dumps(value, ensure_ascii=False))
+
+
+def _cut(text: str) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
@@ -118,9 +121,7 @@ def word_differences(claimed: str, computed: str) -> list[str]:
 
 
 def _quoted(words: Sequence[str]) -> str:
-    text = " ".join(words)
-    shown = text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
-    return f"'{shown}'" if words else "nothing"
+    return f"'{_cut(' '.join(words))}'" if words else "nothing"
 
 
 def listed(differences: Sequence[str]) -> list[str]:

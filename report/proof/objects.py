@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Set
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import Any
 
 from pypdf import PdfReader
@@ -98,7 +99,8 @@ class _Walk:
                 if isinstance(one, StreamObject) and self._is_other(place, one, two):
                     yield place
             elif isinstance(one, ArrayObject):
-                pending += reversed([*_items(place, one, two)])
+                pairs = enumerate(zip_longest(one, two, fillvalue=MISSING))
+                pending += reversed([(f"{place}[{at}]", *pair) for at, pair in pairs])
             elif one != two:
                 yield place
 
@@ -130,12 +132,3 @@ def _type(item: Any) -> type:
 
 _UPWARD = {"/Parent", "/P"}
 _PACKING = {"/Length", "/Filter", "/DecodeParms"}
-
-
-def _items(place: str, one: Any, two: Any) -> Iterator[_Pair]:
-    for at in range(max(len(one), len(two))):
-        yield (
-            f"{place}[{at}]",
-            one[at] if at < len(one) else MISSING,
-            two[at] if at < len(two) else MISSING,
-        )

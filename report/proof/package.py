@@ -35,12 +35,10 @@ class ReadPackage:
 
     Attributes
     ----------
-    path : Path
     data : bytes
         The whole file.
     first : bytes
         Its first revision: what `roofslip report` wrote, unless the file was rewritten.
-    manifest : Manifest
     files : mapping of str to bytes
         Attachments of the first revision by name.
     pdf : PdfReader
@@ -77,6 +75,7 @@ def open_package(path: Path) -> ReadPackage:
     end = _END.search(data)
     if not data.startswith(b"%PDF-") or end is None:
         raise InputError("is no PDF, or is cut off; get the file again from where it was issued")
+    # What was appended later has an end of its own.
     first = data[: end.end()]
     pdf = guarded(lambda: reader(first))
     files = guarded(lambda: _attachments(pdf))

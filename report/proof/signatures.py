@@ -26,7 +26,6 @@ class Signature:
         Name of its field.
     signer : str
         As the certificate states it; empty if nothing was checked.
-    is_checked : bool
     problem : str
         Why it does not fit; empty if it does, or if nothing was checked.
     """

@@ -176,6 +176,7 @@ def _listing(
         expected["sbom_sha256"] = theirs.sbom_sha256
     for text in number_differences(package.listing, expected, 0.0):
         yield f"{MANIFEST}: {text}"
+    # Python, the system and native libraries are in no bill of materials.
     unlisted = ours.manifest.environment.keys() - distributions().keys()
     has_other_bill = not others.keys() <= unlisted
     if has_other_bill and theirs.sbom_sha256 == ours.manifest.sbom_sha256:

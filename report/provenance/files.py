@@ -9,7 +9,7 @@ import hashlib
 import json
 import posixpath
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
@@ -36,9 +36,11 @@ MOST_RECORDS = 20_000_000
 SHORT = 12
 """Characters of a hash where there is no room for all 64."""
 
-_XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
-_JSON = "application/json"
-
+_MIMES = {
+    ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    ".json": "application/json",
+    ".csv": "text/csv",
+}
 
 _Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
 
@@ -162,7 +164,7 @@ def _unlike(found: Sequence[SourceFile]) -> Iterator[SourceFile]:
         if name.casefold() in taken:
             name = f"renamed/{count}/{posixpath.basename(source.path)}"
         taken.add(name.casefold())
-        yield SourceFile(path=source.path, name=name, content=source.content, kind=source.kind)
+        yield replace(source, name=name)
 
 
 def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:
@@ -215,12 +217,7 @@ def _attached(source: SourceFile) -> Attached:
     return Attached(
         name=source.name,
         content=source.content,
-        mime=_mime(source.name),
+        mime=_MIMES.get(posixpath.splitext(source.name)[1].lower(), "text/plain"),
         relationship=relationship,
         description=description,
     )
-
-
-def _mime(name: str) -> str:
-    known = {".xlsx": _XLSX, ".json": _JSON, ".csv": "text/csv"}
-    return known.get(posixpath.splitext(name)[1].lower(), "text/plain")

@@ -158,7 +158,7 @@ def _shown(entry: Entry, value: Any, us_first: bool) -> str:
         return str(YesNo.YES if value else YesNo.NO)
     if isinstance(value, (int, float)):
         if entry.quantity:
-            unit = entry.quantity.us if us_first else entry.quantity.si
+            unit = UnitFormat(us_first).units(entry.quantity)[0]
             return f"{value / unit.si:.8g} {unit.symbol}"
         return f"{value:.8g} {entry.cell.unit}".rstrip()
     return str(value)

@@ -156,6 +156,7 @@ def write_rows(pages: Pages, sheet: Worksheet, top: int, rows: Iterable[SheetRow
         for at, (name, _, column) in enumerate(columns_of(type(row))):
             if name in row.blanks:
                 continue
+            # A field may have several columns: the formula of a row is that of the first.
             is_first = letters[name] == xl_col_to_name(at)
             formula = row.formulas.get(name, column.formula) if is_first else column.formula
             formula = formula.format(**own, **row.refs)

@@ -40,7 +40,6 @@ class ArrayCapacities:
     effects : tuple of mappings of str to float
         Dispersion of the capacity due to friction and slope, by the names of `ArrayPlan.shifts`,
         for each of `SHARES`; NaN if not determined.
-    runs : int
     """
 
     found: tuple[Capacities, ...]

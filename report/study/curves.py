@@ -53,17 +53,16 @@ def curves(results: StudyResults, building: int) -> Section:
     )
 
 
-def _beside(results: StudyResults, building: int) -> Floats:
-    """Return the mean that is drawn beside the design displacement; NaN where that is drawn."""
-    mean = results.curves.mean_m[building]
-    return mean if results.plan.design_rule.has_value else np.full_like(mean, np.nan)
+def _drawn(results: StudyResults, building: int) -> tuple[Floats, Floats]:
+    """Return the leading displacement and the mean beside it; NaN where the mean leads."""
+    values, mean = results.displacements[results.leading][building], results.curves.mean_m[building]
+    return values, mean if results.plan.design_rule.has_value else np.full_like(mean, np.nan)
 
 
 def _against_intensity(results: StudyResults, building: int, m: int) -> str:
-    """Return the curves of a friction against intensity, by slope."""
     given = results.plan.input
     shown = some(given.slopes_deg, MOST_LINES)
-    values, mean = results.displacements[results.leading][building], _beside(results, building)
+    values, mean = _drawn(results, building)
     return figures.curves(
         np.array(given.intensities),
         [(f"{given.slopes_deg[s]:g}°", values[s, m]) for s in shown],
@@ -74,10 +73,9 @@ def _against_intensity(results: StudyResults, building: int, m: int) -> str:
 
 
 def _against_slope(results: StudyResults, building: int, m: int) -> str:
-    """Return the curves of a friction against slope, by intensity."""
     given = results.plan.input
     shown = some(given.intensities, MOST_LINES)
-    values, mean = results.displacements[results.leading][building], _beside(results, building)
+    values, mean = _drawn(results, building)
     return figures.curves(
         np.array(given.slopes_deg),
         [(level(results, given.intensities[x]), values[:, m, x]) for x in shown],
@@ -90,11 +88,11 @@ def _against_slope(results: StudyResults, building: int, m: int) -> str:
 def _sheets(results: StudyResults, building: int) -> Iterator[tuple[str, str, bool]]:
     """Yield contour sheets: name, drawing, and whether it has the allowed displacement."""
     given = results.plan.input
-    values, mean = results.displacements[results.leading][building], _beside(results, building)
+    values, mean = _drawn(results, building)
     allowed_m = given.study.allowed_m or math.nan
     for x, cut, along, name in _cuts(results):
         if len(x) < 2 or len(given.slopes_deg) < 2 or np.isnan(values[cut]).all():
-            continue
+            continue  # one row or column has no contours
         svg = figures.contours(
             np.array(x),
             np.array(given.slopes_deg),

@@ -34,9 +34,6 @@ class DesignRule:
 
     Attributes
     ----------
-    rules : RuleSet
-    n_motions : int
-    basis : Basis
     prescriptive_m, floor_m : array, shape (intensities,)
         Prescriptive displacement, and the minimum of the value from analysis without peer review
         [m]; empty unless the intensity is S_DS, from which they follow.

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.study.plan import FRICTION, SLOPE, ArrayPlan
+from report.study.plan import FRICTION, SLOPE
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from solver.studies.fragility import Lognormal
@@ -46,12 +46,15 @@ def dispersions(
     record = "these motions", state.fragility.fitted.beta
     if study.record_beta is not None:
         record = study.record_source, study.record_beta
+    mu, slope = plan.spreads[FRICTION], plan.spreads[SLOPE]
+    tests = f"tests of {plan.array.mat}, standard deviation of ln μ {mu.deviation:.3f}"
+    tolerance = f"tolerance, standard deviation {slope.deviation:.2g} deg"
     found = (
         record,
         _entered(study.modeling_beta),
         _entered(study.quality_beta),
-        _of_effect(state, FRICTION, f"mat {plan.array.mat} has no tests", _tests(plan)),
-        _of_effect(state, SLOPE, "no tolerance is given", _tolerance(plan)),
+        _of_effect(state, FRICTION, f"mat {plan.array.mat} has no tests", tests),
+        _of_effect(state, SLOPE, "no tolerance is given", tolerance),
     )
     return tuple(
         Dispersion(name=name, source=source, beta=beta)
@@ -68,15 +71,6 @@ def _of_effect(state: LimitState, variable: str, lacking: str, source: str) -> t
     if beta is None:
         return lacking, 0.0
     return (NOT_DETERMINED, 0.0) if math.isnan(beta) else (source, beta)
-
-
-def _tests(plan: ArrayPlan) -> str:
-    deviation = plan.spreads[FRICTION].deviation
-    return f"tests of {plan.array.mat}, standard deviation of ln μ {deviation:.3f}"
-
-
-def _tolerance(plan: ArrayPlan) -> str:
-    return f"tolerance, standard deviation {plan.spreads[SLOPE].deviation:.2g} deg"
 
 
 def exported(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> Lognormal:

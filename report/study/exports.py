@@ -5,8 +5,6 @@ Computes nothing. Read `export_files`.
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import re
 from collections.abc import Mapping
@@ -20,6 +18,7 @@ from report.sheet.schema import RecordedAt
 from report.study.dispersion import MASS, dispersions, exported, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
+from report.study.tables import Row, csv_text
 from report.study.words import NO_NUMBER, context, warning
 from report.typeset.pdf import TEMPLATES
 from report.words.counts import capitalized
@@ -118,20 +117,16 @@ def component_id(results: StudyResults, one: ArrayStudyResult) -> str:
 
 def _library(results: StudyResults, known: list[ArrayStudyResult]) -> str:
     demand, unit = DEMANDS[results.plan.input.study.intensity]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
     states = [f"LS{k}-{name}" for k in range(1, MOST_STATES + 1) for name in _COLUMNS]
-    writer.writerow(
-        ["ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional",
-         *states]
-    )  # fmt: skip
+    rows: list[Row] = [
+        ("ID", "Incomplete", "Demand-Type", "Demand-Unit", "Demand-Offset", "Demand-Directional",
+         *states)
+    ]  # fmt: skip
     for one in known:
-        cells: list[object] = []
-        for state in one.states:
-            cells += _cells(results, one, state)
+        cells = [cell for state in one.states for cell in _cells(results, one, state)]
         cells += [""] * (len(states) - len(cells))
-        writer.writerow([component_id(results, one), 0, demand, unit, 0, 0, *cells])
-    return text.getvalue()
+        rows.append((component_id(results, one), 0, demand, unit, 0, 0, *cells))
+    return csv_text(rows)
 
 
 def _cells(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> list[str]:
@@ -139,11 +134,8 @@ def _cells(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> l
     f = exported(results, one, state)
     if not f.is_known:
         return ["", "", "", "", f"{sentence(state)} {_sentence(NO_NUMBER)}"]
-    return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", _words(results, state)]
-
-
-def _words(results: StudyResults, state: LimitState) -> str:
-    return f"{sentence(state)}{_warned(results)}"
+    about = f"{sentence(state)}{_warned(results)}"
+    return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", about]
 
 
 def sentence(state: LimitState) -> str:
@@ -192,16 +184,13 @@ def _entry(results: StudyResults, one: ArrayStudyResult) -> dict[str, object]:
 
 
 def _placement(results: StudyResults, known: list[ArrayStudyResult]) -> str:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment"])
     kind = results.plan.input.study.intensity
     about = _said(results, "measured", DEMANDS[kind]) + _warned(results)
+    rows: list[Row] = [("", "Units", "Location", "Direction", "Theta_0", "Blocks", "Comment")]
     for one in known:
         comment = f"Array {one.plan.array.id}. {about}"
-        row = ["ea", "roof", 0, 1, "", comment]
-        writer.writerow([component_id(results, one), *row])
-    return text.getvalue()
+        rows.append((component_id(results, one), "ea", "roof", 0, 1, "", comment))
+    return csv_text(rows)
 
 
 def _nrml(results: StudyResults) -> bytes:
@@ -232,6 +221,7 @@ def _nrml(results: StudyResults) -> bytes:
         imls.text = " ".join(f"{x:.9g}" for x in levels)
         for state, row in zip(one.states, probabilities_of(results, one), strict=True):
             poes = ET.SubElement(function, f"{{{NRML}}}poes", {"ls": state.name})
+            # Rounded to the safe side: a probability of exceedance is never understated.
             poes.text = " ".join(f"{round_up(float(p), 6):.6f}" for p in row)
     ET.indent(root)
     return bytes(ET.tostring(root, encoding="utf-8", xml_declaration=True)) + b"\n"

@@ -11,16 +11,27 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.contour import QuadContourSet
-from matplotlib.figure import Figure
 
-from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, labeled, style, svg_text
+from report.figures.base import (
+    ACCENT,
+    GRAY,
+    INK,
+    LINES,
+    MARKERS,
+    PALE,
+    bare,
+    boxed,
+    draw_family,
+    labeled,
+    legend_below,
+    panels,
+    style,
+    svg_text,
+)
 from report.study.results import LimitState
 from report.words.units import Unit, digits_down
 from solver.model import Floats
 from solver.studies.uncertainty import Bar
-
-LINES: tuple[Any, ...] = ("-", (0, (4, 1.6)), (0, (5, 1.4, 1, 1.4)), (0, (1, 1.4)))
-MARKERS = "os^DvXP*"
 
 
 def curves(
@@ -42,39 +53,20 @@ def curves(
         Mean PRD of each member [m], in thin lines.
     """
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 3.6))
-        axes = figure.add_axes((0.085, 0.285, 0.89, 0.69))
-        for count, (label, prd_m) in enumerate(family):
-            axes.plot(
-                x,
-                prd_m / unit.si,
-                linestyle=LINES[count % 4],
-                marker=MARKERS[count % 8],
-                markersize=3.2,
-                linewidth=0.9,
-                color=INK if count % 2 == 0 else ACCENT,
-                label=f"{label}: none" if np.isnan(prd_m).all() else label,
-            )
+        figure, axes = boxed(3.6, (0.085, 0.285, 0.89, 0.69))
+        # A member without any value is named, so that nobody looks for its line.
+        named = [(f"{label}: none" if np.isnan(v).all() else label, v) for label, v in family]
+        draw_family(axes, x, ((label, prd_m / unit.si) for label, prd_m in named))
         for count, prd_m in enumerate(v for v in beside if not np.isnan(v).all()):
             label = "_" if count else "mean PRD"  # an underscore: not in the legend
             axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=0.6, label=label, zorder=1.5)
         for label, prd_m in limits:
             axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=2.0, label=label)
-        _finish(axes, x, along, f"Displacement [{unit.symbol}]")
+        axes.set_xlim(min(0.0, x[0]), x[-1])
+        axes.set_ylim(0.0, None)
+        labeled(axes, along, f"Displacement [{unit.symbol}]")
+        legend_below(axes, 0.16, 5)
         return svg_text(figure)
-
-
-def _finish(axes: Axes, x: Floats, along: str, up: str) -> None:
-    axes.set_xlim(min(0.0, x[0]), x[-1])
-    axes.set_ylim(0.0, None)
-    labeled(axes, along, up)
-    axes.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.16),
-        ncols=5,
-        handlelength=2.4,
-        columnspacing=1.0,
-    )
 
 
 def contours(
@@ -97,8 +89,7 @@ def contours(
         NaN for none.
     """
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 7.6))
-        axes = figure.add_axes((0.085, 0.075, 0.89, 0.91))
+        figure, axes = boxed(7.6, (0.085, 0.075, 0.89, 0.91))
         grid, levels = (x, slopes_deg), _levels(unit)
         allowed = allowed_m / unit.si
         others = [value for value in levels if value != round(allowed, 6)]
@@ -173,8 +164,7 @@ def _levels(unit: Unit) -> tuple[float, ...]:
 def fragilities(states: Sequence[LimitState], along: str) -> str:
     """Return fitted fragilities with their data points and the confidence of the medians."""
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.9))
-        axes = figure.add_axes((0.085, 0.345, 0.89, 0.635))
+        figure, axes = boxed(2.9, (0.085, 0.345, 0.89, 0.635))
         levels = states[0].fragility.levels
         fine = np.linspace(levels[-1] / 300.0, levels[-1], 300)
         for count, state in enumerate(states):
@@ -202,13 +192,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         axes.set_xlim(0.0, levels[-1])
         axes.set_ylim(0.0, 1.02)
         labeled(axes, along, "Chance of exceedance")
-        axes.legend(
-            loc="upper center",
-            bbox_to_anchor=(0.5, -0.22),
-            ncols=3,
-            handlelength=2.0,
-            columnspacing=0.8,
-        )
+        legend_below(axes, 0.22, 3, handlelength=2.0, columnspacing=0.8)
         return svg_text(figure)
 
 
@@ -221,15 +205,13 @@ def goodness(states: Sequence[LimitState], along: str) -> str:
         At least one, each with a p-value.
     """
     with style():
-        figure = Figure(figsize=(WIDTH_IN, 2.4))
-        panels = figure.subplots(1, len(states), sharey=True, squeeze=False)[0]
-        figure.subplots_adjust(left=0.085, right=0.985, bottom=0.34, top=0.91, wspace=0.08)
-        for axes, state in zip(panels, states, strict=True):
+        margins = {"left": 0.085, "right": 0.985, "above": 0.216, "below": 0.816}
+        figure, grid = panels(1, len(states), 2.4, **margins, wspace=0.08, sharey=True)
+        for axes, state in zip(grid[0], states, strict=True):
             _ranked(axes, state)
-            axes.set_xlabel(along)
-            bare(axes)
-        panels[0].set_ylabel("Share of the motions")
-        lines, labels = panels[0].get_legend_handles_labels()
+            labeled(axes, along)
+        grid[0, 0].set_ylabel("Share of the motions")
+        lines, labels = grid[0, 0].get_legend_handles_labels()
         figure.legend(lines, labels, loc="lower center", ncols=3, handlelength=2.0)
         return svg_text(figure)
 
@@ -252,16 +234,13 @@ def _ranked(axes: Axes, state: LimitState) -> None:
     axes.set_xlim(fine[0], fine[-1])
     axes.set_ylim(0.0, 1.02)
     axes.locator_params(axis="x", nbins=5)
-    axes.grid(True)
-    axes.set_axisbelow(True)
 
 
 def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
     """Return the tornado chart: mean PRD with each variable at its 5 % and 95 % quantile."""
     with style():
         height = 0.85 + 0.36 * len(bars)
-        figure = Figure(figsize=(WIDTH_IN, height))
-        axes = figure.add_axes((0.2, 0.55 / height, 0.78, 1.0 - 0.65 / height))
+        figure, axes = boxed(height, (0.2, 0.55 / height, 0.78, 1.0 - 0.65 / height))
         for row, bar in enumerate(bars):
             ends = np.array([bar.prd_low_m, bar.prd_high_m]) / unit.si
             if np.isnan(ends).any():

@@ -60,7 +60,6 @@ def _digits(value: float) -> str:
 
 
 def _inward(low: float, high: float, unit: str = "") -> str:
-    """Return a range, rounded inward."""
     return f"{float(digits_up(low, 3)):g}{unit} to {float(digits_down(high, 3)):g}{unit}"
 
 

@@ -32,6 +32,7 @@ ROOF = "roof"
 
 _COMPONENT = re.compile(r"(.+)-([xyz])", re.IGNORECASE)
 _FIELDS = {"x": "record", "y": "transverse", "z": "vertical"}
+_FOLDER = Place("study", 0, "folder")
 _NO_RECORDS = {".json", ".png", ".svg", ".pdf", ".md", ".sha256"}
 _TRUNCATION = 0.05
 """Neglected modes of a building may change the peak roof acceleration by this fraction."""
@@ -47,7 +48,6 @@ class StudyMotions:
         Names; `ROOF` alone for roof motions.
     motions : tuple of tuple of Motion
         By building; `Motion.scale` makes the intensity one.
-    files : tuple of RecordFile
     """
 
     buildings: tuple[str, ...]
@@ -70,7 +70,9 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
             case Components() as components:
                 read.append((MotionInput(**row), components))
             case wrong:
-                faults += wrong if sheet.input.motions else _of_folder(wrong)
+                if not sheet.input.motions:  # a file of the folder has no cell of its own
+                    wrong = [Finding.error(_FOLDER, one.text, one.remedy) for one in wrong]
+                faults += wrong
     sheet.refuse(faults)
     sheet.refuse(_unlike(sheet.input, read))
     buildings = sheet.input.buildings
@@ -98,10 +100,9 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     name = sheet.input.study.folder.replace("\\", "/").strip("/")
     top = sheet.book.path.parent
     folder = (top / name).resolve()
-    cell = Place("study", 0, "folder")
     if not folder.is_relative_to(top.resolve()) or not folder.is_dir():
         sheet.refuse(
-            [Finding.error(cell, f"'{name}' is no folder beside this workbook", "give one")]
+            [Finding.error(_FOLDER, f"'{name}' is no folder beside this workbook", "give one")]
         )
     groups: dict[str, dict[str, str]] = {}
     for path in sorted(folder.iterdir()):
@@ -115,14 +116,9 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     if lost or not groups:
         wrong = f"'{name}' has no record" + (f" {lost[0]}-x" if lost else "")
         sheet.refuse(
-            [Finding.error(cell, wrong, "add it, or list the motions on the sheet Motions")]
+            [Finding.error(_FOLDER, wrong, "add it, or list the motions on the sheet Motions")]
         )
     return list(groups.values())
-
-
-def _of_folder(faults: Sequence[Finding]) -> Iterator[Finding]:
-    for fault in faults:
-        yield Finding.error(Place("study", 0, "folder"), fault.text, fault.remedy)
 
 
 def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -> Iterator[Finding]:
@@ -144,9 +140,6 @@ def _unlike(given: StudyInput, read: Sequence[tuple[MotionInput, Components]]) -
         yield Finding.error(
             place, f"the records have {samples:,} samples in all", f"give at most {MOST_SAMPLES:,}"
         )
-
-
-_FOLDER = Place("study", 0, "folder")
 
 
 def _motion(

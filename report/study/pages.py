@@ -17,7 +17,13 @@ from report.study.words import headline
 def sections(results: StudyResults) -> tuple[Section, ...]:
     """Return all sections except the cover and the contents."""
     allowed_m = results.plan.input.study.allowed_m
-    found = [_results(results), basis(results)]
+    first = Section(
+        id="results",
+        title="Results",
+        template="study/results.html",
+        content={"headline": headline(results)},
+    )
+    found = [first, basis(results)]
     for b in range(len(results.plan.motions.buildings)):
         found.append(curves(results, b))
         if allowed_m:
@@ -26,12 +32,3 @@ def sections(results: StudyResults) -> tuple[Section, ...]:
         found += [prescribed(results, b, one) for one in compare(results, b)]
     found += [fragility(results, one) for one in results.arrays]
     return (*found, limits(results))
-
-
-def _results(results: StudyResults) -> Section:
-    return Section(
-        id="results",
-        title="Results",
-        template="study/results.html",
-        content={"headline": headline(results)},
-    )

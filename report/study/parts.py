@@ -12,7 +12,7 @@ import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -47,13 +47,10 @@ class Done:
 
     Attributes
     ----------
-    number : int
-    sha256 : str
     models : mapping of str to int
         Number of runs by model.
     seconds : float
         Processor time of its thread [s].
-    machine : str
     """
 
     number: int
@@ -111,6 +108,7 @@ def parquet(
     signs = np.array([orientation.polarity for _, orientation in columns], dtype=np.int8)
     table = {
         "building": keys(names, np.repeat(cases.building, each)),
+        # Rounded, it is what was typed, by which readers select rows.
         "slope_deg": by_case(np.asarray(np.degrees(cases.slope_rad), dtype=float).round(12)),
         "slope_rad": by_case(cases.slope_rad),
         "mu": by_case(cases.mu),
@@ -235,8 +233,7 @@ def read_part(folder: Path, done: Done) -> bytes:
 def keep(folder: Path, content: bytes, done: Done, identity: str) -> None:
     """Write a part, and then its line in the journal."""
     write_whole(folder / part_name(done.number), content)
-    fields = {name: getattr(done, name) for name in Done.__dataclass_fields__}
-    line = json.dumps({"identity": identity, **fields}).encode() + b"\n"
+    line = json.dumps({"identity": identity, **asdict(done)}).encode() + b"\n"
     # Appended in one write: lines of two processes do not mix.
     journal = os.open(folder / JOURNAL, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
     try:

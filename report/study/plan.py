@@ -41,9 +41,6 @@ class ArrayPlan:
 
     Attributes
     ----------
-    array : StudyArray
-    building : int
-    mu : float
     spreads : mapping of str to Spread
         Friction, slope [deg] and intensity.
     shifts : mapping of str to pairs of (float, float)
@@ -56,6 +53,7 @@ class ArrayPlan:
 
     array: StudyArray
     building: int
+    seed: int
     mu: float
     spreads: Mapping[str, Spread]
     shifts: Mapping[str, tuple[Shift, Shift]]
@@ -70,11 +68,8 @@ class StudyPlan:
 
     Attributes
     ----------
-    input : StudyInput
-    motions : StudyMotions
     campaign : Campaign
         The first cases are the grid of building, slope, friction and intensity.
-    arrays : tuple of ArrayPlan
     warnings : tuple of (str, str)
         Cell and text of each warning on the workbook.
     """
@@ -110,9 +105,7 @@ class StudyPlan:
             "intensity": study.intensity.value,
             "run_without_value": study.no_value.value,
             "seed": study.seed,
-            "seeds": {
-                f"array {a.array.id}": _seed(study.seed, k) for k, a in enumerate(self.arrays)
-            },
+            "seeds": {f"array {one.array.id}": one.seed for one in self.arrays},
             "buildings": list(self.motions.buildings),
             "slopes_deg": list(self.input.slopes_deg),
             "mus": list(self.input.mus),
@@ -138,7 +131,8 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     for number, (array, building) in enumerate(
         (array, building) for array in given.study_arrays for building in range(buildings)
     ):
-        seed = _seed(given.study.seed, number)
+        # Arrays draw apart: with one seed, all would be at the same quantiles.
+        seed = given.study.seed + 1000 * number
         made, parts = _array(given, motions, array, building, start, seed)
         arrays.append(made)
         blocks += parts
@@ -162,10 +156,6 @@ def _too_many(campaign: Campaign) -> Iterator[Finding]:
         yield Finding.error(place, f"make {len(campaign.cases):,} cases", wanted)
     elif campaign.rows > MOST_RUNS:
         yield Finding.error(place, f"make {campaign.rows:,} runs", f"give at most {MOST_RUNS:,}")
-
-
-def _seed(seed: int, number: int) -> int:
-    return seed + 1000 * number
 
 
 def _array(
@@ -195,6 +185,7 @@ def _array(
         ArrayPlan(
             array=array,
             building=building,
+            seed=seed,
             mu=friction.center,
             spreads=spreads,
             shifts=_shifts(study, motions, spreads),

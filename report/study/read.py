@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from report.sheet.checking.drafts import column, repeated
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.calculated import not_calculated
 from report.sheet.reading.locate import is_absent
@@ -99,10 +98,18 @@ def tested(text: str) -> tuple[float, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class StudySheet:
-    """A study workbook as read, without errors of its own."""
+    """A study workbook as read, without errors of its own.
+
+    Attributes
+    ----------
+    gathered : Gathered
+        For the addresses of the cells.
+    unseen : tuple of Unseen
+        What is read and kept from sight.
+    """
 
     book: OpenBook
-    gathered: Gathered  # for the addresses of the cells
+    gathered: Gathered
     unseen: tuple[Unseen, ...]
 
     @cached_property
@@ -164,8 +171,7 @@ def _faults(draft: Draft) -> Iterator[Finding]:
     yield from _about_dispersion(study)
     yield from _about_motions(study, draft)
     for section in ("mats", "study_arrays", "motions", "buildings"):
-        for place, name, _ in repeated(column(draft, (section,), "id"), str.casefold):
-            yield Finding.error(place, f"ID '{name}' appears twice", "rename one")
+        yield from _repeated(draft, section)
     for row, mat in enumerate(mats):
         yield from _about_mat(row, mat)
     yield from _about_arrays(study, draft)
@@ -232,6 +238,17 @@ def _about_motions(study: Any, draft: Draft) -> Iterator[Finding]:
             "a building is given, but the motions are roof motions",
             "clear the row, or set Recorded at to ground",
         )
+
+
+def _repeated(draft: Draft, section: str) -> Iterator[Finding]:
+    seen: set[str] = set()
+    for row, fields in enumerate(draft[section]):
+        name = str(fields.get("id", "")).casefold()
+        if name and name in seen:
+            yield Finding.error(
+                Place(section, row, "id"), f"ID '{fields['id']}' appears twice", "rename one"
+            )
+        seen.add(name)
 
 
 def _about_mat(row: int, mat: Any) -> Iterator[Finding]:

@@ -45,7 +45,6 @@ class LimitState:
         Such as LS2, and what it is.
     limit_m : float
         PRD above which it is exceeded [m]; 0 for the beginning of slip.
-    fragility : Fragility
     effects : mapping of str to float
         As in `ArrayCapacities`.
     """
@@ -63,11 +62,8 @@ class ArrayStudyResult:
 
     Attributes
     ----------
-    plan : ArrayPlan
-    states : tuple of LimitState
     exceedances : tuple of Exceedance
         That the clearance is exceeded at the site; empty without an intensity there.
-    bars : tuple of Bar
     center_m : float
         Mean PRD with all variables at their centers [m]; NaN without an intensity at the site.
     capacity_runs : int
@@ -88,7 +84,6 @@ class StudyResults:
 
     Attributes
     ----------
-    plan : StudyPlan
     manifest : mapping
         Of the finished runs.
     curves : Statistics
@@ -101,7 +96,6 @@ class StudyResults:
         Mean peak horizontal acceleration at the roof for an intensity of 1 [g].
     fits : tuple of Fit or str
         By building; a text says why there is none.
-    arrays : tuple of ArrayStudyResult
     allow_matched : bool
         Whether fragilities without a record-to-record dispersion are exported, with a warning.
     """
@@ -193,6 +187,7 @@ def results_of(
     slips: list[NDArray[np.bool_]] = []
     for number, part in enumerate(campaign.parts):
         found = peaks(read_part(folder, done[number]), campaign)
+        # The grid comes first; one part may hold its last cases and the first of the arrays.
         cut = min(max(on_grid - part.start, 0), part.stop - part.start)
         one = statistics(found.prd_m[:cut])
         for column, values in zip(
@@ -221,10 +216,7 @@ def results_of(
         spread=spectral_spread(plan.motions.motions),
         ppa_g=ppa,
         fits=tuple(_fit(plan, analysis[b], float(ppa[b])) for b in range(plan.shape[0])),
-        arrays=tuple(
-            _array(plan, array, runner, prd, slip, on_grid, number)
-            for number, array in enumerate(plan.arrays)
-        ),
+        arrays=tuple(_array(plan, array, runner, prd, slip, on_grid) for array in plan.arrays),
         allow_matched=allow_matched,
     )
 
@@ -249,13 +241,11 @@ def _array(
     prd: Floats,
     slip: NDArray[np.bool_],
     offset: int,
-    number: int,
 ) -> ArrayStudyResult:
     def of(cases: slice) -> slice:
         return slice(cases.start - offset, cases.stop - offset)
 
     study, clearance = plan.input.study, array.array.clearance_m
-    seed = study.seed + 1000 * number
     peaks_m, slips = prd[of(array.fragility)].T, slip[of(array.fragility)].T
     lost = np.isnan(peaks_m)
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
@@ -269,10 +259,11 @@ def _array(
             limit_m=share * clearance,
             fragility=fragility(
                 np.array(plan.input.intensities),
+                # A run without a value exceeds every limit; whether it counts is `counts`.
                 ~(peaks_m <= share * clearance) if share else slips | lost,
                 counts,
                 searched.found[k],
-                seed=seed,
+                seed=array.seed,
             ),
             effects=searched.effects[k],
         )
@@ -282,7 +273,7 @@ def _array(
     bars: tuple[Bar, ...] = ()
     center = math.nan
     if array.samples.stop > array.samples.start:
-        exceedances = (exceedance(prd[of(array.samples)], clearance, seed=seed),)
+        exceedances = (exceedance(prd[of(array.samples)], clearance, seed=array.seed),)
         means = prd[of(array.bars)].mean(axis=1)
         bars, center = tornado(array.spreads, means), float(means[0])
     return ArrayStudyResult(

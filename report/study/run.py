@@ -35,12 +35,10 @@ class Estimate:
 
     Attributes
     ----------
-    cases, runs, parts : int
     capacity_runs : int
         Most runs for the capacities of the arrays, beside those.
     processor_s, capacity_s : float
         Of both [s], on one core like the one of the cost model.
-    disk_bytes : float
     """
 
     cases: int

@@ -9,40 +9,46 @@ import csv
 import datetime as dt
 import io
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import product
 from typing import Any
 
 import numpy as np
 import xlsxwriter
 
+from report.entities.columns import UnitFormat
 from report.entities.marks import UNVERIFIED
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
 from report.words.counts import capitalized
-from report.words.units import Quantity, Unit
+from report.words.units import Unit
 from solver.model import Floats
 from solver.studies.fit import Fit
 
 Row = Sequence[Any]
 
 
+def csv_text(rows: Iterable[Row]) -> str:
+    """Return rows as CSV, the same on every system."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
+
+
 def curves_csv(results: StudyResults) -> bytes:
     """Return the curves, one row for each case of the grid; an empty field for no value."""
     plan, lost = results.plan, results.curves.without_value
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(
-        ["building", "slope_deg", "mu", f"intensity ({plan.input.study.intensity.value})",
+    rows: list[Row] = [
+        ("building", "slope_deg", "mu", f"intensity ({plan.input.study.intensity.value})",
          f"{plan.design_rule.name.replace(' ', '_')}_m", "mean_prd_m", "p84_prd_m",
-         "largest_prd_m", "motions_without_value"]
-    )  # fmt: skip
+         "largest_prd_m", "motions_without_value")
+    ]  # fmt: skip
     for case, at in _cases(results):
         values = [float(lengths[at]) for lengths in results.displacements.values()]
         shown = ["" if math.isnan(v) else repr(v) for v in values]
-        writer.writerow([*case, *shown, int(lost[at])])
-    return text.getvalue().encode()
+        rows.append((*case, *shown, int(lost[at])))
+    return csv_text(rows).encode()
 
 
 def _cases(results: StudyResults) -> Iterator[tuple[Row, tuple[int, ...]]]:
@@ -54,17 +60,18 @@ def _cases(results: StudyResults) -> Iterator[tuple[Row, tuple[int, ...]]]:
 
 def length_unit(results: StudyResults) -> Unit:
     """Return the unit of displacements that is printed first."""
-    quantity = Quantity.DISPLACEMENT
-    return quantity.us if results.plan.input.study.units_first.is_us else quantity.si
+    return UnitFormat(results.plan.input.study.units_first.is_us).units()[0]
 
 
 def study_xlsx(results: StudyResults) -> bytes:
     """Return the summaries as a workbook: never a row for each run."""
     buffer = io.BytesIO()
     book = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": False})
-    book.set_properties({"title": results.plan.input.study.title, "created": _midnight(results)})
-    formats = {"head": book.add_format({"bold": True, "text_wrap": True, "bottom": 1})}
     unit, given = length_unit(results), results.plan.input
+    # Two runs give the same bytes: the date is that of the study, not the current date.
+    created = dt.datetime.combine(given.study.date, dt.time())
+    book.set_properties({"title": given.study.title, "created": created})
+    head_format = book.add_format({"bold": True, "text_wrap": True, "bottom": 1})
     measure = given.study.intensity.value
     for title, head, rows in (
         ("Study", ("What", "Value"), _about(results)),
@@ -84,7 +91,7 @@ def study_xlsx(results: StudyResults) -> bytes:
         ("Formula", ("Building", "What", "Value"), _formula(results)),
     ):
         sheet = book.add_worksheet(title)
-        sheet.write_row(0, 0, head, formats["head"])
+        sheet.write_row(0, 0, head, head_format)
         for number, row in enumerate(rows, start=1):
             for column, value in enumerate(row):
                 is_none = isinstance(value, float) and not math.isfinite(value)
@@ -93,10 +100,6 @@ def study_xlsx(results: StudyResults) -> bytes:
         sheet.freeze_panes(1, 0)
     book.close()
     return buffer.getvalue()
-
-
-def _midnight(results: StudyResults) -> Any:
-    return dt.datetime.combine(results.plan.input.study.date, dt.time())
 
 
 def _about(results: StudyResults) -> Iterator[Row]:

@@ -1,4 +1,5 @@
-"""Errors, shares and times of a verification for print; names for files; data for JSON.
+"""Errors, shares and times of a verification for print; names for files; data for JSON;
+tables for a terminal.
 
 An em dash is NaN. Owns no sentence.
 """
@@ -7,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.words.letters import power_of_ten
@@ -79,6 +80,14 @@ def shortened(text: str, most: int) -> str:
     """Return a text truncated to a length, for places of fixed size."""
     text = " ".join(text.split())
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield rows of text as lines, each column as wide as its longest text."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
+        yield "  ".join(cells).rstrip()
 
 
 def finite(value: Any) -> Any:

@@ -104,8 +104,8 @@ def with_state(results, motions, *, allow_matched=False, **changes):
         effects={},
     )  # fmt: skip
     array = ArrayPlan(
-        array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, mu=0.4,
-        spreads={FRICTION: Spread(center=0.4), SLOPE: Spread(center=2.0)}, shifts={},
+        array=StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1), building=0, seed=1,
+        mu=0.4, spreads={FRICTION: Spread(center=0.4), SLOPE: Spread(center=2.0)}, shifts={},
         fragility=slice(0), samples=slice(0), bars=slice(0),
     )  # fmt: skip
     one = ArrayStudyResult(
