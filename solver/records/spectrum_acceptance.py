@@ -194,6 +194,7 @@ def _least(
         is_at_least=True,
         worst=worst,
         provision=provision,
+        is_ratio_to_target=True,
     )
 
 
