@@ -2,7 +2,7 @@
 
 import { html, note, points, replace, set, svg } from "./make.js";
 import { isFree } from "./place.js";
-import { measured, reading } from "./reading.js";
+import { filled, measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
 import { createView, onKeys } from "./view-frame.js";
@@ -32,7 +32,7 @@ function build(element, data) {
   function read(mu, slope) {
     at = { mu: within(mu, mus[0], mus.at(-1)), slope: within(slope, slopes[0], slopes.at(-1)) };
     set(cursor, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.end}`, visibility: "visible" });
-    where.textContent = `μ ${measured(at.mu, units.mu[0])}, slope ${measured(at.slope, units.slope[0])}: ${words(data, at)}`;
+    where.textContent = words(data, at);
   }
 
   plot.addEventListener("pointermove", (event) => {
@@ -73,12 +73,11 @@ function build(element, data) {
   return { resize, stop() {} };
 }
 
-function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units }, { mu, slope }) {
+function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units, texts }, { mu, slope }) {
   const { value, isComputed } = surfaceAt(mus, slopes, prd, mu, slope, least);
-  if (value === null) return "no value; a run gives no displacement";
-  if (isComputed) return `mean PRD ${reading(value, units.displacement)}, computed`;
-  const text = reading(value, units.displacement);
-  return value <= least ? `mean PRD at most ${text}, interpolated` : `mean PRD ${text}, interpolated`;
+  const between = value <= least ? "least" : "between";
+  const text = texts.read[value === null ? "lost" : isComputed ? "computed" : between];
+  return filled(text, { mu: measured(mu, units.mu[0]), slope: measured(slope, units.slope[0]), prd: reading(value, units.displacement) });
 }
 
 // The next computed value of an axis, or a tenth of the way to it.

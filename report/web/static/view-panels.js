@@ -1,7 +1,7 @@
 // Histories one above the other over one axis of time, with the value at a time in their headings.
 
 import { html, replace, set, svg } from "./make.js";
-import { measured } from "./reading.js";
+import { filled, measured } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
 import { curve, rangeIn, valueAt } from "./view-series.js";
@@ -14,12 +14,12 @@ const ROOM = 0.06; // of the range of the values, above and below
 let made = 0;
 
 /**
- * Return panels: `panels` are `{ title, units, series, least, most, over }`, where `series` have `name`,
+ * Return panels of a run: `panels` are `{ title, units, series, least, most, over }`, where `series` have `name`,
  * `t`, `v` and `look`, `least` and `most` bound the axis, and `over` is the span of time whose values
  * set it, the one shown if not given. Values read in the first unit.
  */
-export function createPanels({ panels, seconds, slips }) {
-  const drawn = panels.map(createPanel);
+export function createPanels(panels, { seconds, slips, texts }) {
+  const drawn = panels.map((panel) => createPanel(panel, texts));
   const axis = svg("svg", { class: "panel-axis", "aria-hidden": true });
   const element = html("div", { class: "panels" }, drawn.map((panel) => panel.element), axis);
   let size = { width: 0, height: 0, head: HEADS[0] };
@@ -35,7 +35,7 @@ export function createPanels({ panels, seconds, slips }) {
     const tall = Math.floor((height - AXIS) / drawn.length) - head;
     const times = ticks(...span, width / 90);
     for (const panel of drawn) panel.draw({ width, tall, span, x, times, slips });
-    drawAxis(axis, width, x, times);
+    drawAxis(axis, width, x, times, texts.time);
     mark();
   }
 
@@ -69,7 +69,7 @@ export function createPanels({ panels, seconds, slips }) {
   };
 }
 
-function createPanel({ title, units, series, least, most, over }) {
+function createPanel({ title, units, series, least, most, over }, texts) {
   made += 1;
   const clip = `panel-${made}`;
   const values = series.map(() => html("span", { class: "value numbers" }));
@@ -83,7 +83,7 @@ function createPanel({ title, units, series, least, most, over }) {
   const window = svg("rect", { x: LEFT, y: 0 });
   const plot = svg(
     "svg",
-    { role: "img", "aria-label": `${title} in time` },
+    { role: "img", "aria-label": filled(texts.in_time, { title }) },
     svg("clipPath", { id: clip }, window),
     svg("g", { "clip-path": `url(#${clip})` }, bands, band, grid, lines.toReversed(), cursor),
     labels,
@@ -125,11 +125,11 @@ function createPanel({ title, units, series, least, most, over }) {
   };
 }
 
-function drawAxis(axis, width, x, { values, step }) {
+function drawAxis(axis, width, x, { values, step }, title) {
   sized(axis, width, AXIS);
-  const room = width - RIGHT - 68; // "Time [s]" and half of a number
+  const room = width - RIGHT - 68; // the title and half of a number
   const shown = { step, values: values.filter((time) => x(time) < room) };
-  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"));
+  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, title));
 }
 
 // The range of what is drawn in a span of time, with some room.

@@ -491,7 +491,8 @@ def test_paths_are_at_one_scale_and_read_point_by_point(page, assessment):
     assert scales == pytest.approx([scales[0]] * 4, rel=0.02)
     path, reading = data["paths"][0], ".paths-foot output"
     press(page, ".path-panel svg >> nth=0", "Home")
-    start = f"M1 {path['run']} at 0.00 s: 0.0 in (0 mm) from the start"
+    assert path["name"].split()[0] == "M1"
+    start = f"{path['name']} at 0.00 s: 0.0 in (0 mm) from the start"
     assert text(page, reading).startswith(start)
     page.keyboard.press("End")
     far = math.hypot(path["x_m"][-1], path["y_m"][-1])
