@@ -42,7 +42,6 @@ function build(element, data, again, announce) {
   zoomByKeys(stage, lens, () => announce(`${where.textContent}. ${panels.words(lens.time)}.`));
   zoomByPointer(stage, brush, panels, lens);
 
-  const resize = () => panels.resize(element.clientWidth, HEIGHT, { isNarrow: element.clientWidth < NARROW });
   replace(
     element,
     html("p", { class: "print-only" }, `${texts.title}: ${texts.prd}`),
@@ -51,9 +50,8 @@ function build(element, data, again, announce) {
     html("p", { class: "note", id: "histories-keys" }, KEYS),
     note(texts.notes.join(" ")),
   );
-  resize();
   lens.reset();
-  return { resize, stop() {} };
+  return { resize: (wide) => panels.resize(wide, HEIGHT, { isNarrow: wide < NARROW }) };
 }
 
 // The span of time that is shown, and the sample that is read, within it.

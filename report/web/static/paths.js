@@ -5,7 +5,7 @@ import { boxAround } from "./place.js";
 import { filled, measured, reading } from "./reading.js";
 import { within } from "./view-axes.js";
 import { createView, onKeys } from "./view-frame.js";
-import { arrow, cross, pointerIn, resize as sized, scaleBar } from "./view-parts.js";
+import { arrow, cross, onPointer, resize as sized, scaleBar } from "./view-parts.js";
 
 const LEAST_WIDE = 128; // of a panel
 const ROOM = 10; // around the paths
@@ -27,9 +27,7 @@ function build(element, data) {
   const bar = svg("svg", { class: "scale", "aria-hidden": true });
   const grid = html("div", { class: "paths" }, panels.map((panel) => panel.element));
 
-  function resize() {
-    const wide = element.clientWidth;
-    if (wide === 0) return;
+  function resize(wide) {
     const { columns, scale } = arrange(extent, panels.length, wide);
     grid.style.setProperty("--columns", columns);
     for (const panel of panels) panel.draw(extent, scale, wide / columns);
@@ -43,8 +41,7 @@ function build(element, data) {
     html("div", { class: "paths-foot" }, bar, where),
     note(data.texts.notes.join(" ")),
   );
-  resize();
-  return { resize, stop() {} };
+  return { resize };
 }
 
 // The number of columns at which the common scale, in pixels per meter, is largest.
@@ -76,7 +73,7 @@ function createPanel(path, { units, texts }, write) {
   }
 
   if (path.i.length) {
-    drawing.addEventListener("pointermove", (event) => read(nearest(pixels, pointerIn(drawing, event))));
+    onPointer(drawing, (place) => read(nearest(pixels, place)));
     drawing.addEventListener("focus", () => read(at));
     const go = (to) => read(within(to, 0, pixels.length - 1));
     onKeys(drawing, {

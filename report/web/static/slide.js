@@ -54,9 +54,8 @@ function build(element, data, again, { announce, settings }) {
     End: () => player.seek(seconds),
   });
 
-  function resize() {
-    if (element.clientWidth === 0) return;
-    stage.resize(element.clientWidth);
+  function resize(wide) {
+    stage.resize(wide);
     show(player.time);
   }
 
@@ -70,7 +69,6 @@ function build(element, data, again, { announce, settings }) {
     html("p", { class: "note", id: "slide-keys" }, KEYS),
     note(texts.notes.join(" ")),
   );
-  resize();
   player.seek(data.t_prd_s ?? 0);
   player.rewind();
   return { resize, stop: player.pause };

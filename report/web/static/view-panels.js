@@ -3,7 +3,7 @@
 import { html, replace, set, svg } from "./make.js";
 import { filled, measured } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
-import { pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
+import { frame, linesAcross, linesUp, pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
 import { curve, rangeIn, valueAt } from "./view-series.js";
 
 const LEFT = 46;
@@ -93,9 +93,8 @@ function createPanel({ title, units, series, least, most, over }, texts) {
   return {
     element: html("div", { class: "panel" }, head, plot),
     draw({ width, tall, span, x, times, slips }) {
-      const right = width - RIGHT;
       sized(plot, width, tall);
-      set(window, { width: right - LEFT, height: tall });
+      set(window, { width: width - RIGHT - LEFT, height: tall });
       set(band, { height: tall });
       set(cursor, { y2: tall });
       const [low, high] = limits(series, over ?? span, least, most, units[0].si);
@@ -103,9 +102,9 @@ function createPanel({ title, units, series, least, most, over }, texts) {
       const levels = ticks(low / units[0].si, high / units[0].si, tall / 20);
       replace(
         grid,
-        times.values.map((time) => svg("line", { x1: x(time), x2: x(time), y1: 0, y2: tall })),
-        levels.values.map((value) => svg("line", { class: value === 0 ? "zero" : null, x1: LEFT, x2: right, y1: y(value), y2: y(value) })),
-        svg("path", { class: "frame", d: `M${LEFT} 0V${tall}H${right}` }),
+        linesAcross(times, x, y.ends),
+        linesUp(levels, x.ends, y),
+        frame(x, y),
       );
       const inside = levels.values.filter((value) => y(value) > 6 && y(value) < tall - 3);
       replace(labels, textsUp({ ...levels, values: inside }, LEFT - 6, y));
