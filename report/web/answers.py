@@ -85,8 +85,8 @@ def answer(assessment: Assessment, *, is_provisional: bool) -> dict[str, Any]:
 
 
 def _rests_on(assessment: Assessment) -> str:
-    """Return what the verdict rests on; the reasons are listed below it."""
-    return sentence(TEMPLATES, "verdict", package_data(assessment), "below")
+    """Return what the verdict rests on; the reasons are listed beside it."""
+    return sentence(TEMPLATES, "verdict", package_data(assessment), "here")
 
 
 def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:

@@ -11,11 +11,10 @@ from typing import Any
 
 from starlette.requests import Request
 
+from report.web.limits import INTERNAL
 from report.web.packages import Packages
 from report.web.sessions import EXAMPLE, Session, Sessions
 from report.web.workers import JobOrigin, Rank, Workers
-
-INTERNAL = "An internal error; see what roofslip serve printed."
 
 
 class RefusedError(Exception):
@@ -71,8 +70,8 @@ class Desk:
         """
         self._asked += 1
         page, number = (asked["page"], asked["n"]) if asked else (str(self._asked), 0)
-        place = JobOrigin((session.id, str(job["do"]), page), number)
-        found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, place)
+        origin = JobOrigin((session.id, str(job["do"]), page), number)
+        found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, origin)
         if "answer" in found:
             answer: Mapping[str, Any] = found["answer"]
             return answer
