@@ -11,7 +11,6 @@ from typing import Any
 
 from starlette.requests import Request
 
-from report.web.limits import INTERNAL
 from report.web.packages import Packages
 from report.web.sessions import EXAMPLE, Session, Sessions
 from report.web.workers import JobOrigin, Rank, Workers
@@ -77,8 +76,6 @@ class Desk:
             return answer
         if "errno" in found:
             raise OSError(found["errno"], os.strerror(found["errno"]))
-        if "internal" in found:
-            raise RefusedError(INTERNAL, [])
         first = found["refused"] if "refused" in found else found["problems"][0]["text"]
         raise RefusedError(first, found["problems"])
 

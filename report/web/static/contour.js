@@ -6,7 +6,7 @@ import { filled, measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
 import { createView, onKeys } from "./view-frame.js";
-import { cross, frame, linesAcross, linesUp, onPointer, resize as sized, textsAcross, textsUp } from "./view-parts.js";
+import { cross, frame, linesAcross, linesUp, onPointer, setSize, textsAcross, textsUp } from "./view-parts.js";
 
 const HEIGHT = 370;
 const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
@@ -48,7 +48,7 @@ function build(element, data) {
   });
 
   function resize(wide) {
-    sized(plot, wide, HEIGHT);
+    setSize(plot, wide, HEIGHT);
     x = scale(roomy(mus), [MARGIN.left, wide - MARGIN.right]);
     y = scale(roomy(slopes), [HEIGHT - MARGIN.bottom, MARGIN.top]);
     const named = data.dots.map((dot) => ({ ...dot, at: [x(dot.mu), y(dot.slope_deg)] }));

@@ -5,7 +5,7 @@ import { boxAround } from "./place.js";
 import { filled, measured, reading } from "./reading.js";
 import { within } from "./view-axes.js";
 import { createView, onKeys } from "./view-frame.js";
-import { arrow, cross, onPointer, resize as sized, scaleBar } from "./view-parts.js";
+import { arrow, cross, onPointer, setSize, scaleBar } from "./view-parts.js";
 
 const LEAST_WIDE = 128; // of a panel
 const ROOM = 10; // around the paths
@@ -90,7 +90,7 @@ function createPanel(path, { units, texts }, write) {
     draw(extent, scale, wide) {
       const left = (wide - 8 - extent.wide * scale) / 2;
       const to = (x, y) => [left + (x - extent.x) * scale, ROOM + (extent.y + extent.tall - y) * scale];
-      sized(drawing, wide - 8, Math.max(extent.tall, LEAST_M) * scale + 2 * ROOM);
+      setSize(drawing, wide - 8, Math.max(extent.tall, LEAST_M) * scale + 2 * ROOM);
       pixels = path.x_m.map((value, k) => to(value, path.y_m[k]));
       const peak = path.peak && to(path.peak.x_m, path.peak.y_m);
       at = peak ? nearest(pixels, peak) : 0;
@@ -117,6 +117,6 @@ function nearest(pixels, [x, y]) {
 }
 
 function drawFoot(foot, scale, { units, texts }) {
-  sized(foot, 250, 34);
+  setSize(foot, 250, 34);
   replace(foot, arrow([8, 16], [0, 1], 12), svg("text", { class: "label", x: 18, y: 21 }, texts.downslope), scaleBar([100, 18.5], units.displacement[0], scale, BAR));
 }

@@ -3,7 +3,7 @@
 import { html, replace, set, svg } from "./make.js";
 import { filled, measured } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
-import { frame, linesAcross, linesUp, pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
+import { frame, linesAcross, linesUp, pointerIn, setSize, textsAcross, textsUp } from "./view-parts.js";
 import { curve, rangeIn, valueAt } from "./view-series.js";
 
 const LEFT = 46;
@@ -93,7 +93,7 @@ function createPanel({ title, units, series, least, most, over }, texts) {
   return {
     element: html("div", { class: "panel" }, head, plot),
     draw({ width, tall, span, x, times, slips }) {
-      sized(plot, width, tall);
+      setSize(plot, width, tall);
       set(window, { width: width - RIGHT - LEFT, height: tall });
       set(band, { height: tall });
       set(cursor, { y2: tall });
@@ -125,7 +125,7 @@ function createPanel({ title, units, series, least, most, over }, texts) {
 }
 
 function drawAxis(axis, width, x, { values, step }, title) {
-  sized(axis, width, AXIS);
+  setSize(axis, width, AXIS);
   const room = width - RIGHT - 68; // the title and half of a number
   const shown = { step, values: values.filter((time) => x(time) < room) };
   replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, title));

@@ -8,7 +8,7 @@ import { roundBelow } from "./view-axes.js";
 const BAR = 4; // half the height of the ends of a scale bar
 
 /** Give a drawing a width and height in pixels. */
-export function resize(drawing, width, height) {
+export function setSize(drawing, width, height) {
   set(drawing, { width, height, viewBox: `0 0 ${width} ${height}` });
 }
 
