@@ -13,11 +13,12 @@ export function createView(element, scene, fetch, build) {
   let shown = ""; // the request that is drawn
   let own = {};
   let last = scene;
+  let width = 0; // that it is drawn in; none while its tab is closed
   let isMoving = false; // whether a slider moves, so that what is drawn is out of date
 
-  // Draw in the width of the element, which has none while its tab is closed.
   function draw() {
-    if (element.clientWidth > 0) drawing?.resize(element.clientWidth);
+    width = element.clientWidth;
+    if (width > 0) drawing?.resize(width);
   }
 
   async function update(next) {
@@ -57,7 +58,7 @@ export function createView(element, scene, fetch, build) {
     update(last);
   }
 
-  onWidth(element, draw);
+  new ResizeObserver(() => element.clientWidth !== width && draw()).observe(element);
   update(scene);
   return {
     update,
@@ -68,16 +69,6 @@ export function createView(element, scene, fetch, build) {
     },
     hide: () => drawing?.stop?.(),
   };
-}
-
-// Call a function when an element gets another width.
-function onWidth(element, changed) {
-  let width = 0;
-  new ResizeObserver(([{ contentRect }]) => {
-    if (contentRect.width === width || contentRect.width === 0) return;
-    width = contentRect.width;
-    changed();
-  }).observe(element);
 }
 
 /** Return a select of the runs of a motion; `chosen` gets the name of one. */
