@@ -361,7 +361,6 @@ def _path(motion: MotionRun, fmt: UnitFormat) -> Json:
     name = f"{motion.motion.id} {_orientation(motion, run)}"
     prd = _prd(history.result.prd_m, fmt.both)
     path: Json = {
-        "motion": motion.motion.id,
         "name": name,
         "prd": prd,
         "title": f"Path under {name}, {prd}",
