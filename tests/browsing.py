@@ -15,6 +15,7 @@ STATIC = ROOT / "report" / "web" / "static"
 FONTS = ROOT / "templates" / "fonts"
 DESK = {"width": 1280, "height": 720}
 TABLET = {"width": 800, "height": 1100}
+PHONE = {"width": 390, "height": 844}
 ALONE = "http://scripts.test"
 _ANSWERED = re.compile(r"the server responded with a status of (409|412|422|503)|ERR_FAILED")
 _KINDS = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}

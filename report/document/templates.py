@@ -43,10 +43,10 @@ def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
     return _environment(folder).get_template(name).render(context)
 
 
-def sentence(folder: Path, name: str, about: object) -> str:
+def sentence(folder: Path, name: str, *about: object) -> str:
     """Return a sentence that pages and the screen share, from `sentences.html`, as plain text."""
     macros = _environment(folder).get_template("sentences.html").module
-    return " ".join(Markup(getattr(macros, name)(about)).unescape().split())
+    return " ".join(Markup(getattr(macros, name)(*about)).unescape().split())
 
 
 def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:

@@ -1,15 +1,17 @@
 """Requirements, limits and warnings as they are written and shown.
 
 Computes nothing. Read `LimitResult`; a requirement is written as it is
-(`report.assessment.verdict`).
+(`report.assessment.verdict`) and shown as a `RequirementRow`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Annotated, Any
 
-from report.entities.shown import Entity, OfUnit
+from report.assessment.verdict import Requirement, Verdict
+from report.entities.cells import Column
+from report.entities.shown import Entity, OfUnit, centered, words
 from report.sheet.checking.findings import located
 from report.sheet.schema.fields import Finding, Level, Place
 from solver.rules.limit import Consequence, Limit
@@ -23,6 +25,18 @@ class FindingResult(Entity):
     cell: str
     text: str
     reason: str
+
+
+class RequirementRow(Entity):
+    """A requirement or a limit in a table of both."""
+
+    subject: Annotated[str, words("Item", 0.9), Column()]
+    title: Annotated[str, words("Requirement", 2.3), Column()]
+    found: Annotated[str, words("Found", 2.6), Column()]
+    limit: Annotated[str, words("Required", 1.9), Column()]
+    basis: Annotated[str, words("Basis", 1.5), Column()]
+    verdict: Annotated[Verdict, centered("Verdict", 1.8), Column()]
+    remedy: Annotated[str, Column("What must be done")]
 
 
 class _FoundAndLimit(Entity):
@@ -65,6 +79,12 @@ def finding_results(
     found = tuple(findings)
     for finding, cell in zip(found, located(found, addresses), strict=True):
         yield FindingResult.of(finding, cell=cell)
+
+
+def requirement_rows(requirements: Iterable[Requirement]) -> Iterator[RequirementRow]:
+    """Yield requirements as rows of a table."""
+    for row in requirements:
+        yield RequirementRow.of(row, subject=row.subject or "Project")
 
 
 def limit_result(row: Limit) -> LimitResult:

@@ -57,7 +57,7 @@ def lowest_between(
 
     With the motion, the period [s] and the component: the spectra shown are at more periods.
     """
-    at_points = [row.found for row in acceptance.rows if row.title.startswith("Spectrum / target")]
+    at_points = [row.found for row in acceptance.rows if row.is_ratio_to_target]
     shown = [(*part.lowest, part.title) for part in spectra if not part.is_ground]
     least = min(shown, default=(math.inf, "", 0.0, ""))
     return least if least[0] < min([*at_points, LEAST_MEAN]) else None

@@ -13,12 +13,10 @@ from report.assessment.evidence import Evidence
 from report.assessment.friction_rows import tested
 from report.assessment.overrides import LOWERING
 from report.assessment.spectra import departures
-from report.document.templates import sentence
 from report.drawing.on_paper import is_wide
 from report.pages.limits import troubles
 from report.pages.parts import PackageData, statistic
 from report.pages.remedies import answers
-from report.typeset.pdf import TEMPLATES
 from report.words.validation import explained
 from solver.rules.limit import Limit
 from solver.verification.shake_table import SHIPPED
@@ -71,11 +69,6 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 def plan(package: PackageData) -> Mapping[str, object]:
     """Return how the page of the roof plan lies."""
     return {"page": "landscape" if is_wide(package.assessment) else "portrait"}
-
-
-def verdict_sentence(package: PackageData) -> str:
-    """Return what the verdict on the project rests on."""
-    return sentence(TEMPLATES, "verdict", package)
 
 
 def basis(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

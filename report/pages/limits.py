@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.precheck import findings, limit_value
-from report.document.tables import Table, listed, stamp
+from report.document.tables import Table, listed, table_of
 from report.entities.array import array_results
 from report.entities.marks import dagger
+from report.entities.requirement import requirement_rows
 from report.entities.shown import centered, text, words
 from report.pages.links import link_troubles
 from report.pages.model import model_troubles
@@ -54,15 +55,14 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
 
 
 def _requirements(package: PackageData) -> Table:
-    columns = (
-        (words("Item", 0.9), lambda row: row.subject or "Project"),
-        (words("Requirement", 2.3), lambda row: with_symbols(row.title)),
-        (words("Found", 2.6), lambda row: with_symbols(row.found)),
-        (words("Required", 1.9), lambda row: with_symbols(row.limit)),
-        (words("Basis", 1.5), lambda row: row.basis),
-        (centered("Verdict", 1.8), lambda row: stamp(row.verdict)),
-    )
-    return listed(package.assessment.rows, columns, package.fmt)
+    """Return the requirements beside the numeric limits, each with its verdict."""
+    rows = [
+        row.model_copy(
+            update={name: with_symbols(getattr(row, name)) for name in ("title", "found", "limit")}
+        )
+        for row in requirement_rows(package.assessment.rows)
+    ]
+    return table_of(rows, "subject title found limit basis verdict", package.fmt)
 
 
 def check_table(

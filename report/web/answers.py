@@ -15,13 +15,14 @@ from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
 from report.assessment.verdict import Verdict
+from report.document.templates import sentence
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
-from report.pages.front import verdict_sentence
 from report.pages.registry import package_data
 from report.pages.summary import attention
+from report.typeset.pdf import TEMPLATES
 from report.web.plan import NO_VALUE, USUAL_PX, plan
 from report.web.tables import Cell, cells, heads, stamp
 
@@ -61,7 +62,7 @@ def answer(
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "verdict": verdict(assessment.verdict, assessment.verdict.value),
-        "verdict_text": None if is_provisional else verdict_sentence(package_data(assessment)),
+        "verdict_text": None if is_provisional else _rests_on(assessment),
         "reasons": [] if is_provisional else list(map(asdict, attention(assessment))),
         "arrays": {
             "caption": "Arrays: displacement",
@@ -89,6 +90,11 @@ def answer(
         },
         "plan": plan(assessment, designs, gaps, fmt, verdict, room_px),
     }
+
+
+def _rests_on(assessment: Assessment) -> str:
+    """Return what the verdict rests on; the reasons are listed beside it."""
+    return sentence(TEMPLATES, "verdict", package_data(assessment), "here")
 
 
 def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:

@@ -88,7 +88,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
         exception_handlers={
             InputError: _refused,
             RefusedError: _refused,
-            StaleError: _stale,
+            StaleError: _told(409, "A newer request of this page came."),
             LostError: _told(503, "The process that computes has ended. Try it again."),
             OtherProjectError: _told(
                 412, "Another project was opened in another tab; reload the page to see it."
@@ -198,10 +198,6 @@ def _told(status: int, sentence: str) -> Callable[[Request, Exception], Awaitabl
         return _error(str(error) or sentence, status)
 
     return handle
-
-
-async def _stale(_: Request, __: Exception) -> Response:
-    return JSONResponse({"stale": True}, 409)
 
 
 async def _not_written(_: Request, error: Exception) -> Response:

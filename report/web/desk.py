@@ -15,8 +15,6 @@ from report.web.packages import Packages
 from report.web.sessions import EXAMPLE, Session, Sessions
 from report.web.workers import JobOrigin, Rank, Workers
 
-INTERNAL = "An internal error; see what roofslip serve printed."
-
 
 class RefusedError(Exception):
     """What a workbook could not have, with each problem as data."""
@@ -71,15 +69,13 @@ class Desk:
         """
         self._asked += 1
         page, number = (asked["page"], asked["n"]) if asked else (str(self._asked), 0)
-        place = JobOrigin((session.id, str(job["do"]), page), number)
-        found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, place)
+        origin = JobOrigin((session.id, str(job["do"]), page), number)
+        found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, origin)
         if "answer" in found:
             answer: Mapping[str, Any] = found["answer"]
             return answer
         if "errno" in found:
             raise OSError(found["errno"], os.strerror(found["errno"]))
-        if "internal" in found:
-            raise RefusedError(INTERNAL, [])
         first = found["refused"] if "refused" in found else found["problems"][0]["text"]
         raise RefusedError(first, found["problems"])
 

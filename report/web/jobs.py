@@ -82,7 +82,7 @@ def state(workbook: Path, job: Json) -> Json:
 
 def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: of runs in one axis while a slider moves, else complete."""
-    given = _at(workbook, job["values"])
+    given = _given(workbook, _key(workbook, job["values"]))
     if job["moving"]:
         start = replace(_at_rest(workbook, {}), sheet=given.sheet, shaking=given.shaking)
         found = anticipate(start, given.sheet.project)
@@ -119,10 +119,6 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
 @lru_cache(KEPT_PROJECTS)
 def _open(workbook: Path) -> Opened:
     return opened(workbook)
-
-
-def _at(workbook: Path, values: Values) -> Opened:
-    return _given(workbook, _key(workbook, values))
 
 
 def _at_rest(workbook: Path, values: Values) -> Assessment:

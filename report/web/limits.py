@@ -10,6 +10,7 @@ import importlib
 import os
 
 FULL = "The disk of the server is full. Make room there, then try it again."
+INTERNAL = "An internal error; see what roofslip serve printed."
 
 
 def limit_memory(maximum_bytes: int) -> None:

@@ -14,7 +14,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from report.making import Step
-from report.web.limits import FULL, give_way, is_full, limit_files, limit_memory, limit_processor
+from report.web.limits import (
+    FULL,
+    INTERNAL,
+    give_way,
+    is_full,
+    limit_files,
+    limit_memory,
+    limit_processor,
+)
 from report.words.counts import capitalized
 
 MEMORY_BYTES = 8 << 30
@@ -55,7 +63,7 @@ def outcome(make: Callable[[], None]) -> Mapping[str, str]:
         if isinstance(error, InputError):
             return _failed(error.problems[0])
         traceback.print_exc()
-        return _failed("An internal error; see what roofslip serve printed.")
+        return _failed(INTERNAL)
     return {"stage": "done"}
 
 

@@ -54,7 +54,11 @@ def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
         return None
     row, column = coordinate_to_tuple(cell)
     header, columns = _headed(book, book.book[title], row, column)
-    shown = [number for number in columns if header or not _is_blank(book, title, row, number)]
+    shown = [
+        number
+        for number in columns
+        if header or not found_at(book, CellPosition(title, row, number)).is_blank
+    ]
     if column not in shown:
         shown = sorted([*shown, column])
     return {
@@ -77,10 +81,6 @@ def _headed(book: OpenBook, sheet: Worksheet, row: int, column: int) -> tuple[in
             return table.heading.row, numbers[:_MOST_COLUMNS]
     last = min(sheet.max_column, _MOST_COLUMNS)
     return 0, range(1, max(last, column if column <= _MOST_COLUMNS else 1) + 1)
-
-
-def _is_blank(book: OpenBook, title: str, row: int, column: int) -> bool:
-    return found_at(book, CellPosition(title, row, column)).is_blank
 
 
 def _text(book: OpenBook, title: str, row: int, column: int) -> str:

@@ -74,7 +74,8 @@ class _Room:
     def take(self, name: str, content: IO[bytes]) -> None:
         """Write one file."""
         path = checked(name)
-        if self._is_hidden(path):
+        # Hidden files, and the lock of an open workbook.
+        if any(part.startswith((".", "~$")) or part == "__MACOSX" for part in path.parts):
             return
         if len(self.paths) >= MOST_FILES:
             raise InputError(f"more than {MOST_FILES} files; drop the workbook and its records")
@@ -101,10 +102,6 @@ class _Room:
             first = self._spelled.setdefault(key, str(part))
             if first != str(part) or (part == path and is_written):
                 raise InputError(f"{path}: the same name as {first} but for capitals; rename one")
-
-    @staticmethod
-    def _is_hidden(path: PurePosixPath) -> bool:
-        return any(part.startswith((".", "~$")) or part == "__MACOSX" for part in path.parts)
 
 
 def checked(name: str) -> PurePosixPath:

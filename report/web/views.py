@@ -44,6 +44,26 @@ _TITLES = {
     "normal": "Normal force",
     "friction": "Friction F / N",
 }
+_DOWNSLOPE = "downslope"
+# What the page says at a pointer or a time: it puts its numbers in place of the names in braces.
+_IN_MOTION = {
+    "read": "t = {time}",
+    "time": "Time [s]",
+    "in_time": "{title} in time",
+    "from_ground": "From the ground",
+    "on_roof": "On the roof",
+    "in_motion": "Plan in motion. {title}",
+    "to_scale": "{title}, motion to scale",
+    "enlarged": "{title}, motion × {factor}",
+    "downslope": _DOWNSLOPE,
+}
+_AT_POINT = {
+    "lost": "μ {mu}, slope {slope}: no value; a run gives no displacement",
+    "computed": "μ {mu}, slope {slope}: mean PRD {prd}, computed",
+    "between": "μ {mu}, slope {slope}: mean PRD {prd}, interpolated",
+    "least": "μ {mu}, slope {slope}: mean PRD at most {prd}, interpolated",
+}
+_ON_PATH = "{name} at {time}: {far} from the start, downslope {down}, cross-slope {across}"
 _ACCELERATION = (Unit("g", G_MPS2, 2),)
 _VELOCITY = (Unit("in/s", INCH_M, 1), Unit("mm/s", 1e-3, 0))  # what fits above a panel
 _NORMAL = (Unit("W", 1.0, 2),)
@@ -94,6 +114,9 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         "texts": {
             "title": f"Array {array_id}, motion {motion_id}, run {chosen.orientation.name}",
             "relative": "Displacement",
+            "clock": f"{{time}} of {number(motion.seconds, 2)} s",
+            "at_rest": f"At rest, after {{past}} of {len(slips)} slips",
+            **_IN_MOTION,
             **_slide_texts(chosen, history, roof, fmt),
         },
     }
@@ -158,6 +181,8 @@ def paths(assessment: Assessment, array_id: str) -> Json:
         "units": {"time": _units(_TIME), "displacement": _units(fmt.units())},
         "texts": {
             "title": f"Paths of array {array_id} in plan, all at one scale",
+            "read": _ON_PATH,
+            "downslope": _DOWNSLOPE,
             "notes": [
                 "Governing run of each motion, relative to the roof. A cross marks the start, a "
                 "dot the peak relative displacement (PRD)."
@@ -247,7 +272,12 @@ def _panels(
         "friction": (_RATIO, friction),
     }
     return {
-        kind: {"title": _TITLES[kind], "units": _units(units), "series": series}
+        kind: {
+            "title": _TITLES[kind],
+            "title_with_unit": f"{_TITLES[kind]} [{units[0].symbol}]".removesuffix(" []"),
+            "units": _units(units),
+            "series": series,
+        }
         for kind, (units, series) in panels.items()
     }
 
@@ -319,6 +349,7 @@ def _contour_texts(found: ResponseSurface, here_m: float, fmt: UnitFormat) -> Js
         f"array {array.id}",
         "here": f"{array.id}: {'' if math.isnan(here_m) else 'mean PRD '}{fmt.both(here_m)}",
         "notes": notes,
+        "read": _AT_POINT,
         "x": "Friction coefficient μ at low velocity",
         "y": "Slope [deg]",
     }
@@ -327,10 +358,12 @@ def _contour_texts(found: ResponseSurface, here_m: float, fmt: UnitFormat) -> Js
 def _path(motion: MotionRun, fmt: UnitFormat) -> Json:
     """Return a path, to the right and up the page, as in the package."""
     run, history = motion.governing, motion.history()
+    name = f"{motion.motion.id} {_orientation(motion, run)}"
+    prd = _prd(history.result.prd_m, fmt.both)
     path: Json = {
-        "motion": motion.motion.id,
-        "run": _orientation(motion, run),
-        "prd": _prd(history.result.prd_m, fmt.both),
+        "name": name,
+        "prd": prd,
+        "title": f"Path under {name}, {prd}",
         "dt_s": run.scene.dt_s,
         "i": [],
         "x_m": [],

@@ -13,7 +13,7 @@ import sys
 import traceback
 from typing import Any
 
-from report.web.limits import give_way, is_full, limit_memory
+from report.web.limits import INTERNAL, give_way, is_full, limit_memory
 
 MEMORY_BYTES = 6 << 30
 _TOO_LARGE = "this needs more memory than a session may use; drop fewer or shorter records"
@@ -43,18 +43,16 @@ def answered(perform: Any, line: str) -> str:
     try:
         return json.dumps(perform(json.loads(line)), allow_nan=False)
     except MemoryError:
-        return json.dumps({"problems": [], "refused": _TOO_LARGE})
-    except OSError as error:
-        if is_full(error):
+        return _refused(_TOO_LARGE)
+    except Exception as error:
+        if isinstance(error, OSError) and is_full(error):
             return json.dumps({"errno": error.errno})
-        return _internal()
-    except Exception:
-        return _internal()
+        traceback.print_exc()
+        return _refused(INTERNAL)
 
 
-def _internal() -> str:
-    traceback.print_exc()
-    return json.dumps({"problems": [], "internal": traceback.format_exc(limit=-1)})
+def _refused(why: str) -> str:
+    return json.dumps({"problems": [], "refused": why})
 
 
 if __name__ == "__main__":

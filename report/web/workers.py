@@ -58,7 +58,7 @@ class JobOrigin:
 class _Waiting:
     job: Mapping[str, Any]
     rank: Rank
-    place: JobOrigin
+    origin: JobOrigin
     order: int
     answer: asyncio.Future[Mapping[str, Any]] = field(repr=False)
     tries: int = 0
@@ -109,22 +109,22 @@ class Workers:
         for waiting in self._waiting:
             waiting.answer.cancel()
 
-    async def ask(self, job: Mapping[str, Any], rank: Rank, place: JobOrigin) -> Mapping[str, Any]:
+    async def ask(self, job: Mapping[str, Any], rank: Rank, origin: JobOrigin) -> Mapping[str, Any]:
         """Return the answer to a job.
 
         Raises
         ------
         StaleError, LostError
         """
-        rivals = [each for each in self._waiting if each.place.key == place.key]
-        if any(each.place.number > place.number for each in rivals):
+        rivals = [each for each in self._waiting if each.origin.key == origin.key]
+        if any(each.origin.number > origin.number for each in rivals):
             raise StaleError
         for each in rivals:
             self._waiting.remove(each)
             if not each.answer.done():
                 each.answer.set_exception(StaleError())
         answer: asyncio.Future[Mapping[str, Any]] = asyncio.get_running_loop().create_future()
-        self._waiting.append(_Waiting(job, rank, place, next(self._orders), answer))
+        self._waiting.append(_Waiting(job, rank, origin, next(self._orders), answer))
         async with self._arrived:
             self._arrived.notify_all()
         return await answer

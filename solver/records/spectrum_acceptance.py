@@ -192,6 +192,7 @@ def _least(
         is_at_least=True,
         worst=worst,
         provision=provision,
+        is_ratio_to_target=True,
     )
 
 

@@ -66,6 +66,8 @@ class Limit:
         Whether the rule set permits this project to exceed the limit.
     worst : str
         Motion, component and frequency of the value found; empty if it is that of all.
+    is_ratio_to_target : bool
+        Whether the value found is a spectrum over its target.
     """
 
     title: str
@@ -78,6 +80,7 @@ class Limit:
     key: str = ""
     may_exceed: bool = False
     worst: str = ""
+    is_ratio_to_target: bool = False
 
     @property
     def ok(self) -> bool:

@@ -48,6 +48,7 @@ const chosen = { array: null, motion: null };
 
 mountTabs(part("tabs"), (panel) => views.open(panel));
 mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, (files) => opening(() => api.upload(files)));
+part("back").addEventListener("click", showDesk);
 part("example").addEventListener("click", () => opening(api.example));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
 addEventListener("hashchange", () => state?.project && restore());
@@ -86,8 +87,8 @@ function open(next, isRestored) {
 function showErrors({ problems, is_alone: isAlone }) {
   const isLost = isAlone && problems.some(({ cell }) => cell); // a workbook, but no records
   showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
-  if (state) part("problems").querySelector("p").after(button(`Back to ${state.project.name}`, showDesk));
-  part("problems").querySelector("h2").focus();
+  part("back").hidden = !state;
+  if (state) part("back").textContent = `Back to ${state.project.name}`;
   part("desk").hidden = true;
   part("welcome").hidden = true;
   named("This workbook has errors");

@@ -8,7 +8,8 @@ const WIDE = 100; // units of the drawing; it stretches with its cell
 export function showBars(element, { heads, scale_m: scale, arrays }, id) {
   const { caption, lines, rows } = arrays[id];
   const at = (meters) => (WIDE * meters) / scale;
-  const drawn = () => lines.filter(({ length_m: length }) => length !== null).map(({ look, length_m: length }) => mark(look, at(length)));
+  const marked = lines.filter(({ length_m: length }) => length !== null);
+  const drawn = () => marked.map(({ look, length_m: length }) => svg("line", { class: look, x1: at(length), x2: at(length), y1: 0, y2: 10 }));
   const row = ({ motion, prd_m: prd, text }) => {
     const bar = prd === null ? null : svg("rect", { class: "prd", x: 0, y: 2, width: at(prd), height: 6 });
     const drawing = svg("svg", { viewBox: `0 0 ${WIDE} 10`, preserveAspectRatio: "none" }, bar, drawn());
@@ -21,10 +22,6 @@ export function showBars(element, { heads, scale_m: scale, arrays }, id) {
     html("tbody", {}, rows.map(row)),
     html("tfoot", {}, html("tr", {}, html("td", { colspan: heads.length }, lines.map(({ look, text }) => [sample(look), html("span", {}, text)])))),
   );
-}
-
-function mark(look, x) {
-  return svg("line", { class: look, x1: x, x2: x, y1: 0, y2: 10 });
 }
 
 function sample(look) {

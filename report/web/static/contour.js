@@ -2,17 +2,18 @@
 
 import { html, note, points, replace, set, svg } from "./make.js";
 import { isFree } from "./place.js";
-import { measured, reading } from "./reading.js";
+import { filled, measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
 import { createView, onKeys } from "./view-frame.js";
-import { cross, pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
+import { cross, frame, linesAcross, linesUp, onPointer, setSize, textsAcross, textsUp } from "./view-parts.js";
 
 const HEIGHT = 370;
 const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
 const EDGE = 0.03; // of the range, around the outermost points
 const FINE = 0.1; // of a cell
 const LABEL = 13; // height of a label
+const TICK = 4;
 const DOT = 13; // width of an array's dot
 
 /** Keep the contours in an element. */
@@ -31,14 +32,11 @@ function build(element, data) {
 
   function read(mu, slope) {
     at = { mu: within(mu, mus[0], mus.at(-1)), slope: within(slope, slopes[0], slopes.at(-1)) };
-    set(cursor, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.end}`, visibility: "visible" });
-    where.textContent = `μ ${measured(at.mu, units.mu[0])}, slope ${measured(at.slope, units.slope[0])}: ${words(data, at)}`;
+    set(cursor, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.ends[1]}`, visibility: "visible" });
+    where.textContent = words(data, at);
   }
 
-  plot.addEventListener("pointermove", (event) => {
-    const [across, up] = pointerIn(plot, event);
-    read(x.inverse(across), y.inverse(up));
-  });
+  onPointer(plot, ([across, up]) => read(x.inverse(across), y.inverse(up)));
   plot.addEventListener("pointerdown", () => plot.focus());
   const go = (right, up) => ({ shiftKey }) => read(moved(mus, at.mu, right, shiftKey), moved(slopes, at.slope, up, shiftKey));
   onKeys(plot, {
@@ -49,12 +47,9 @@ function build(element, data) {
     Home: () => read(data.here.mu, data.here.slope_deg),
   });
 
-  function resize() {
-    const wide = element.clientWidth;
-    if (wide === 0) return;
-    sized(plot, wide, HEIGHT);
+  function resize(wide) {
+    setSize(plot, wide, HEIGHT);
     x = scale(roomy(mus), [MARGIN.left, wide - MARGIN.right]);
-    x.end = wide - MARGIN.right;
     y = scale(roomy(slopes), [HEIGHT - MARGIN.bottom, MARGIN.top]);
     const named = data.dots.map((dot) => ({ ...dot, at: [x(dot.mu), y(dot.slope_deg)] }));
     replace(plot, axes(data, x, y), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y, named), cursor, named.map(arrayDot));
@@ -69,16 +64,14 @@ function build(element, data) {
     html("p", { class: "note", id: "contour-keys" }, "Point, or use the arrow keys: to the next computed value, with Shift a tenth of that, Home back to the array."),
     note(data.texts.notes.join(" ")),
   );
-  resize();
-  return { resize, stop() {} };
+  return { resize };
 }
 
-function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units }, { mu, slope }) {
+function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units, texts }, { mu, slope }) {
   const { value, isComputed } = surfaceAt(mus, slopes, prd, mu, slope, least);
-  if (value === null) return "no value; a run gives no displacement";
-  if (isComputed) return `mean PRD ${reading(value, units.displacement)}, computed`;
-  const text = reading(value, units.displacement);
-  return value <= least ? `mean PRD at most ${text}, interpolated` : `mean PRD ${text}, interpolated`;
+  const between = value <= least ? "least" : "between";
+  const text = texts.read[value === null ? "lost" : isComputed ? "computed" : between];
+  return filled(text, { mu: measured(mu, units.mu[0]), slope: measured(slope, units.slope[0]), prd: reading(value, units.displacement) });
 }
 
 // The next computed value of an axis, or a tenth of the way to it.
@@ -96,19 +89,19 @@ function roomy(axis) {
 }
 
 function axes({ mus, slopes_deg: slopes, texts }, x, y) {
-  const across = ticks(...roomy(mus), (x.end + MARGIN.right) / 90);
+  const [[left, right], [foot, top]] = [x.ends, y.ends];
+  const across = ticks(...roomy(mus), (right + MARGIN.right) / 90);
   const up = ticks(...roomy(slopes), 6);
-  const foot = HEIGHT - MARGIN.bottom;
   return svg(
     "g",
     { class: "axes" },
-    svg("path", { class: "frame", d: `M${MARGIN.left} ${MARGIN.top}V${foot}H${x.end}` }),
-    across.values.map((mu) => svg("line", { x1: x(mu), x2: x(mu), y1: foot, y2: foot + 4 })),
+    frame(x, y),
+    linesAcross(across, x, [foot, foot + TICK]),
     textsAcross(across, x, foot + 17),
-    up.values.map((slope) => svg("line", { x1: MARGIN.left - 4, x2: MARGIN.left, y1: y(slope), y2: y(slope) })),
-    textsUp(up, MARGIN.left - 7, y),
-    svg("text", { class: "label middle-of", x: (MARGIN.left + x.end) / 2, y: HEIGHT - 6 }, texts.x),
-    svg("text", { class: "label middle-of", transform: `translate(13 ${(MARGIN.top + foot) / 2}) rotate(-90)` }, texts.y),
+    linesUp(up, [left - TICK, left], y),
+    textsUp(up, left - 7, y),
+    svg("text", { class: "label middle-of", x: (left + right) / 2, y: HEIGHT - 6 }, texts.x),
+    svg("text", { class: "label middle-of", transform: `translate(13 ${(top + foot) / 2}) rotate(-90)` }, texts.y),
   );
 }
 
@@ -124,13 +117,13 @@ function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
 
 // Each level with its value on its longest line, where no other label stands.
 function lines({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, levels }, x, y, named) {
-  const frame = { x: MARGIN.left, y: MARGIN.top, wide: x.end - MARGIN.left, tall: HEIGHT - MARGIN.bottom - MARGIN.top };
+  const inside = { x: MARGIN.left, y: MARGIN.top, wide: x.ends[1] - MARGIN.left, tall: HEIGHT - MARGIN.bottom - MARGIN.top };
   const taken = named.flatMap(({ at: [a, b], name }) => [labelBox([a, b], DOT), labelBox([a + 9 + widthOf(name) / 2, b - 11], widthOf(name))]);
   const fine = refined(mus, slopes, prd, least, 6);
   return levels.map(({ prd_m: level, text, is_major: isMajor }) => {
     const found = isolines(...fine, level, least).map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
     const longest = found.toSorted((a, b) => b.length - a.length)[0] ?? [];
-    const place = fromMiddle(longest).find((point) => isFree(labelBox(point, widthOf(text)), taken, frame));
+    const place = fromMiddle(longest).find((point) => isFree(labelBox(point, widthOf(text)), taken, inside));
     if (place) taken.push(labelBox(place, widthOf(text)));
     return [
       found.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) })),

@@ -1,7 +1,7 @@
 // Histories of one run: roof acceleration and velocity, relative displacement, normal force.
 
 import { button, html, note, replace } from "./make.js";
-import { measured } from "./reading.js";
+import { filled, measured } from "./reading.js";
 import { within } from "./view-axes.js";
 import { createView, onKeys, runSelect } from "./view-frame.js";
 import { createPanels } from "./view-panels.js";
@@ -24,7 +24,7 @@ export function mount(element, api, scene) {
 }
 
 function build(element, data, again, announce) {
-  const panels = createPanels({ panels: panelsOf(data), seconds: data.seconds, slips: data.slips });
+  const panels = createPanels(PANELS.map((kind) => panelOf(data, kind, "title_with_unit")), data);
   const where = html("span", { class: "numbers when" });
   const brush = html("div", { class: "brush", hidden: true });
   const stage = html("div", { class: "stage", tabindex: 0, role: "application", "aria-label": "Histories", "aria-describedby": "histories-keys" }, panels.element, brush);
@@ -36,13 +36,12 @@ function build(element, data, again, announce) {
     if (span !== drawn) panels.show(span);
     drawn = span;
     panels.at(time);
-    where.textContent = `t = ${measured(time, data.units.sample[0])}`;
+    where.textContent = filled(texts.read, { time: measured(time, data.units.sample[0]) });
     buttons.follow(lens);
   });
   zoomByKeys(stage, lens, () => announce(`${where.textContent}. ${panels.words(lens.time)}.`));
   zoomByPointer(stage, brush, panels, lens);
 
-  const resize = () => panels.resize(element.clientWidth, HEIGHT, { isNarrow: element.clientWidth < NARROW });
   replace(
     element,
     html("p", { class: "print-only" }, `${texts.title}: ${texts.prd}`),
@@ -51,14 +50,8 @@ function build(element, data, again, announce) {
     html("p", { class: "note", id: "histories-keys" }, KEYS),
     note(texts.notes.join(" ")),
   );
-  resize();
   lens.reset();
-  return { resize, stop() {} };
-}
-
-function panelsOf(data) {
-  const panels = PANELS.map((kind) => panelOf(data, kind));
-  return panels.map((panel) => ({ ...panel, title: `${panel.title} [${panel.units[0].symbol}]` }));
+  return { resize: (wide) => panels.resize(wide, HEIGHT, { isNarrow: wide < NARROW }) };
 }
 
 // The span of time that is shown, and the sample that is read, within it.

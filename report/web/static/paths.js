@@ -2,10 +2,10 @@
 
 import { html, note, points, replace, set, svg } from "./make.js";
 import { boxAround } from "./place.js";
-import { measured, reading } from "./reading.js";
+import { filled, measured, reading } from "./reading.js";
 import { within } from "./view-axes.js";
 import { createView, onKeys } from "./view-frame.js";
-import { arrow, cross, pointerIn, resize as sized, scaleBar } from "./view-parts.js";
+import { arrow, cross, onPointer, setSize, scaleBar } from "./view-parts.js";
 
 const LEAST_WIDE = 128; // of a panel
 const ROOM = 10; // around the paths
@@ -21,19 +21,17 @@ export function mount(element, api, scene) {
 function build(element, data) {
   const extent = boxAround([[0, 0], ...data.paths.flatMap(({ x_m: x, y_m: y }) => x.map((value, k) => [value, y[k]]))]);
   const where = html("output", { class: "numbers", role: "status" }, "Point at a path, or Tab to it and use the arrow keys, to read it.");
-  const panels = data.paths.map((path) => createPanel(path, data.units, (text) => {
+  const panels = data.paths.map((path) => createPanel(path, data, (text) => {
     where.textContent = text;
   }));
   const bar = svg("svg", { class: "scale", "aria-hidden": true });
   const grid = html("div", { class: "paths" }, panels.map((panel) => panel.element));
 
-  function resize() {
-    const wide = element.clientWidth;
-    if (wide === 0) return;
+  function resize(wide) {
     const { columns, scale } = arrange(extent, panels.length, wide);
     grid.style.setProperty("--columns", columns);
     for (const panel of panels) panel.draw(extent, scale, wide / columns);
-    drawFoot(bar, scale, data.units.displacement[0]);
+    drawFoot(bar, scale, data);
   }
 
   replace(
@@ -43,8 +41,7 @@ function build(element, data) {
     html("div", { class: "paths-foot" }, bar, where),
     note(data.texts.notes.join(" ")),
   );
-  resize();
-  return { resize, stop() {} };
+  return { resize };
 }
 
 // The number of columns at which the common scale, in pixels per meter, is largest.
@@ -59,11 +56,10 @@ function arrange(extent, count, wide) {
   return best;
 }
 
-function createPanel(path, units, write) {
-  const name = `${path.motion} ${path.run}`;
+function createPanel(path, { units, texts }, write) {
   const [first] = units.displacement;
   const dot = svg("circle", { class: "reading-dot", r: 4, visibility: "hidden" });
-  const drawing = svg("svg", { tabindex: path.i.length ? 0 : null, role: path.i.length ? "application" : "img", "aria-label": `Path under ${name}, ${path.prd}` });
+  const drawing = svg("svg", { tabindex: path.i.length ? 0 : null, role: path.i.length ? "application" : "img", "aria-label": path.title });
   let pixels = [];
   let at = 0;
 
@@ -73,11 +69,11 @@ function createPanel(path, units, write) {
     // Downslope is down the page, and cross-slope to the right of it.
     const [across, down] = [path.x_m[k], -path.y_m[k]];
     const far = reading(Math.hypot(across, down), units.displacement);
-    write(`${name} at ${measured(path.i[k] * path.dt_s, units.time[0])}: ${far} from the start, downslope ${measured(down, first)}, cross-slope ${measured(across, first)}`);
+    write(filled(texts.read, { name: path.name, time: measured(path.i[k] * path.dt_s, units.time[0]), far, down: measured(down, first), across: measured(across, first) }));
   }
 
   if (path.i.length) {
-    drawing.addEventListener("pointermove", (event) => read(nearest(pixels, pointerIn(drawing, event))));
+    onPointer(drawing, (place) => read(nearest(pixels, place)));
     drawing.addEventListener("focus", () => read(at));
     const go = (to) => read(within(to, 0, pixels.length - 1));
     onKeys(drawing, {
@@ -90,11 +86,11 @@ function createPanel(path, units, write) {
   }
 
   return {
-    element: html("figure", { class: "path-panel" }, html("figcaption", {}, html("strong", {}, name), html("span", { class: "numbers" }, path.prd)), drawing),
+    element: html("figure", { class: "path-panel" }, html("figcaption", {}, html("strong", {}, path.name), html("span", { class: "numbers" }, path.prd)), drawing),
     draw(extent, scale, wide) {
       const left = (wide - 8 - extent.wide * scale) / 2;
       const to = (x, y) => [left + (x - extent.x) * scale, ROOM + (extent.y + extent.tall - y) * scale];
-      sized(drawing, wide - 8, Math.max(extent.tall, LEAST_M) * scale + 2 * ROOM);
+      setSize(drawing, wide - 8, Math.max(extent.tall, LEAST_M) * scale + 2 * ROOM);
       pixels = path.x_m.map((value, k) => to(value, path.y_m[k]));
       const peak = path.peak && to(path.peak.x_m, path.peak.y_m);
       at = peak ? nearest(pixels, peak) : 0;
@@ -120,7 +116,7 @@ function nearest(pixels, [x, y]) {
   return best;
 }
 
-function drawFoot(foot, scale, unit) {
-  sized(foot, 250, 34);
-  replace(foot, arrow([8, 16], [0, 1], 12), svg("text", { class: "label", x: 18, y: 21 }, "downslope"), scaleBar([100, 18.5], unit, scale, BAR));
+function drawFoot(foot, scale, { units, texts }) {
+  setSize(foot, 250, 34);
+  replace(foot, arrow([8, 16], [0, 1], 12), svg("text", { class: "label", x: 18, y: 21 }, texts.downslope), scaleBar([100, 18.5], units.displacement[0], scale, BAR));
 }

@@ -4,20 +4,14 @@ import { headings, html, replace, words } from "./make.js";
 
 const BESIDE = 2; // columns drawn on either side of the cell
 
-/** Show the errors of a workbook. */
+/** Show the errors of a workbook, and go there. */
 export function showProblems(element, problems, title, advice) {
-  replace(
-    element,
-    html("h2", { tabindex: "-1" }, title),
-    html("p", {}, advice),
-    html(
-      "table",
-      { class: "problems" },
-      headings(["No.", "Cell", "Found", "Remedy", "Row"]),
-      html("tbody", {}, problems.map(line)),
-    ),
-  );
+  const [heading, paragraph, body] = ["h2", "p", "tbody"].map((name) => element.querySelector(name));
+  heading.textContent = title;
+  paragraph.textContent = advice;
+  replace(body, problems.map(line));
   element.hidden = false;
+  heading.focus();
 }
 
 /** Return the columns of a row that are drawn: the first, and those around the cell. */

@@ -23,6 +23,11 @@ export function reading(value, [first, ...others]) {
   return `${measured(value, first)} (${others.map((unit) => measured(value, unit)).join(", ")})`;
 }
 
+/** Return a text of the server with values in place of their names in braces. */
+export function filled(text, values) {
+  return text.replace(/\{(\w+)\}/g, (_, name) => values[name]);
+}
+
 /** Return a round number beside a tick, with the decimals that its step needs. */
 export function tickText(value, step) {
   return number(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));

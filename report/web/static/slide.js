@@ -1,7 +1,7 @@
 // Watch it slide: one run in time, with what plays it and what tells of its slips.
 
 import { button, html, note, replace } from "./make.js";
-import { measured } from "./reading.js";
+import { filled, measured } from "./reading.js";
 import { within } from "./view-axes.js";
 import { createView, onKeys, runSelect } from "./view-frame.js";
 import { createPlayer } from "./view-player.js";
@@ -54,9 +54,8 @@ function build(element, data, again, { announce, settings }) {
     End: () => player.seek(seconds),
   });
 
-  function resize() {
-    if (element.clientWidth === 0) return;
-    stage.resize(element.clientWidth);
+  function resize(wide) {
+    stage.resize(wide);
     show(player.time);
   }
 
@@ -70,7 +69,6 @@ function build(element, data, again, { announce, settings }) {
     html("p", { class: "note", id: "slide-keys" }, KEYS),
     note(texts.notes.join(" ")),
   );
-  resize();
   player.seek(data.t_prd_s ?? 0);
   player.rewind();
   return { resize, stop: player.pause };
@@ -88,11 +86,11 @@ function createSlips({ slips, texts }) {
     before: (time) => firstToEnd(time) - 1,
     after: past,
     text: (k) => slips[k].text,
-    rest: (time) => (slips.length === 0 ? texts.no_slip : `At rest, after ${past(time)} of ${slips.length} slips`),
+    rest: (time) => (slips.length === 0 ? texts.no_slip : filled(texts.at_rest, { past: past(time) })),
   };
 }
 
-function controls(player, { data: { seconds, units }, before, after }) {
+function controls(player, { data: { seconds, units, texts }, before, after }) {
   const said = (time) => measured(time, units.time[0]);
   const play = button("Play", player.toggle, { title: "Play or pause (Space)", class: "button primary play" });
   const back = button("‹ Slip", before, { title: "Slip before (P)", "aria-label": "Slip before" });
@@ -108,7 +106,7 @@ function controls(player, { data: { seconds, units }, before, after }) {
     show(time, { isFirst, isLast }) {
       scrub.value = time;
       scrub.setAttribute("aria-valuetext", said(time));
-      clock.textContent = `${said(time)} of ${said(seconds)}`;
+      clock.textContent = filled(texts.clock, { time: said(time) });
       play.textContent = player.isPlaying ? "Pause" : "Play";
       back.disabled = isFirst;
       next.disabled = isLast;

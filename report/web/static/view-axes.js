@@ -6,11 +6,12 @@ export function roundBelow(value) {
   return [5, 2, 1].find((digit) => digit * power <= value * (1 + 1e-9)) * power;
 }
 
-/** Return a linear scale from a range of values to one of pixels, with its inverse. */
+/** Return a linear scale from a range of values to one of pixels, with its inverse and its `ends` in pixels. */
 export function scale([low, high], [from, to]) {
   const factor = (to - from) / (high - low);
   const at = (value) => from + (value - low) * factor;
   at.inverse = (pixel) => low + (pixel - from) / factor;
+  at.ends = [from, to];
   return at;
 }
 

@@ -5,15 +5,21 @@ import { button, html, note, replace } from "./make.js";
 
 /**
  * Return a view of a scene, which is what it asks with: `fetch(request)` returns the answer, and
- * `build(element, data, again)` draws it and returns `{ resize(), stop() }`. `again(changes)` asks
- * with other values of the view's own.
+ * `build(element, data, again)` makes its drawing and returns `{ resize(width), stop() }`, where
+ * `stop` may lack. `again(changes)` asks with other values of the view's own.
  */
 export function createView(element, scene, fetch, build) {
   let drawing = null;
   let shown = ""; // the request that is drawn
   let own = {};
   let last = scene;
+  let width = 0; // that it is drawn in; none while its tab is closed
   let isMoving = false; // whether a slider moves, so that what is drawn is out of date
+
+  function draw() {
+    width = element.clientWidth;
+    if (width > 0) drawing?.resize(width);
+  }
 
   async function update(next) {
     if (next.array !== last.array || next.motion !== last.motion) own = {};
@@ -26,16 +32,17 @@ export function createView(element, scene, fetch, build) {
       return;
     }
     shown = "";
-    drawing?.stop();
+    drawing?.stop?.();
     element.setAttribute("aria-busy", "true");
     if (drawing) element.classList.add("is-stale");
     else replace(element, note("Calculating …"));
     try {
       const data = await fetch(request);
       if (data === null) return;
-      drawing?.stop();
+      drawing?.stop?.();
       element.replaceChildren();
       drawing = build(element, data, again);
+      draw();
       shown = key;
     } catch (error) {
       drawing = null;
@@ -51,29 +58,17 @@ export function createView(element, scene, fetch, build) {
     update(last);
   }
 
-  onWidth(element, () => drawing?.resize());
+  new ResizeObserver(() => element.clientWidth !== width && draw()).observe(element);
   update(scene);
   return {
     update,
     moving() {
       isMoving = true;
-      drawing?.stop();
+      drawing?.stop?.();
       element.classList.add("is-stale");
     },
-    hide() {
-      drawing?.stop();
-    },
+    hide: () => drawing?.stop?.(),
   };
-}
-
-// Call a function when an element gets another width; it has none while its tab is closed.
-function onWidth(element, changed) {
-  let width = 0;
-  new ResizeObserver(([{ contentRect }]) => {
-    if (contentRect.width === width || contentRect.width === 0) return;
-    width = contentRect.width;
-    changed();
-  }).observe(element);
 }
 
 /** Return a select of the runs of a motion; `chosen` gets the name of one. */

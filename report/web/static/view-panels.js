@@ -1,9 +1,9 @@
 // Histories one above the other over one axis of time, with the value at a time in their headings.
 
 import { html, replace, set, svg } from "./make.js";
-import { measured } from "./reading.js";
+import { filled, measured } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
-import { pointerIn, resize as sized, textsAcross, textsUp } from "./view-parts.js";
+import { frame, linesAcross, linesUp, pointerIn, setSize, textsAcross, textsUp } from "./view-parts.js";
 import { curve, rangeIn, valueAt } from "./view-series.js";
 
 const LEFT = 46;
@@ -14,12 +14,12 @@ const ROOM = 0.06; // of the range of the values, above and below
 let made = 0;
 
 /**
- * Return panels: `panels` are `{ title, units, series, least, most, over }`, where `series` have `name`,
+ * Return panels of a run: `panels` are `{ title, units, series, least, most, over }`, where `series` have `name`,
  * `t`, `v` and `look`, `least` and `most` bound the axis, and `over` is the span of time whose values
  * set it, the one shown if not given. Values read in the first unit.
  */
-export function createPanels({ panels, seconds, slips }) {
-  const drawn = panels.map(createPanel);
+export function createPanels(panels, { seconds, slips, texts }) {
+  const drawn = panels.map((panel) => createPanel(panel, texts));
   const axis = svg("svg", { class: "panel-axis", "aria-hidden": true });
   const element = html("div", { class: "panels" }, drawn.map((panel) => panel.element), axis);
   let size = { width: 0, height: 0, head: HEADS[0] };
@@ -35,7 +35,7 @@ export function createPanels({ panels, seconds, slips }) {
     const tall = Math.floor((height - AXIS) / drawn.length) - head;
     const times = ticks(...span, width / 90);
     for (const panel of drawn) panel.draw({ width, tall, span, x, times, slips });
-    drawAxis(axis, width, x, times);
+    drawAxis(axis, width, x, times, texts.time);
     mark();
   }
 
@@ -69,7 +69,7 @@ export function createPanels({ panels, seconds, slips }) {
   };
 }
 
-function createPanel({ title, units, series, least, most, over }) {
+function createPanel({ title, units, series, least, most, over }, texts) {
   made += 1;
   const clip = `panel-${made}`;
   const values = series.map(() => html("span", { class: "value numbers" }));
@@ -83,7 +83,7 @@ function createPanel({ title, units, series, least, most, over }) {
   const window = svg("rect", { x: LEFT, y: 0 });
   const plot = svg(
     "svg",
-    { role: "img", "aria-label": `${title} in time` },
+    { role: "img", "aria-label": filled(texts.in_time, { title }) },
     svg("clipPath", { id: clip }, window),
     svg("g", { "clip-path": `url(#${clip})` }, bands, band, grid, lines.toReversed(), cursor),
     labels,
@@ -93,9 +93,8 @@ function createPanel({ title, units, series, least, most, over }) {
   return {
     element: html("div", { class: "panel" }, head, plot),
     draw({ width, tall, span, x, times, slips }) {
-      const right = width - RIGHT;
-      sized(plot, width, tall);
-      set(window, { width: right - LEFT, height: tall });
+      setSize(plot, width, tall);
+      set(window, { width: width - RIGHT - LEFT, height: tall });
       set(band, { height: tall });
       set(cursor, { y2: tall });
       const [low, high] = limits(series, over ?? span, least, most, units[0].si);
@@ -103,9 +102,9 @@ function createPanel({ title, units, series, least, most, over }) {
       const levels = ticks(low / units[0].si, high / units[0].si, tall / 20);
       replace(
         grid,
-        times.values.map((time) => svg("line", { x1: x(time), x2: x(time), y1: 0, y2: tall })),
-        levels.values.map((value) => svg("line", { class: value === 0 ? "zero" : null, x1: LEFT, x2: right, y1: y(value), y2: y(value) })),
-        svg("path", { class: "frame", d: `M${LEFT} 0V${tall}H${right}` }),
+        linesAcross(times, x, y.ends),
+        linesUp(levels, x.ends, y),
+        frame(x, y),
       );
       const inside = levels.values.filter((value) => y(value) > 6 && y(value) < tall - 3);
       replace(labels, textsUp({ ...levels, values: inside }, LEFT - 6, y));
@@ -125,11 +124,11 @@ function createPanel({ title, units, series, least, most, over }) {
   };
 }
 
-function drawAxis(axis, width, x, { values, step }) {
-  sized(axis, width, AXIS);
-  const room = width - RIGHT - 68; // "Time [s]" and half of a number
+function drawAxis(axis, width, x, { values, step }, title) {
+  setSize(axis, width, AXIS);
+  const room = width - RIGHT - 68; // the title and half of a number
   const shown = { step, values: values.filter((time) => x(time) < room) };
-  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"));
+  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, title));
 }
 
 // The range of what is drawn in a span of time, with some room.

@@ -1,4 +1,5 @@
-// Parts that the drawings of the views share: sizes, pointers, ticks, crosses, arrows, scale bars.
+// Parts that the drawings of the views share: sizes, pointers, frames, ticks, crosses, arrows, scale
+// bars. Scales are those of view-axes.js: to the right and upward.
 
 import { set, svg } from "./make.js";
 import { tickText } from "./reading.js";
@@ -7,7 +8,7 @@ import { roundBelow } from "./view-axes.js";
 const BAR = 4; // half the height of the ends of a scale bar
 
 /** Give a drawing a width and height in pixels. */
-export function resize(drawing, width, height) {
+export function setSize(drawing, width, height) {
   set(drawing, { width, height, viewBox: `0 0 ${width} ${height}` });
 }
 
@@ -15,6 +16,26 @@ export function resize(drawing, width, height) {
 export function pointerIn(element, { clientX, clientY }) {
   const { left, top } = element.getBoundingClientRect();
   return [clientX - left, clientY - top];
+}
+
+/** Have a drawing read where the pointer is in it. */
+export function onPointer(drawing, read) {
+  drawing.addEventListener("pointermove", (event) => read(pointerIn(drawing, event)));
+}
+
+/** Return the left side and the foot of what two scales span. */
+export function frame({ ends: [left, right] }, { ends: [foot, top] }) {
+  return svg("path", { class: "frame", d: `M${left} ${top}V${foot}H${right}` });
+}
+
+/** Return lines at the ticks of an axis to the right, from one height to another. */
+export function linesAcross({ values }, x, [from, to]) {
+  return values.map((value) => svg("line", { x1: x(value), x2: x(value), y1: from, y2: to }));
+}
+
+/** Return lines at the ticks of an axis upward, from one place to another; that at zero has its look. */
+export function linesUp({ values }, [from, to], y) {
+  return values.map((value) => svg("line", { class: value === 0 ? "zero" : null, x1: from, x2: to, y1: y(value), y2: y(value) }));
 }
 
 /** Return the texts of ticks along an axis to the right, centered below their places. */

@@ -18,11 +18,11 @@ const MOST_DEMAND = 1.6; // times the largest friction used: the axis of frictio
 
 /** Return the stage of a run; `seek` is called with the time where the whole run is pressed. */
 export function createStage(data, seek) {
-  const { seconds, slips } = data;
+  const { seconds } = data;
   const tracks = [false, true].map((isFromRoof) => createTrack(data, isFromRoof));
   const [displacement, ...forces] = panelsOf(data);
-  const whole = createPanels({ panels: [displacement], seconds, slips });
-  const close = createPanels({ panels: forces, seconds, slips });
+  const whole = createPanels([displacement], data);
+  const close = createPanels(forces, data);
   const element = html(
     "div",
     { class: "watch", tabindex: 0, role: "application", "aria-label": "Run in time", "aria-describedby": "slide-keys" },

@@ -2,6 +2,7 @@
 
 import { points, replace, set, svg } from "./make.js";
 import { boxAround } from "./place.js";
+import { filled } from "./reading.js";
 import { roundBelow, within } from "./view-axes.js";
 import { arrow, cross, scaleBar } from "./view-parts.js";
 import { lastUpTo } from "./view-series.js";
@@ -18,14 +19,15 @@ const BAR = 80; // pixels of the scale bar, at most
  */
 export function createTrack(data, isFromRoof) {
   const run = motion(data, isFromRoof);
-  const shapes = makeShapes(isFromRoof);
+  const title = isFromRoof ? data.texts.on_roof : data.texts.from_ground;
+  const shapes = makeShapes(isFromRoof, filled(data.texts.in_motion, { title }));
   let scale = null;
 
   return {
     element: shapes.drawing,
     resize(width, height) {
       scale = scaleOf(run, data.plan.outline, width, height);
-      place(shapes, run, data, scale);
+      place(shapes, run, data, { ...scale, title });
     },
     at(time, slip) {
       if (!scale) return;
@@ -42,10 +44,8 @@ export function createTrack(data, isFromRoof) {
   };
 }
 
-function makeShapes(isFromRoof) {
-  const title = isFromRoof ? "On the roof" : "From the ground";
+function makeShapes(isFromRoof, title) {
   const parts = {
-    title,
     grid: svg("path", { class: "track-grid" }),
     start: svg("polygon", { class: "track-start" }),
     block: svg("polygon", { class: "track-block" }),
@@ -59,7 +59,7 @@ function makeShapes(isFromRoof) {
   const { grid, start, block, whole, done, picked, peak, ground, foot } = parts;
   const moving = svg("g", {}, block, svg("circle", { class: "track-center", r: 3.5 }));
   const onRoof = svg("g", {}, grid, start, moving, whole, done, picked, svg("path", { class: "start", d: cross([0, 0], 6) }), peak);
-  const drawing = svg("svg", { role: "img", class: "track", "aria-label": `Plan in motion. ${title}` }, onRoof, ground, foot);
+  const drawing = svg("svg", { role: "img", class: "track", "aria-label": title }, onRoof, ground, foot);
   return { ...parts, moving, onRoof, drawing };
 }
 
@@ -87,7 +87,7 @@ function place(shapes, { peak }, data, scale) {
   if (shapes.ground) set(shapes.ground, { d: `M${-cx} 0h10M${cx} 0h-10M0 ${cy}v-10` });
   if (peak) set(shapes.peak, { cx: (peak[0] * pixel).toFixed(1), cy: (-peak[1] * pixel).toFixed(1) });
   set(shapes.peak, { visibility: peak ? "visible" : "hidden" });
-  drawFoot(shapes.foot, { cx, cy, scale, title: shapes.title, data });
+  drawFoot(shapes.foot, { cx, cy, scale, data });
 }
 
 // The part of the path of one slip.
@@ -144,14 +144,14 @@ function translation([x, y]) {
   return `translate(${x.toFixed(2)} ${(-y).toFixed(2)})`;
 }
 
-function drawFoot(foot, { cx, cy, scale: { pixel, moves, factor }, title, data }) {
-  const shown = factor === 1 ? "motion to scale" : `motion × ${factor}`;
-  const [dx, dy] = inPlan(1, 0, data.plan.downslope_deg);
+function drawFoot(foot, { cx, cy, scale: { title, pixel, moves, factor }, data: { plan, relative, texts } }) {
+  const shown = filled(factor === 1 ? texts.to_scale : texts.enlarged, { title, factor });
+  const [dx, dy] = inPlan(1, 0, plan.downslope_deg);
   replace(
     foot,
-    scaleBar([-cx + 10, cy - 12], data.relative.units[0], pixel, BAR),
-    svg("text", { class: "tick on-line", x: -cx + 10, y: -cy + 16 }, moves ? `${title}, ${shown}` : title),
+    scaleBar([-cx + 10, cy - 12], relative.units[0], pixel, BAR),
+    svg("text", { class: "tick on-line", x: -cx + 10, y: -cy + 16 }, moves ? shown : title),
     arrow([cx - 26, cy - 26], [dx, -dy], 14),
-    svg("text", { class: "tick on-line end-at", x: cx - 8, y: cy - 48 }, "downslope"),
+    svg("text", { class: "tick on-line end-at", x: cx - 8, y: cy - 48 }, texts.downslope),
   );
 }

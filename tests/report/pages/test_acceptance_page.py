@@ -76,8 +76,8 @@ def test_a_miss_never_rounds_onto_its_limit(value, shown, word):
 
 def test_a_spectrum_that_falls_between_the_points_of_the_limits_is_said():
     done = scenes.package().assessment
-    row = Limit(title="Spectrum / target, 1.3 to 33.3 Hz, each component", found=1.0,
-                        limit=0.9, is_at_least=True, worst="M1 x")  # fmt: skip
+    row = Limit(title="Each component", found=1.0, limit=0.9, is_at_least=True, worst="M1 x",
+                is_ratio_to_target=True)  # fmt: skip
     given = replace(done, acceptance=Acceptance(rows=(row,), motions=()))
     part, *others = spectra(done)
     flat = TargetSpectrum(name="AC156", at=np.ones_like, from_s=0.01, to_s=10.0)

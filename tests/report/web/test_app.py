@@ -62,6 +62,7 @@ def test_a_first_visit_shows_the_example_with_its_answer(client):
     assert state["project"]["is_example"]
     assert state["problems"] == []
     assert state["answer"]["verdict"]["text"] == "OK with conditions"
+    assert "conditions listed here must be met" in state["answer"]["verdict_text"]
     assert state["answer"]["model"] == "full"
     rows = state["answer"]["arrays"]["rows"]
     assert [cells[0]["text"] for cells in rows] == state["views"]["arrays"]

@@ -15,7 +15,7 @@ import pytest
 from pypdf import PdfReader
 
 import cells
-from browsing import TABLET, at_rest, moved, opened, processes_of, quiet_page, served
+from browsing import PHONE, TABLET, at_rest, moved, opened, processes_of, quiet_page, served
 from places import ROOT
 from sheets import type_into
 
@@ -354,9 +354,12 @@ def test_a_package_that_is_canceled_leaves_the_page_as_it_was(page):
 
 
 @pytest.mark.nightly("report/web/")
-def test_on_a_tablet_nothing_is_cut_off_and_in_print_no_control_is_left(page):
-    page.set_viewport_size(TABLET)
-    assert page.evaluate("document.body.scrollWidth <= innerWidth")
+def test_on_a_tablet_or_phone_nothing_is_cut_off_and_in_print_no_control_is_left(page):
+    for size in (TABLET, PHONE):
+        page.set_viewport_size(size)
+        assert page.evaluate("document.body.scrollWidth <= innerWidth"), size
+        verdict = page.locator("#verdict")
+        assert verdict.evaluate("(one) => one.scrollHeight <= one.clientHeight + 1"), size
     page.emulate_media(media="print")
     for gone in ("#make-package", "#tabs", "#slider-friction", "#choice-rule_set", "label.button"):
         assert page.locator(gone).first.is_hidden(), gone

@@ -344,6 +344,22 @@ def test_an_answer_that_comes_while_a_slider_moves_is_marked_as_out_of_date(page
     assert is_stale(page)
 
 
+def test_an_answer_that_comes_while_the_tab_is_closed_is_drawn_when_it_opens(page, assessment):
+    mounted(page, "contour", views.contour(assessment, "A2"))
+    late = """async () => {
+      const element = document.querySelector(".view");
+      const shown = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 20)));
+      element.hidden = true;
+      await shown();
+      view.update({ values: { friction: 2 }, array: "A2", motion: "M1" });
+      await shown();
+      element.hidden = false;
+      await shown();
+      return document.querySelectorAll(".isoline").length;
+    }"""
+    assert page.evaluate(late) > 0
+
+
 def test_a_run_without_displacement_is_drawn_at_rest(page):
     lifted = stand_in.motion("M1", MOTIONS[0].ax_mps2, 4.0 * MOTIONS[0].az_mps2, dt_s=0.005)
     answer = views.slide(stand_in.assess_input(DATA, [lifted]), "A2", "M1")
@@ -491,7 +507,8 @@ def test_paths_are_at_one_scale_and_read_point_by_point(page, assessment):
     assert scales == pytest.approx([scales[0]] * 4, rel=0.02)
     path, reading = data["paths"][0], ".paths-foot output"
     press(page, ".path-panel svg >> nth=0", "Home")
-    start = f"M1 {path['run']} at 0.00 s: 0.0 in (0 mm) from the start"
+    assert path["name"].split()[0] == "M1"
+    start = f"{path['name']} at 0.00 s: 0.0 in (0 mm) from the start"
     assert text(page, reading).startswith(start)
     page.keyboard.press("End")
     far = math.hypot(path["x_m"][-1], path["y_m"][-1])
