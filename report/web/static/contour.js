@@ -22,7 +22,7 @@ export function mount(element, api, scene) {
 }
 
 function build(element, data) {
-  const { mus, slopes_deg: slopes, units } = data;
+  const { mus, slopes_deg: slopes } = data;
   const cursor = svg("path", { class: "cursor", visibility: "hidden" });
   const plot = svg("svg", { class: "contour", tabindex: 0, role: "application", "aria-label": data.texts.title, "aria-describedby": "contour-keys" });
   const where = html("output", { class: "numbers", role: "status" });
