@@ -15,6 +15,7 @@ from enum import StrEnum
 from typing import Any
 from weakref import WeakKeyDictionary
 
+import openpyxl
 from openpyxl.cell import Cell
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.worksheet.datavalidation import DataValidation
@@ -47,8 +48,25 @@ _ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 
 _Look = tuple[str, bool, bool, int, bool, int]
 
-_LOOKS: WeakKeyDictionary[Worksheet, dict[_Look, Any]] = WeakKeyDictionary()
-"""Formats of texts by sheet: set part by part they take a third of the time of a template."""
+_LOOKS: WeakKeyDictionary[Worksheet, dict[_Look, str]] = WeakKeyDictionary()
+"""By sheet, the cell that has a format of text already."""
+
+TRIED = ("3.1.5",)
+"""Versions of openpyxl in which a format is copied whole, by a part that it does not document.
+
+Writing the workbook of the example takes four times as long without it, 0.9 s: medians of seven.
+"""
+
+_PARTS = ("font", "fill", "border", "alignment", "number_format", "protection")
+
+
+def format_like(cell: Any, like: Any) -> None:
+    """Give a cell the format of another one of its workbook."""
+    if openpyxl.__version__ in TRIED:
+        cell._style = copy(like._style)
+        return
+    for part in _PARTS:
+        setattr(cell, part, copy(getattr(like, part)))
 
 
 def put(
@@ -68,13 +86,14 @@ def put(
     cell.value, cell.data_type = text, "s"
     indent = 1 if wrap and column > 1 else 0
     looks, look = _LOOKS.setdefault(sheet, {}), (color, bold, italic, size, wrap, indent)
-    if look not in looks:
+    if look in looks:
+        format_like(cell, sheet[looks[look]])
+    else:
+        looks[look] = cell.coordinate
         cell.font = Font(name="Calibri", size=size, bold=bold, italic=italic, color=color)
         cell.alignment = Alignment(
             vertical="center", horizontal="left", wrap_text=wrap, indent=indent
         )
-        looks[look] = copy(cell._style)
-    cell._style = copy(looks[look])
     assert isinstance(cell, Cell)  # no cell is merged here
     return cell
 
@@ -120,7 +139,7 @@ def put_input(
     if like is None:
         style_input(cell, entry.kind)
     else:
-        cell._style = copy(like._style)  # 20 times as fast as setting each part of a style
+        format_like(cell, like)
     shown = in_cell(value, unit)
     if shown is None:
         return
@@ -148,7 +167,7 @@ def put_answer(
     """Write a formula, without its equals sign, and mark its cell as computed."""
     cell.value = f"={formula}"
     if like is not None:
-        cell._style = copy(like._style)
+        format_like(cell, like)
         return
     cell.font = _ANSWER_FONT
     cell.fill, cell.border, cell.alignment = ANSWER_FILL, BOX, _INDENTED
