@@ -48,8 +48,8 @@ _ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 
 _Look = tuple[str, bool, bool, int, bool, int]
 
-_LOOKS: WeakKeyDictionary[Worksheet, dict[_Look, str]] = WeakKeyDictionary()
-"""By sheet, the cell that has a format of text already."""
+_LOOKS: WeakKeyDictionary[Worksheet, dict[_Look, Any]] = WeakKeyDictionary()
+"""Formats of texts by sheet, in tried versions: the cells that had them first are changed later."""
 
 TRIED = ("3.1.5",)
 """Versions of openpyxl in which a format is copied whole, by a part that it does not document.
@@ -87,13 +87,14 @@ def put(
     indent = 1 if wrap and column > 1 else 0
     looks, look = _LOOKS.setdefault(sheet, {}), (color, bold, italic, size, wrap, indent)
     if look in looks:
-        format_like(cell, sheet[looks[look]])
+        cell._style = copy(looks[look])
     else:
-        looks[look] = cell.coordinate
         cell.font = Font(name="Calibri", size=size, bold=bold, italic=italic, color=color)
         cell.alignment = Alignment(
             vertical="center", horizontal="left", wrap_text=wrap, indent=indent
         )
+        if openpyxl.__version__ in TRIED:
+            looks[look] = copy(cell._style)
     assert isinstance(cell, Cell)  # no cell is merged here
     return cell
 
