@@ -1,4 +1,4 @@
-"""Figures that the README quotes are printed by the benchmarks, and every benchmark runs."""
+"""Figures that the docs quote are printed by the benchmarks, and every benchmark runs."""
 
 import re
 import subprocess
@@ -10,17 +10,19 @@ import pytest
 from places import ROOT, TESTS
 
 BENCH = TESTS / "bench"
-README = (ROOT / "README.md").read_text(encoding="utf-8")
 SPEC = spec_from_file_location("bench_run", BENCH / "run.py")
 run = module_from_spec(SPEC)
 SPEC.loader.exec_module(run)
+DOCS = {path.name: path.read_text(encoding="utf-8") for path in run.DOCS}
+SAID = "\n".join(DOCS.values())
 
 
-def test_the_readme_quotes_what_the_benchmarks_printed():
-    assert run.with_figures(README, run.read()) == README
+@pytest.mark.parametrize("text", DOCS.values(), ids=DOCS)
+def test_the_docs_quote_what_the_benchmarks_printed(text):
+    assert run.with_figures(text, run.read()) == text
 
 
-def test_another_digit_in_the_readme_is_noticed():
+def test_another_digit_in_the_docs_is_noticed():
     row = dict(zip(run.COLUMNS, ("speed", "a run", "1.3", "ns", "2 cores", "today"), strict=True))
     table = "| `speed` | today; 2 cores |\n|---|---|\n| a run | 1.3 ns |"
     text = f"<!-- figures of speed -->\n\n{table}\n\n<!-- end -->\n1.3<!-- speed: a run --> ns.\n"
@@ -30,16 +32,16 @@ def test_another_digit_in_the_readme_is_noticed():
 
 def test_a_figure_that_no_benchmark_printed_cannot_be_quoted():
     assert run.with_figures("2<!-- speed: a run -->", []) == "?<!-- speed: a run -->"
-    assert "?<!--" not in README
+    assert "?<!--" not in SAID
 
 
-def test_every_benchmark_has_its_figures_in_the_readme():
+def test_every_benchmark_has_its_figures_in_the_docs():
     assert {row["script"] for row in run.read()} == set(run.NAMES)
-    assert set(re.findall(r"<!-- figures of (\w+) -->", README)) == set(run.NAMES)
+    assert set(re.findall(r"<!-- figures of (\w+) -->", SAID)) == set(run.NAMES)
 
 
 def test_performance_states_no_time_beside_the_figures():
-    said = README.partition("\n## Performance\n")[2].partition("\n## ")[0]
+    said = DOCS["performance.md"]
     prose = re.sub(r"<!-- figures of .*?<!-- end -->", "", said, flags=re.DOTALL)
     measured = r"\d (?:ms|us|ns|GB|MB|% of)\b|\d times|takes \d|[\d.]+e-\d"
     assert prose != said
@@ -47,7 +49,7 @@ def test_performance_states_no_time_beside_the_figures():
 
 
 def test_every_benchmark_that_is_named_exists():
-    texts = [README, *(path.read_text() for path in ROOT.glob("[sr]*/**/*.py"))]
+    texts = [SAID, *(path.read_text() for path in ROOT.glob("[sr]*/**/*.py"))]
     named = {name for text in texts for name in re.findall(r"tests/bench/(\w+\.\w+)", text)}
     assert named
     assert [name for name in sorted(named) if not (BENCH / name).is_file()] == []

@@ -60,6 +60,11 @@ class Shown:
     align: str = "right"
     share: float = 1.0
 
+    def __get_pydantic_json_schema__(self, schema: Any, schema_of: Any) -> dict[str, Any]:
+        """Return the schema of a field, with its heading as title."""
+        found: dict[str, Any] = schema_of(schema)
+        return found | {"title": self.head}
+
     def columns(self, fmt: UnitFormat, head: str, share: float) -> tuple[TableColumn, ...]:
         """Return its column, or one for each system of units."""
         if self.quantity:

@@ -1,8 +1,8 @@
-"""Run every benchmark, or those named, and write their figures to figures.csv and README.md.
+"""Run every benchmark, or those named, and write their figures to figures.csv and the docs.
 
     .venv/bin/python tests/bench/run.py [--smoke] [--records FOLDER] [NAME ...]
 
-With --smoke each takes seconds, and nothing is written. A table of the README between
+With --smoke each takes seconds, and nothing is written. A table of README or docs between
 `<!-- figures of NAME -->` and `<!-- end -->` holds all figures of a benchmark; a figure in a
 sentence stands before `<!-- NAME: FIGURE -->`, and is "?" where none was printed.
 """
@@ -20,7 +20,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-FIGURES, README = HERE / "figures.csv", ROOT / "README.md"
+FIGURES = HERE / "figures.csv"
+DOCS = (ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")))
 COLUMNS = ("script", "figure", "value", "unit", "machine", "date")
 NAMES = sorted({path.stem for path in HERE.glob("*.py")} - {"measure", "run"})
 _TABLE = re.compile(r"(<!-- figures of (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
@@ -101,7 +102,8 @@ def main() -> None:
         rows = measured(name, *options)
         if not given.smoke:
             write([row for row in read() if row["script"] != name] + rows)
-            README.write_text(with_figures(README.read_text("utf-8"), read()), encoding="utf-8")
+            for path in DOCS:
+                path.write_text(with_figures(path.read_text("utf-8"), read()), encoding="utf-8")
 
 
 if __name__ == "__main__":

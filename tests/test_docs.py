@@ -1,16 +1,20 @@
-"""Every command and every line of Python in the README runs, in a separate folder.
+"""Every command and every line of Python in README and docs runs, in a separate folder.
 
 The report of the example runs as by a script, the other commands in this process. What the reader
 is to fill in is here a small project; the study has fewer motions, slopes and intensities.
 """
 
 import json
+import os
 import re
 import shlex
 import shutil
+import subprocess
+import sys
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import cache
+from importlib.util import module_from_spec, spec_from_file_location
 
 import numpy as np
 import pytest
@@ -18,6 +22,7 @@ from click.testing import CliRunner
 
 import packages
 import report.typeset.pdf
+import solver.public
 from cells import cell
 from places import ROOT
 from report.cli import batch
@@ -32,13 +37,34 @@ from solver.sliding.checked import scene, slide
 from solver.sliding.two_axes import run as run_in_two_axes
 
 README = (ROOT / "README.md").read_text()
-COMMANDS = [
-    line.split("#")[0].strip()
-    for block in re.findall(r"```sh\n(.*?)```", README, re.DOTALL)
-    for line in block.splitlines()
-    if line.startswith("./roofslip")
-]
+NAV = re.findall(r"[\w-]+\.md", (ROOT / "mkdocs.yml").read_text())
+DOCS = {path: path.read_text() for path in (ROOT / "docs").glob("*.md")}
+FRONT = {path: path.read_text() for path in ROOT.glob("*.md")}
+TEXTS = [README, *(DOCS[ROOT / "docs" / name] for name in NAV)]
+"""Those that a reader follows, in the order of reading."""
 
+
+def blocks(language):
+    return [
+        found
+        for text in TEXTS
+        for found in re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
+    ]
+
+
+COMMANDS = list(
+    dict.fromkeys(
+        line.split("#")[0].strip()
+        for block in blocks("sh")
+        for line in block.splitlines()
+        if line.startswith("./roofslip")
+    )
+)
+
+
+_SPEC = spec_from_file_location("make_docs", ROOT / "docs" / "make.py")
+make_docs = module_from_spec(_SPEC)
+_SPEC.loader.exec_module(make_docs)
 
 REPORT = ["report", "projects/example"]
 ELSEWHERE = (
@@ -132,7 +158,7 @@ def test_the_study_of_the_readme_has_its_curves(commanded):
     assert (out / "study.pdf").stat().st_size > 10_000
 
 
-@pytest.mark.nightly("README.md", "roofslip")
+@pytest.mark.nightly("README.md", "docs", "roofslip")
 def test_a_report_leaves_four_files_and_their_hashes(reported):
     names = {path.name for path in reported.out.iterdir()}
     assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
@@ -148,7 +174,7 @@ def test_the_readme_shows_what_the_example_prints(reported):
     lines = reported.stdout.splitlines()
     verdict = next(line for line in lines if line.startswith("verdict: "))
     shown = "\n".join([*lines[:4], verdict])
-    assert f"```\n{shown}\n```" in README
+    assert f"```text\n{shown}\n```" in README
     assert shown.count("81.6 in (2072 mm)") == shown.count("  Condition: ") == 3
 
 
@@ -195,17 +221,48 @@ def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
 def test_the_python_of_the_readme_runs(folder, monkeypatch):
     monkeypatch.chdir(folder)
     monkeypatch.setenv("MPLBACKEND", "agg")
-    blocks = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
-    assert blocks
-    for block in blocks:
-        exec(compile(block, "README.md", "exec"), {})
+    assert len(blocks("python")) > 2
+    for block in blocks("python"):
+        exec(compile(block, "docs", "exec"), {})
     assert (folder / "prd.png").is_file()
 
 
-def test_every_picture_and_file_that_the_readme_names_exists():
-    names = re.findall(r"\]\((?!http)([^)#]+)\)", README)
-    assert [name for name in names if not (ROOT / name).exists()] == []
+def test_every_picture_and_file_that_is_named_exists():
+    named = [
+        path.parent / name
+        for path, text in (FRONT | DOCS).items()
+        for name in re.findall(r"\]\((?!http)([^)#]+)\)", text)
+    ]
+    assert len(named) > 40
+    assert [path for path in named if not path.exists()] == []
 
 
-def test_nothing_is_left_to_fill_in():
-    assert "@@" not in README
+def test_every_page_is_in_the_contents_and_none_is_long():
+    assert set(NAV) == {path.name for path in DOCS}
+    written = [path for path in DOCS if path not in make_docs.pages()]
+    assert [path.name for path in written if len(DOCS[path].splitlines()) >= 250] == []
+    assert len(README.splitlines()) <= 150
+    assert len(README.split()) <= 1500
+
+
+def test_pages_that_the_program_makes_are_as_it_would_make_them():
+    for path, text in make_docs.pages().items():
+        assert DOCS[path] == text, f"python docs/make.py writes {path.name} anew"
+
+
+def test_a_code_block_is_run_or_marked_as_text():
+    kinds = {
+        (path.name, kind)
+        for path, text in (FRONT | DOCS).items()
+        for kind in re.findall(r"^```(\w*)\n.*?^```$", text, re.DOTALL | re.MULTILINE)
+    }
+    assert {kind for _, kind in kinds} == {"sh", "python", "text"}
+
+
+def test_the_site_is_built_without_a_broken_link_or_reference(tmp_path):
+    words = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)]
+    told = os.environ | {"DISABLE_MKDOCS_2_WARNING": "true"}
+    done = subprocess.run(words, cwd=ROOT, env=told, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    api = (tmp_path / "api.html").read_text()
+    assert [name for name in solver.public.__all__ if f'id="solver.public.{name}"' not in api] == []

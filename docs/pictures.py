@@ -1,0 +1,91 @@
+"""Draws the pictures of README and docs anew, from the example and from the verification.
+
+    .venv/bin/python docs/pictures.py
+
+Needs what `./roofslip test` installs, Chromium included. Sheets of the package and a chart of the
+manual are cut at their last line; the page is shot as a browser shows it.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pypdfium2
+from PIL import Image, ImageChops
+
+ROOT = Path(__file__).resolve().parents[1]
+PICTURES = ROOT / "docs" / "pictures"
+WIDTH = 800
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+
+SHEETS = {
+    "summary.png": ("1 Summary", 1.0),
+    "comparison.png": ("8 Comparison with the prescriptive", 0.36),
+    "model.png": ("12 Model used", 0.44),
+}
+"""Of the package: words at the head of the first sheet, and the part of it that is shown."""
+
+
+def main() -> None:
+    """Draw every picture."""
+    with TemporaryDirectory() as folder:
+        out = Path(folder)
+        _run("report", "projects/example", "--out", str(out / "package"), "--quiet")
+        _run("verify", "--quick", "--out", str(out / "manual"))
+        _sheets(out / "package" / "calc-package.pdf")
+        _browser(out / "manual" / "charts")
+
+
+def _run(*words: str) -> None:
+    subprocess.run([sys.executable, "-m", "report.cli", *words], cwd=ROOT, check=True)
+
+
+def _sheets(path: Path) -> None:
+    document = pypdfium2.PdfDocument(path)
+    texts = [page.get_textpage().get_text_range() for page in document]
+    for name, (head, part) in SHEETS.items():
+        number = next(number for number, text in enumerate(texts) if text.startswith(head))
+        page = document[number]
+        image = page.render(scale=WIDTH / page.get_width()).to_pil()
+        _save(image.crop((0, 0, image.width, round(part * image.height))), name)
+
+
+def _browser(charts: Path) -> None:
+    from browsing import at_rest, chromium, moved, opened, quiet_page, served
+
+    with chromium() as browser, quiet_page(browser) as page:
+        page.goto((charts / "work-percent.svg").as_uri())
+        page.locator("svg").screenshot(path=charts / "chart.png")
+        _save(Image.open(charts / "chart.png"), "work-precision.png")
+        with served() as (address, _):
+            opened(page, address)
+            moved(page, "friction", 0.8)
+            at_rest(page)
+            page.screenshot(path=charts / "page.png")
+            _save(Image.open(charts / "page.png"), "browser.png")
+            moved(page, "friction", 1.0)
+            at_rest(page)
+            page.get_by_role("tab", name="Watch it slide").click()
+            at_rest(page)
+            page.screenshot(path=charts / "slide.png")
+            _save(Image.open(charts / "slide.png"), "browser-slide.png")
+
+
+def _save(image: Image.Image, name: str) -> None:
+    """Save a picture of one width without its empty foot, in few colors."""
+    image = image.convert("RGB")
+    empty = Image.new("RGB", image.size, image.getpixel((image.width - 1, image.height - 1)))
+    foot = ImageChops.difference(image, empty).getbbox()
+    if foot:
+        image = image.crop((0, 0, image.width, min(foot[3] + 12, image.height)))
+    height = round(image.height * WIDTH / image.width)
+    image.resize((WIDTH, height), Image.Resampling.LANCZOS).quantize(64).save(
+        PICTURES / name, optimize=True
+    )
+
+
+if __name__ == "__main__":
+    main()
