@@ -32,7 +32,8 @@ def _commands() -> Iterator[str]:
     yield "# Commands\n"
     yield "As `./roofslip COMMAND --help` prints them.\n"
     for words, command in _named(main, ("roofslip",)):
-        context = click.Context(command, info_name=" ".join(words), max_content_width=96)
+        settings = main.context_settings | {"terminal_width": 96}
+        context = click.Context(command, info_name=" ".join(words), **settings)
         name = " ".join(words[1:]) or "roofslip"
         yield f"## {name}\n\n```text\n{command.get_help(context)}\n```\n"
 
