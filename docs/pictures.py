@@ -23,10 +23,12 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 SHEETS = {
     "summary.png": ("1 Summary", 1.0),
-    "comparison.png": ("8 Comparison with the prescriptive", 0.36),
+    "comparison.png": ("8 Comparison with the prescriptive displacement", 0.36),
     "model.png": ("12 Model used", 0.44),
 }
-"""Of the package: words at the head of the first sheet, and the part of it that is shown."""
+"""Of the package: the heading of a part, and how much of a sheet is shown from there down."""
+ABOVE_PT = 14.0
+"""Of the sheet above a heading."""
 
 
 def main() -> None:
@@ -44,13 +46,18 @@ def _run(*words: str) -> None:
 
 
 def _sheets(path: Path) -> None:
-    document = pypdfium2.PdfDocument(path)
-    texts = [page.get_textpage().get_text_range() for page in document]
     for name, (head, part) in SHEETS.items():
-        number = next(number for number, text in enumerate(texts) if text.startswith(head))
-        page = document[number]
-        image = page.render(scale=WIDTH / page.get_width()).to_pil()
-        _save(image.crop((0, 0, image.width, round(part * image.height))), name)
+        for page in pypdfium2.PdfDocument(path):
+            text = page.get_textpage()
+            if head in text.get_text_range().splitlines():
+                break
+        index, _ = text.search(head).get_next()
+        high = page.get_height() - text.get_charbox(index)[3]
+        top = 0.0 if part == 1.0 else high - ABOVE_PT
+        scale = WIDTH / page.get_width()
+        image = page.render(scale=scale).to_pil()
+        below = top + part * page.get_height()
+        _save(image.crop((0, round(scale * top), image.width, round(scale * below))), name)
 
 
 def _browser(charts: Path) -> None:
@@ -69,7 +76,7 @@ def _browser(charts: Path) -> None:
             moved(page, "friction", 1.0)
             at_rest(page)
             page.get_by_role("tab", name="Watch it slide").click()
-            at_rest(page)
+            page.get_by_role("slider", name="Time").fill("23.3")
             page.screenshot(path=charts / "slide.png")
             _save(Image.open(charts / "slide.png"), "browser-slide.png")
 
