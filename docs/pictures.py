@@ -16,6 +16,8 @@ from tempfile import TemporaryDirectory
 import pypdfium2
 from PIL import Image, ImageChops
 
+from report.figures.base import FAMILY
+
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
 WIDTH = 800
@@ -36,7 +38,7 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         out = Path(folder)
         _run("report", "projects/example", "--out", str(out / "package"), "--quiet")
-        _run("verify", "--quick", "--out", str(out / "manual"))
+        _run("verify", "--out", str(out / "manual"))
         _sheets(out / "package" / "calc-package.pdf")
         _browser(out / "manual" / "charts")
 
@@ -64,7 +66,10 @@ def _browser(charts: Path) -> None:
     from browsing import at_rest, chromium, moved, opened, quiet_page, served
 
     with chromium() as browser, quiet_page(browser) as page:
-        page.goto((charts / "work-percent.svg").as_uri())
+        drawn = (charts / "work-percent.svg").read_text(encoding="utf-8")
+        (charts / "chart.html").write_text(f"<style>{_faces()}</style>{drawn}", encoding="utf-8")
+        page.goto((charts / "chart.html").as_uri())
+        page.evaluate("document.fonts.ready")
         page.locator("svg").screenshot(path=charts / "chart.png")
         _save(Image.open(charts / "chart.png"), "work-precision.png")
         with served() as (address, _):
@@ -79,6 +84,16 @@ def _browser(charts: Path) -> None:
             page.get_by_role("slider", name="Time").fill("23.3")
             page.screenshot(path=charts / "slide.png")
             _save(Image.open(charts / "slide.png"), "browser-slide.png")
+
+
+def _faces() -> str:
+    """Return where a browser finds the fonts of the charts."""
+    weights = {"Regular": 400, "Semibold": 600}
+    return "".join(
+        f"@font-face {{ font-family: '{FAMILY}'; font-weight: {weight};"
+        f" src: url('{(ROOT / 'templates/fonts').as_uri()}/SourceSans3-{name}.ttf') }}"
+        for name, weight in weights.items()
+    )
 
 
 def _save(image: Image.Image, name: str) -> None:

@@ -88,7 +88,9 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
             logarithmic(axes, 9, 12)
         grid[0, 0].set_ylabel(f"Median error over analysis cases [{UNITS[unit]}]")
         handles, labels = grid[0, 0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="lower center", ncols=4, handlelength=3.2)
+        figure.legend(
+            handles, labels, loc="lower center", ncols=4, handlelength=2.6, columnspacing=0.9
+        )
         return svg_text(figure)
 
 

@@ -12,18 +12,20 @@ from matplotlib.text import Text
 import scenes
 import stand_in
 from report.assessment.evidence import support
-from report.figures import maps, records
+from report.figures import maps, records, work
 from report.pages.pictures import draw_assessment, draw_plotted, draw_uncertainty
 from report.sheet.schema import UnitsFirst
 from report.study import figures as study
 from report.study.results import LimitState
 from report.suite.info import PERIODS_S, spectra_g
 from report.words.units import Quantity
+from solver.model import Status
 from solver.records.record import Record
+from solver.rivals.methods import METHODS
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import fragility
 from solver.studies.uncertainty import Bar
-from solver.verification.evidence import StabilityMap
+from solver.verification.evidence import StabilityMap, WorkPoint
 
 DPI = 400  # extents are rounded to pixels
 TOUCH_IN = 0.01
@@ -139,6 +141,21 @@ def limit_state(name, words, capacity):
     exceeds = levels > x[:, None]
     fitted = fragility(levels, exceeds, np.ones_like(exceeds), found, seed=1)
     return LimitState(name=name, words=words, limit_m=0.3, fragility=fitted, effects={})
+
+
+def test_in_the_accuracy_of_every_method_against_run_time(drawn):
+    errors = {
+        f"{name}_error_{unit}": 0.5 for name in ("prd", "residual") for unit in ("m", "percent")
+    }
+    points = [
+        WorkPoint(
+            method=name, setting=1.0, parameters={}, record="RM1", scene="a", seconds=1e-5,
+            status=Status.OK, **errors,
+        )
+        for name in METHODS
+    ]  # fmt: skip
+    work.overview(points, "percent", 1e-12)
+    assert not list(faults(drawn))
 
 
 def test_in_the_charts_of_a_study(drawn):
