@@ -27,7 +27,14 @@ from report.cli.serve import serve
 from report.cli.sign import sign
 from report.cli.slide import slide
 from report.cli.study import study
-from report.cli.terminal import INPUT_ERROR, INTERRUPTED, UntilClosed, show_warnings, unwritten
+from report.cli.terminal import (
+    INPUT_ERROR,
+    INTERRUPTED,
+    UntilClosed,
+    interrupts,
+    show_warnings,
+    unwritten,
+)
 from report.cli.verify import verify
 from report.cli.verify_package import verify_package
 from report.cli.watch import watch
@@ -52,11 +59,17 @@ class _Commands(click.Group):
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke a command that Ctrl+C may cut off."""
-        try:
-            return super().invoke(ctx)
-        except (KeyboardInterrupt, click.Abort):
-            click.echo("Interrupted: the work was cut off.", err=True)
-            sys.exit(INTERRUPTED)
+        with interrupts() as received:
+            try:
+                return super().invoke(ctx)
+            except Exception as error:
+                # Compiled code (pydantic's is) may raise an error of its own for the interrupt.
+                if not received and not isinstance(error, click.Abort):
+                    raise
+            except KeyboardInterrupt:
+                pass
+        click.echo("Interrupted: the work was cut off.", err=True)
+        sys.exit(INTERRUPTED)
 
 
 @click.group(

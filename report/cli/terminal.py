@@ -10,6 +10,7 @@ import gc
 import json
 import os
 import re
+import signal
 import sys
 import tempfile
 import time
@@ -25,6 +26,8 @@ import click
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     from solver.model import Problem
 
 SOURCE = click.Path(path_type=Path)
@@ -72,6 +75,28 @@ AS_JSON = click.option(
 FAIL_ON_NG = click.option(
     "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} where the verdict is not OK."
 )
+
+
+@contextmanager
+def interrupts() -> Iterator[list[int]]:
+    """Give a list that grows with each Ctrl+C, which is still raised as KeyboardInterrupt.
+
+    Where the signal is ignored, or taken by another handler, it is left as it is.
+    """
+    received: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        received.append(number)
+        signal.default_int_handler(number, frame)
+
+    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield received
+        return
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield received
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @contextmanager

@@ -182,6 +182,26 @@ def test_ctrl_c_ends_with_130_and_one_line(tmp_path):
     assert (work.returncode, out, said) == (130, "", ["Interrupted: the work was cut off."])
 
 
+CUT_OFF_IN_COMPILED_CODE = """
+import os, signal
+from report.cli.main import main
+@main.command()
+def work():
+    try:
+        os.kill(os.getpid(), signal.SIGINT)
+    except KeyboardInterrupt:
+        pass
+    raise ValueError("an error of the library's own, which names no interrupt")
+main(["work"])
+"""
+
+
+def test_ctrl_c_that_a_library_turns_into_its_own_error_is_still_ctrl_c():
+    done = python("-c", CUT_OFF_IN_COMPILED_CODE, preexec_fn=hearing(signal.SIGINT))
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "Interrupted: the work was cut off.\n"
+
+
 def test_sign_without_a_terminal_is_an_input_error(tmp_path):
     pdf, key = tmp_path / "a.pdf", tmp_path / "a.p12"
     for path in (pdf, key):
