@@ -1,12 +1,14 @@
-"""A worker: a second process beside the command, on the core that it leaves idle.
+"""A worker: another process that runs functions, beside a command or for the page.
 
-Knows nothing of packages: it runs functions, one after the other, and returns their results. It
-ends with the block that started it, whatever happens in either process. Read `started_worker`.
+Owns what passes between the two, and that a worker ends with the block that started it, whatever
+happens in either process. Knows nothing of packages. Read `WorkerProcess`.
 """
 
 from __future__ import annotations
 
 import gc
+import json
+import os
 import signal
 import tempfile
 import traceback
@@ -14,20 +16,32 @@ import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from multiprocessing import get_context
+from functools import partial
+from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection
+from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Thread
 from typing import Any, ParamSpec, TypeVar
 
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
+_MOST_JSON = 1 << 27
+_TOLD, _RAISED, _RETURNED = "told", "raised", "returned"
+
+
+def beside() -> None:
+    """Prepare a process that works beside a command."""
+    gc.disable()  # as the command does
+    warnings.filterwarnings("ignore", category=UserWarning)  # the command warns
+
 
 @contextmanager
-def started_worker() -> Iterator[Executor]:
-    """Yield a worker, or this one where the system does not let another start."""
+def started_worker(prepare: Callable[[], object] = beside) -> Iterator[Executor]:
+    """Yield a worker, or this process where the system does not let another start."""
     try:
-        worker: Executor = WorkerProcess()
+        worker: Executor = WorkerProcess(prepare)
     except OSError:
         worker = SameProcess()
     with worker:
@@ -47,9 +61,21 @@ class SameProcess(Executor):
 class WorkerProcess(Executor):
     """Runs functions in a process of its own, in order.
 
-    Functions are named by their module; arguments, results and exceptions are pickled. Arguments
-    are pickled beside what the command does next: they must not change, nor cache anything. An
-    exception is raised where the result is asked for.
+    Functions are named by their module, and arguments are pickled beside what is done here next:
+    they must not change, nor cache anything. What comes back is pickled as well, and an exception
+    is raised where the result is asked for.
+
+    Parameters
+    ----------
+    prepare : callable
+        What the process calls first, such as for its limits.
+    is_trusted : bool
+        Whether what comes back may be unpickled. From a process that reads files of strangers it
+        may not: results are then JSON, and an exception ends the process.
+    told : callable
+        Gets what a function tells (`tell`) before its result, in a thread of its own.
+    within : Path, optional
+        Where the process has its temporary files; among those of this process if not given.
 
     Raises
     ------
@@ -57,15 +83,29 @@ class WorkerProcess(Executor):
         If the system lets no process start.
     """
 
-    def __init__(self) -> None:
+    def __init__(
+        self,
+        prepare: Callable[[], object],
+        *,
+        is_trusted: bool = True,
+        told: Callable[[Any], object] = lambda _: None,
+        within: Path | None = None,
+    ) -> None:
         context = get_context("spawn")
         self._pipe, there = context.Pipe()
-        self._folder = TemporaryDirectory(prefix="roofslip-", ignore_cleanup_errors=True)
-        self._process = context.Process(target=_serve, args=(there, self._folder.name), daemon=True)
+        self._folder = TemporaryDirectory("", "roofslip-", within, ignore_cleanup_errors=True)
+        self._is_trusted, self._told = is_trusted, told
+        about = (there, self._folder.name, prepare, is_trusted)
+        self._process = context.Process(target=_serve, args=about)
         self._process.start()
-        # Only the second process may hold its end: then its death ends every wait for it.
+        # Only the other process may hold its end: then its death ends every wait for it.
         there.close()
         self._asking = ThreadPoolExecutor(1)
+
+    @property
+    def pid(self) -> int | None:
+        """Number of the process."""
+        return self._process.pid
 
     def submit(self, fn: Callable[_P, _R], /, *args: _P.args, **kwargs: _P.kwargs) -> Future[_R]:
         """Have a function run after those submitted before."""
@@ -74,17 +114,25 @@ class WorkerProcess(Executor):
     def _ask(self, *call: Any) -> Any:
         try:
             self._pipe.send(call)
-            raised, result = self._pipe.recv()
+            kind, value = self._message()
+            while kind == _TOLD:
+                self._told(value)
+                kind, value = self._message()
         except (EOFError, ConnectionError) as error:
             from solver.model import DefectError  # slow to import: the process starts before it
 
             self._process.join()
             raise DefectError(
-                f"the process that draws and writes ended (exit code {self._process.exitcode})"
+                f"the process beside this one ended (exit code {self._process.exitcode})"
             ) from error
-        if raised:
-            raise result
-        return result
+        if kind == _RAISED:
+            raise value
+        return value
+
+    def _message(self) -> Any:
+        if self._is_trusted:
+            return self._pipe.recv()
+        return json.loads(self._pipe.recv_bytes(_MOST_JSON))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:
         """End the process, in the middle of a function if need be."""
@@ -97,26 +145,53 @@ class WorkerProcess(Executor):
         self._pipe.close()
 
 
-def _serve(pipe: Connection, folder: str) -> None:
+def tell(what: Any) -> None:
+    """Tell the process that asked for a function something before its result."""
+    _send(_TOLD, what)
+
+
+_send: Callable[[str, Any], None]
+"""Sends a message to the process that asks; there is none in that process."""
+
+
+def _serve(pipe: Connection, folder: str, prepare: Callable[[], object], is_trusted: bool) -> None:
     """Run the functions that arrive until the other end closes."""
-    tempfile.tempdir = folder  # what a killed process leaves there is removed by the command
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the command decides what an interrupt ends
-    gc.disable()  # as the command does
-    warnings.filterwarnings("ignore", category=UserWarning)  # the command warns
+    global _send
+    _send = partial(_sent, pipe, is_trusted)
+    tempfile.tempdir = folder  # what a killed process leaves there is removed by the other one
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # which decides what an interrupt ends
+    Thread(target=_end_with_parent, daemon=True).start()
+    prepare()
     try:
         while True:
-            pipe.send(_result(pipe))
+            _send(*_result(pipe, is_trusted))
     except (EOFError, ConnectionError):
         return
 
 
-def _result(pipe: Connection) -> tuple[bool, Any]:
-    """Return whether the next function raised, and its result or exception."""
+def _sent(pipe: Connection, is_trusted: bool, kind: str, value: Any) -> None:
+    if is_trusted:
+        pipe.send((kind, value))
+    else:
+        pipe.send_bytes(json.dumps((kind, value), allow_nan=False).encode())
+
+
+def _end_with_parent() -> None:
+    """End in the middle of a function where the process that asked for it has ended."""
+    if (parent := parent_process()) is not None:
+        parent.join()
+        os._exit(1)
+
+
+def _result(pipe: Connection, is_trusted: bool) -> tuple[str, Any]:
+    """Return what became of the next function, with its result or exception."""
     try:
         function, arguments, named = pipe.recv()
-        return False, function(*arguments, **named)
+        return _RETURNED, function(*arguments, **named)
     except EOFError:
         raise
     except Exception as error:
+        if not is_trusted:
+            raise
         error.add_note(f"in the worker:\n{traceback.format_exc()}")
-        return True, error
+        return _RAISED, error

@@ -90,7 +90,7 @@ def served():
 def processes_of(pid):
     """The processes that a server has started to compute."""
     ids = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
-    return [one for one in ids if "report.web.worker" in Path(f"/proc/{one}/cmdline").read_text()]
+    return [one for one in ids if "spawn_main" in Path(f"/proc/{one}/cmdline").read_text()]
 
 
 def opened(page, address):

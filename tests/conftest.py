@@ -38,7 +38,7 @@ def one_process():
     """
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report.workers, "WorkerProcess", report.workers.SameProcess)
+        patch.setattr(report.workers, "WorkerProcess", lambda _: report.workers.SameProcess())
         yield
 
 

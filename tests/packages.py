@@ -98,7 +98,8 @@ import report.workers
 others = dict(pair.split("=") for pair in sys.argv.pop().split())
 true = Distribution.version.fget
 Distribution.version = property(lambda one: others.get(one.name) or true(one))
-report.workers.WorkerProcess = report.workers.SameProcess  # another process has the true versions
+# Another process has the true versions.
+report.workers.WorkerProcess = lambda _: report.workers.SameProcess()
 from report.cli.main import main
 main()
 """

@@ -25,12 +25,10 @@ import report.typeset.pdf
 import solver.public
 from cells import cell
 from places import ROOT
-from report.cli import batch
 from report.cli.main import main
 from report.memoized import clear, new_generation
 from report.results.publish import STAMP
 from report.typeset.pdf import lay_out
-from report.workers import SameProcess
 from sheets import edit, make
 from solver.model import Friction
 from solver.sliding.checked import scene, slide
@@ -117,7 +115,6 @@ def commanded(folder):
         after.callback(clear)
         patch.chdir(folder)
         patch.setattr(report.typeset.pdf, "lay_out", kept)
-        patch.setattr(batch, "ProcessPoolExecutor", lambda *_, **__: SameProcess())
         for command in COMMANDS:
             words = shlex.split(command)[1:]
             if words in ELSEWHERE:

@@ -11,10 +11,9 @@ import sys
 import time
 import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +31,7 @@ from report.cli.terminal import (
     Progress,
     no_collections,
     print_json,
+    show_warnings,
     system_problem,
 )
 from report.words.counts import numbered
@@ -136,25 +136,29 @@ def document(outcomes: Sequence[BatchOutcome]) -> Mapping[str, Any]:
 
 def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
     """Make each package once, and return the outcomes in the order given."""
+    from report.workers import started_worker
+    from solver.model import DefectError
+
     distinct = list({source.resolve(): source for source in sources}.values())
     count = min(len(distinct), os.cpu_count() or 1)
-    with (
-        Progress(len(distinct), quiet=quiet) as progress,
-        ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool,
-    ):
-        started = {pool.submit(package, source): source for source in distinct}
-        left = set(started)
-        while left:
-            progress(f"{len(distinct) - len(left)} of {len(distinct)} projects done")
-            _, left = wait(left, return_when=FIRST_COMPLETED)
-        return [_outcome(future, source) for future, source in started.items()]
-
-
-def _outcome(future: Future[BatchOutcome], source: Path) -> BatchOutcome:
-    try:
-        return future.result()
-    except BrokenProcessPool as error:
-        return BatchOutcome(source=source, internal=f"its process ended: {error}")
+    waiting, outcomes = distinct[::-1], dict[Path, BatchOutcome]()
+    running: dict[Future[BatchOutcome], tuple[Path, Executor]] = {}
+    with Progress(len(distinct), quiet=quiet) as progress, ExitStack() as stack:
+        idle = [stack.enter_context(started_worker(show_warnings)) for _ in range(count)]
+        while waiting or running:
+            while waiting and idle:
+                source, worker = waiting.pop(), idle.pop()
+                running[worker.submit(package, source)] = source, worker
+            progress(f"{len(outcomes)} of {len(distinct)} projects done")
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                source, worker = running.pop(future)
+                try:
+                    outcomes[source] = future.result()
+                except DefectError as error:
+                    outcomes[source] = BatchOutcome(source=source, internal=str(error))
+                    worker = stack.enter_context(started_worker(show_warnings))
+                idle.append(worker)
+    return [outcomes[source] for source in distinct]
 
 
 def package(source: Path, make: Callable[[Path], BatchOutcome] | None = None) -> BatchOutcome:

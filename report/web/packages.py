@@ -1,21 +1,17 @@
 """Packages of the sessions: one at a time, the others in a queue with their place.
 
-Each is made by a process of its own (`report.web.maker`), which ends with its canceling. Read
+Each is made by a process of its own (`report.web.worker.made`), which ends with its canceling. Read
 `Packages.begin`.
 """
 
 from __future__ import annotations
 
 import asyncio
-import json
 import os
 import secrets
 import shutil
-import signal
-import sys
-from asyncio.subprocess import DEVNULL, PIPE, Process
-from collections.abc import Awaitable, Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -24,6 +20,7 @@ from typing import Any
 from report.making import STEPS
 from report.web.sessions import Session
 from report.web.values import Values
+from report.web.worker import made, making
 
 LONGEST_S = 900.0
 """Longest time of a package [s]; then its process is ended."""
@@ -68,28 +65,27 @@ class Package:
     stage: str = "Waiting"
     step: int = 0
     message: str = ""
-    process: Process | None = None
+    worker: Executor | None = None
 
     @property
     def out(self) -> Path:
         """Where its files are."""
         return self.workbook.parent / "out"
 
+    def begin_step(self, stage: str) -> None:
+        """Take note of the next step."""
+        self.stage, self.step = stage, self.step + 1
 
-async def started(package: Package) -> Process:
+
+def started(package: Package) -> Executor:
     """Start the process that makes a package."""
-    return await asyncio.create_subprocess_exec(
-        sys.executable, "-P", "-m", "report.web.maker", str(package.workbook), str(package.out),
-        stdin=DEVNULL, stdout=PIPE, start_new_session=True,
-        # What it leaves among the temporary files where it is ended goes with the package.
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "TMPDIR": str(package.workbook.parent)},
-    )  # fmt: skip
+    return making(package.workbook.parent, package.begin_step)
 
 
 class Packages:
     """The packages of all sessions."""
 
-    def __init__(self, start: Callable[[Package], Awaitable[Process]] = started) -> None:
+    def __init__(self, start: Callable[[Package], Executor] = started) -> None:
         self._start = start
         self._all: dict[str, Package] = {}
         self._tasks: set[asyncio.Task[None]] = set()
@@ -159,8 +155,8 @@ class Packages:
         if package.state.is_over:
             return
         package.state, package.message = State.CANCELED, "The package was canceled."
-        if package.process is not None:
-            await _end(package.process)
+        if package.worker is not None:
+            package.worker.shutdown()
 
     async def cancel_unfinished(self, session: Session) -> None:
         """Cancel the package of a session that waits or is made."""
@@ -184,47 +180,27 @@ class Packages:
 
     async def _make(self, package: Package) -> None:
         async with self._turn:
-            if package.state is State.QUEUED:
-                package.state = State.RUNNING
-                await self._run(package)
+            if package.state is not State.QUEUED:
+                return
+            package.state = State.RUNNING
+            problem = await self._problem(package)
+            if package.state is State.RUNNING:
+                package.begin_step("done")
+                package.state = State.FAILED if problem else State.DONE
+                package.message = problem
 
-    async def _run(self, package: Package) -> None:
-        """Have a process make a package, and follow it."""
-        package.process = process = await self._start(package)
-        if package.state.is_over:  # canceled while the process started
-            await _end(process)
-            return
-        try:
-            async with asyncio.timeout(LONGEST_S):
-                await _follow(package, process)
-        except TimeoutError:
-            package.message = f"It took longer than {LONGEST_S / 60:.0f} minutes and was stopped."
-        await _end(process)
-        if package.state is not State.RUNNING:
-            return
-        package.state = State.DONE if package.stage == "done" else State.FAILED
-        if package.state is State.FAILED and not package.message:
-            package.message = "The process that made the package ended. Try it again."
-
-
-async def _follow(package: Package, process: Process) -> None:
-    """Take what the process says, a line of JSON at a time."""
-    assert process.stdout is not None
-    while line := await process.stdout.readline():
-        said = json.loads(line)
-        package.stage = said.get("stage", package.stage)
-        package.message = said.get("message", package.message)
-        package.step += 1
-
-
-async def _end(process: Process) -> None:
-    """End a process with those that it started."""
-    with suppress(ProcessLookupError, PermissionError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        elif process.returncode is None:
-            process.kill()
-    await process.wait()
+    async def _problem(self, package: Package) -> str:
+        """Have a process make a package; return why there is none, empty if there is."""
+        with self._start(package) as worker:
+            package.worker = worker
+            asked = worker.submit(made, package.workbook, package.out)
+            try:
+                async with asyncio.timeout(LONGEST_S):
+                    return await asyncio.wrap_future(asked)
+            except TimeoutError:
+                return f"It took longer than {LONGEST_S / 60:.0f} minutes and was stopped."
+            except Exception:  # it ended, or sent what is no answer
+                return "The process that made the package ended. Try it again."
 
 
 def copied(workbook: Path, folder: Path) -> None:

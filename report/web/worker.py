@@ -1,59 +1,97 @@
-"""A warm process that computes for the page: a line of JSON in for each job, a line out.
+"""What the processes of the page do, within which limits: jobs of the sessions, and packages.
 
-Started by `report.web.workers` as `python -m report.web.worker NICE`; ends with its input.
+They read files of strangers: what they return is JSON, and is never unpickled. Read `answered`,
+then `made`.
 """
 
 from __future__ import annotations
 
 import gc
-import json
-import os
-import signal
-import sys
 import traceback
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import Any
 
-from report.web.limits import INTERNAL, give_way, is_full, limit_memory
+from report.making import Step
+from report.web.limits import FULL, INTERNAL, confine, is_full
+from report.words.counts import capitalized
+from report.workers import WorkerProcess, started_worker, tell
 
-MEMORY_BYTES = 6 << 30
+NICE = 5
+"""How far the others give way to the process of quick jobs, as the command nice has it."""
+
+_OF_JOBS = {"RLIMIT_AS": 6 << 30}
+_OF_PACKAGES = {"RLIMIT_AS": 8 << 30, "RLIMIT_FSIZE": 1 << 30, "RLIMIT_CPU": 900}
+_NICE_OF_PACKAGES = 10
 _TOO_LARGE = "this needs more memory than a session may use; drop fewer or shorter records"
 
 
-def main() -> None:
-    """Do the jobs that arrive until the input ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server decides what an interrupt ends
-    out = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)  # what a library prints is no answer
-    limit_memory(MEMORY_BYTES)
-    give_way(int(sys.argv[1]))
-    from report.web.jobs import perform
-
-    for number, line in enumerate(sys.stdin):
-        out.write(f"{answered(perform, line)}\n")
-        out.flush()
-        if number == 0:
-            # What the first answer loaded stays: searching it for garbage would hold up an answer
-            # now and then by a tenth of a second.
-            gc.collect()
-            gc.freeze()
+def computing(is_quick: bool) -> WorkerProcess:
+    """Start a process that computes; the others give way to that of quick jobs."""
+    limits = partial(confine, 0 if is_quick else NICE, **_OF_JOBS)
+    return WorkerProcess(limits, is_trusted=False)
 
 
-def answered(perform: Any, line: str) -> str:
-    """Return the answer to a line: what is performed, or why it is not."""
+def making(folder: Path, told: Callable[[str], object]) -> WorkerProcess:
+    """Start a process that makes a package, with what it leaves behind in a folder.
+
+    Where it is ended, the process that draws beside it ends as well; that has the same limits.
+    """
+    limits = partial(confine, _NICE_OF_PACKAGES, **_OF_PACKAGES)
+    return WorkerProcess(limits, is_trusted=False, told=told, within=folder)
+
+
+def warmed(job: Mapping[str, Any]) -> None:
+    """Do a first job, whose answer nobody waits for."""
+    answered(job)
+    # What it loaded stays: searching it for garbage would hold up an answer now and then by a
+    # tenth of a second.
+    gc.collect()
+    gc.freeze()
+
+
+def answered(job: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the answer to a job, or why there is none."""
     try:
-        return json.dumps(perform(json.loads(line)), allow_nan=False)
+        from report.web.jobs import perform
+
+        return perform(job)
     except MemoryError:
         return _refused(_TOO_LARGE)
     except Exception as error:
         if isinstance(error, OSError) and is_full(error):
-            return json.dumps({"errno": error.errno})
+            return {"errno": error.errno}
         traceback.print_exc()
         return _refused(INTERNAL)
 
 
-def _refused(why: str) -> str:
-    return json.dumps({"problems": [], "refused": why})
+def _refused(why: str) -> Mapping[str, Any]:
+    return {"problems": [], "refused": why}
 
 
-if __name__ == "__main__":
-    main()
+def made(workbook: Path, out: Path) -> str:
+    """Make a package, telling its steps; return why there is none, in the words of the page."""
+    from report.making import make
+
+    try:
+        with started_worker() as worker:
+            make(workbook, out, None, lambda step: tell(in_words(step)), worker)
+    except MemoryError:
+        return "It needs more memory than a package may use."
+    except Exception as error:
+        from solver.model import InputError
+
+        if is_full(error) or is_full(error.__cause__):
+            return FULL
+        if isinstance(error, InputError):
+            return error.problems[0]
+        traceback.print_exc()
+        return INTERNAL
+    return ""
+
+
+def in_words(step: Step) -> str:
+    """Return a step as a sentence of the page; its hint is of the terminal."""
+    return capitalized(str(replace(step, hint="")))

@@ -7,24 +7,18 @@ takes too long is replaced. Knows no route and no physics. Read `Workers.ask`.
 from __future__ import annotations
 
 import asyncio
-import json
-import os
-import sys
-from asyncio.subprocess import PIPE, Process
-from collections.abc import Awaitable, Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
 from itertools import count
 from typing import Any
 
+from report.web.worker import answered, computing, warmed
+from report.workers import WorkerProcess
+
 LONGEST_S = 120.0
 """Longest time of a job [s]; then its process is ended."""
 
-NICE = 5
-"""How far the others give way to the process of quick jobs, as the command nice has it."""
-
-_MOST_LINE = 1 << 27
 _TRIES = 2
 _PAUSE_S = 1.0  # before another try where a process ends at once
 
@@ -64,22 +58,13 @@ class _Waiting:
     tries: int = 0
 
 
-async def started(is_quick: bool) -> Process:
-    """Start a process that computes; the others give way to that of quick jobs."""
-    return await asyncio.create_subprocess_exec(
-        sys.executable, "-P", "-m", "report.web.worker", "0" if is_quick else str(NICE),
-        stdin=PIPE, stdout=PIPE, limit=_MOST_LINE,
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
-    )  # fmt: skip
-
-
 class Workers:
     """The processes, and the jobs that wait for one."""
 
     def __init__(
         self,
         number: int,
-        start: Callable[[bool], Awaitable[Process]] = started,
+        start: Callable[[bool], WorkerProcess] = computing,
         longest_s: float = LONGEST_S,
     ) -> None:
         self._number, self._start, self._longest_s = number, start, longest_s
@@ -87,13 +72,13 @@ class Workers:
         self._arrived = asyncio.Condition()
         self._orders = count()
         self._tasks: list[asyncio.Task[None]] = []
-        self._processes: set[Process] = set()
+        self._workers: set[WorkerProcess] = set()
         self._warmed = asyncio.Event()
 
     @property
-    def pids(self) -> list[int]:
+    def pids(self) -> list[int | None]:
         """Numbers of the processes that run."""
-        return [process.pid for process in self._processes if process.returncode is None]
+        return [worker.pid for worker in self._workers]
 
     def start(self, warm: Mapping[str, Any]) -> None:
         """Start every process with a first job, whose answer nobody waits for."""
@@ -124,51 +109,63 @@ class Workers:
             if not each.answer.done():
                 each.answer.set_exception(StaleError())
         answer: asyncio.Future[Mapping[str, Any]] = asyncio.get_running_loop().create_future()
-        self._waiting.append(_Waiting(job, rank, origin, next(self._orders), answer))
-        async with self._arrived:
-            self._arrived.notify_all()
+        await self._queue(_Waiting(job, rank, origin, next(self._orders), answer))
         return await answer
 
     async def _work(self, warm: Mapping[str, Any], is_quick: bool) -> None:
         """Keep one process, and give it one job after the other; quick ones alone, or any."""
-        process: Process | None = None
-        try:
-            if is_quick:
-                # The first answer comes sooner from a process that starts alone.
-                await self._warmed.wait()
-            while True:
-                if process is None or process.returncode is not None:
-                    process = await self._start(is_quick)
-                    self._processes.add(process)
-                    try:
-                        await _exchange(process, warm, self._longest_s)
-                    except LostError:
-                        await asyncio.sleep(_PAUSE_S)
-                    self._warmed.set()
-                    continue
-                waiting = await self._next(is_quick)
-                await self._answer(process, waiting)
-        finally:
-            if process is not None:
-                await _ended(process)
-                self._processes.discard(process)
+        if is_quick:
+            # The first answer comes sooner from a process that starts alone.
+            await self._warmed.wait()
+        while True:
+            with self._start(is_quick) as worker:
+                self._workers.add(worker)
+                try:
+                    await self._serve(worker, warm, is_quick)
+                finally:
+                    self._workers.discard(worker)
 
-    async def _answer(self, process: Process, waiting: _Waiting) -> None:
-        """Have one job done; where its process is lost, it waits once more."""
-        waiting.tries += 1
+    async def _serve(self, worker: WorkerProcess, warm: Mapping[str, Any], is_quick: bool) -> None:
+        """Give a process its jobs until it is lost, which costs a job that was tried before."""
         try:
-            found = await _exchange(process, waiting.job, self._longest_s)
-        except LostError as error:
-            self._processes.discard(process)
-            if waiting.tries < _TRIES and not error.args:
-                self._waiting.append(waiting)
-                async with self._arrived:
-                    self._arrived.notify_all()
-            elif not waiting.answer.done():
-                waiting.answer.set_exception(error)
-        else:
+            await self._done(worker, warmed, warm)
+        except LostError:
+            await asyncio.sleep(_PAUSE_S)
+            return
+        finally:
+            self._warmed.set()
+        while True:
+            waiting = await self._next(is_quick)
+            waiting.tries += 1
+            try:
+                found = await self._done(worker, answered, waiting.job)
+            except LostError as error:
+                if waiting.tries < _TRIES and not error.args:
+                    await self._queue(waiting)
+                elif not waiting.answer.done():
+                    waiting.answer.set_exception(error)
+                return
             if not waiting.answer.done():
                 waiting.answer.set_result(found)
+
+    async def _done(
+        self, worker: WorkerProcess, do: Callable[[Mapping[str, Any]], Any], job: Mapping[str, Any]
+    ) -> Any:
+        """Return what a process makes of a job."""
+        try:
+            # Not `wait_for`: it drops a cancellation that comes with the answer.
+            async with asyncio.timeout(self._longest_s):
+                return await asyncio.wrap_future(worker.submit(do, job))
+        except TimeoutError as error:
+            why = f"This took longer than {self._longest_s:.0f} s and was stopped."
+            raise LostError(why) from error
+        except Exception as error:  # it ended, or sent what is no answer
+            raise LostError from error
+
+    async def _queue(self, waiting: _Waiting) -> None:
+        self._waiting.append(waiting)
+        async with self._arrived:
+            self._arrived.notify_all()
 
     async def _next(self, is_quick: bool) -> _Waiting:
         """Return the job that goes next, once there is one."""
@@ -181,34 +178,3 @@ class Workers:
                     self._waiting.remove(chosen)
                     return chosen
                 await self._arrived.wait()
-
-
-async def _exchange(
-    process: Process, job: Mapping[str, Any], longest_s: float
-) -> Mapping[str, Any]:
-    """Send a job and return its answer; a process that fails to answer is ended."""
-    assert process.stdin is not None
-    assert process.stdout is not None
-    try:
-        process.stdin.write(json.dumps(job).encode() + b"\n")
-        await process.stdin.drain()
-        # Not `wait_for`: it drops a cancellation that comes with the answer.
-        async with asyncio.timeout(longest_s):
-            line = await process.stdout.readline()
-    except TimeoutError as error:
-        await _ended(process)
-        raise LostError(f"This took longer than {longest_s:.0f} s and was stopped.") from error
-    except (ConnectionError, ValueError):
-        line = b""
-    if not line.endswith(b"\n"):
-        await _ended(process)
-        raise LostError
-    found: Mapping[str, Any] = json.loads(line)
-    return found
-
-
-async def _ended(process: Process) -> None:
-    """End a process; wait until the system has removed it."""
-    with suppress(ProcessLookupError):
-        process.kill()
-    await process.wait()

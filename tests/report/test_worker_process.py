@@ -1,5 +1,6 @@
 """A second process: what comes back, and how it ends."""
 
+import gc
 import os
 import subprocess
 import sys
@@ -7,6 +8,7 @@ import tempfile
 import time
 from dataclasses import is_dataclass
 from importlib import import_module
+from multiprocessing.connection import Connection
 from operator import truediv
 from pkgutil import iter_modules
 
@@ -15,7 +17,7 @@ import pytest
 import report.assessment
 import report.workers
 from places import ROOT
-from report.workers import SameProcess, WorkerProcess, started_worker
+from report.workers import SameProcess, WorkerProcess, beside, started_worker, tell
 from solver.model import DefectError, InputError
 
 
@@ -29,7 +31,7 @@ def unpicklable():
 
 @pytest.fixture
 def worker():
-    with WorkerProcess() as process:
+    with WorkerProcess(beside) as process:
         yield process
 
 
@@ -62,7 +64,7 @@ def test_a_process_that_ends_too_soon_is_an_internal_error_and_no_endless_wait(w
 
 
 def fail_while_it_works(asked):
-    with WorkerProcess() as process:
+    with WorkerProcess(beside) as process:
         asked += [process.submit(time.sleep, 300), process.submit(os.getpid)]
         refuse("Site!B5")
 
@@ -76,11 +78,14 @@ def test_an_error_in_the_command_ends_it_in_the_middle_of_a_function():
     assert asked[1].cancelled()  # codespell:ignore
 
 
-def test_it_ends_when_the_command_is_killed():
+def test_it_ends_in_the_middle_of_a_function_when_the_command_is_killed():
     code = (
-        "import os; from report.workers import WorkerProcess\n"
+        "import os, time; from report.workers import WorkerProcess, beside\n"
         "if __name__ == '__main__':\n"
-        "    print(WorkerProcess().submit(os.getpid).result(), flush=True)\n"
+        "    worker = WorkerProcess(beside)\n"
+        "    print(worker.submit(os.getpid).result(), flush=True)\n"
+        "    worker.submit(time.sleep, 300)\n"
+        "    time.sleep(0.5)\n"
         "    os.kill(os.getpid(), 9)"
     )
     done = subprocess.run(
@@ -97,7 +102,7 @@ def test_it_ends_when_the_command_is_killed():
 
 
 def test_without_a_second_process_the_same_functions_run_in_this_one(monkeypatch):
-    def refused():
+    def refused(_):
         raise OSError("no more processes")
 
     monkeypatch.setattr(report.workers, "WorkerProcess", refused)
@@ -108,6 +113,48 @@ def test_without_a_second_process_the_same_functions_run_in_this_one(monkeypatch
             here.submit(refuse, "Site!B5")
 
 
+def tell_twice():
+    tell("one")
+    tell(2)
+    return {"done": True}
+
+
+def test_a_process_that_is_not_trusted_answers_in_json_and_tells_how_far_it_is():
+    heard = []
+    with WorkerProcess(beside, is_trusted=False, told=heard.append) as process:
+        assert process.submit(tell_twice).result(timeout=60) == {"done": True}
+        assert heard == ["one", 2]
+        with pytest.raises(DefectError, match="ended"):
+            process.submit(refuse, "Site!B5").result(timeout=60)
+
+
+class MakesFolder:
+    """Makes a folder where it is unpickled."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def __reduce__(self):
+        return os.mkdir, (self.folder,)
+
+
+def send_pickle(folder):
+    """Answer as a process that a hostile file has taken over may."""
+    pipes = (each for each in gc.get_objects() if isinstance(each, Connection))
+    next(each for each in pipes if each.writable).send(MakesFolder(folder))
+
+
+def test_nothing_that_comes_from_a_process_that_is_not_trusted_is_unpickled(tmp_path):
+    folder = tmp_path / "unpickled"
+    with WorkerProcess(beside, is_trusted=False) as process:
+        with pytest.raises(ValueError, match="decode"):
+            process.submit(send_pickle, str(folder)).result(timeout=60)
+        assert not folder.exists()
+    with WorkerProcess(beside) as process, pytest.raises(TypeError):
+        process.submit(send_pickle, str(folder)).result(timeout=60)
+    assert folder.exists()
+
+
 def left_file():
     handle, name = tempfile.mkstemp()
     os.close(handle)
@@ -115,7 +162,7 @@ def left_file():
 
 
 def test_what_it_leaves_in_its_temporary_folder_goes_with_it():
-    with WorkerProcess() as process:
+    with WorkerProcess(beside) as process:
         name = process.submit(left_file).result()
         assert os.path.exists(name)
     assert not os.path.exists(os.path.dirname(name))

@@ -195,7 +195,7 @@ import report.workers
 from packages import unlaid
 from report.cli.main import main
 
-report.workers.WorkerProcess = report.workers.SameProcess
+report.workers.WorkerProcess = lambda _: report.workers.SameProcess()
 with unlaid(): main()
 """
 
@@ -284,7 +284,7 @@ import report.workers
 from packages import unlaid
 from report.cli.main import main
 
-report.workers.WorkerProcess = report.workers.SameProcess
+report.workers.WorkerProcess = lambda _: report.workers.SameProcess()
 for folder in sys.argv[1:]:
     with nullcontext() if folder == sys.argv[-1] else unlaid():
         main(["report", folder, "--quiet"], standalone_mode=False)

@@ -249,8 +249,9 @@ def test_a_full_disk_is_said_to_a_visitor_who_comes(tmp_path):
 def test_a_full_disk_is_said_where_another_process_writes(client, sessions, monkeypatch):
     async def ask(_, job, *__):
         Path(job["to"]).write_bytes(b"half")
-        return json.loads(answered(full, "{}"))
+        return answered(job)
 
+    monkeypatch.setattr("report.web.jobs.perform", full)
     monkeypatch.setattr("report.web.workers.Workers.ask", ask)
     answer = client.post("/api/workbook", json={"values": {}})
     assert error_of(answer, 507).startswith(IS_FULL)

@@ -2,49 +2,49 @@
 
 import asyncio
 import errno
-import sys
-from asyncio.subprocess import PIPE
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from report.making import Step
-from report.web.maker import in_words, outcome
 from report.web.packages import Packages, State
 from report.web.sessions import Session
-from solver.model import InputError
+from report.web.worker import in_words, made
+from report.workers import SameProcess
+from solver.model import DefectError, InputError
 
 SESSION = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
 
 
-async def waiting(code):
-    """Start a process that runs some Python in place of a package."""
-    return await asyncio.create_subprocess_exec(
-        sys.executable, "-I", "-S", "-c", code, stdout=PIPE, start_new_session=True
-    )
+class Making(SameProcess):
+    """A process that makes a package until it is ended."""
+
+    def __init__(self):
+        self.result = Future()
+
+    def submit(self, fn, *args):
+        return self.result
+
+    def shutdown(self, wait=True):
+        if not self.result.done():
+            self.result.set_exception(DefectError("ended"))
 
 
-def test_a_package_that_is_canceled_while_its_process_starts_leaves_no_process():
-    started = []
-
-    async def slow(package):
-        await packages.cancel(package)
-        started.append(await waiting("import time; time.sleep(60)"))
-        return started[0]
-
-    packages = Packages(slow)
-
+def test_a_package_that_is_canceled_while_it_is_made_leaves_no_process():
     async def run():
+        process = Making()
+        packages = Packages(lambda _: process)
         package = packages.begin(SESSION, Path("/nowhere/p/input.xlsx"), {})
         async with asyncio.timeout(20.0):
-            while package.state is State.QUEUED or not started:
+            while package.worker is None:
                 await asyncio.sleep(0.01)
-            await started[0].wait()
+            await packages.cancel(package)
         await packages.stop()
-        return package.state
+        return package.state, package.message, process.result.done()
 
-    assert asyncio.run(run()) is State.CANCELED
+    assert asyncio.run(run()) == (State.CANCELED, "The package was canceled.", True)
 
 
 def test_a_step_is_named_in_a_sentence_without_what_compiles():
@@ -68,17 +68,21 @@ def full_folder():
 
 
 @pytest.mark.parametrize("fails", [full, full_folder])
-def test_a_full_disk_is_the_reason_that_a_package_failed(fails, capsys):
-    assert outcome(fails)["message"].startswith("The disk of the server is full")
+def test_a_full_disk_is_the_reason_that_a_package_failed(fails, capsys, monkeypatch):
+    monkeypatch.setattr("report.making.make", lambda *_: fails())
+    assert made(Path("p/input.xlsx"), Path("p/out")).startswith("The disk of the server is full")
     assert capsys.readouterr().err == ""
 
 
 def test_the_last_five_packages_of_a_session_are_kept():
-    async def at_once(package):
-        return await waiting("""print('{"stage": "done"}')""")
+    class AtOnce(SameProcess):
+        """A process that makes a package at once."""
+
+        def submit(self, fn, *args):
+            return super().submit(str)
 
     async def run():
-        packages = Packages(at_once)
+        packages = Packages(lambda _: AtOnce())
         found = []
         for k in range(7):
             found.append(packages.begin(SESSION, Path(f"/nowhere/{k}/input.xlsx"), {}))

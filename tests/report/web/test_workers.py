@@ -1,28 +1,35 @@
 """Which job goes next, and what becomes of jobs whose process is lost; with processes that echo."""
 
 import asyncio
-import sys
-from asyncio.subprocess import PIPE
+import os
+import time
+from concurrent.futures import Executor, Future
 
 from report.web.workers import JobOrigin, LostError, Rank, StaleError, Workers
+from report.workers import WorkerProcess
 
-# Answers with the job itself, after the seconds that it says; ends where it says so.
-ECHO = """
-import json, os, sys, time
-for line in sys.stdin:
-    job = json.loads(line)
+
+def nothing():
+    """Prepare a process that loads nothing."""
+
+
+def echo(job):
+    """Answer with the job itself, after the seconds that it says; end where it says so."""
     time.sleep(job.get("seconds", 0))
     if job.get("ends"):
         os._exit(1)
-    print(line, end="", flush=True)
-"""
+    return job
 
 
-async def echoing(is_quick):
-    """Start a process that loads nothing."""
-    return await asyncio.create_subprocess_exec(
-        sys.executable, "-I", "-S", "-c", ECHO, stdin=PIPE, stdout=PIPE
-    )
+class Echoing(WorkerProcess):
+    """A process that echoes, whatever it is asked to do."""
+
+    def submit(self, fn, job):
+        return super().submit(echo, job)
+
+
+def echoing(is_quick):
+    return Echoing(nothing, is_trusted=False)
 
 
 def done(number, script, first=None, **options):
@@ -40,43 +47,33 @@ def done(number, script, first=None, **options):
     return asyncio.run(run())
 
 
-class Answering:
+class Answering(Executor):
     """A process without a system, whose answer arrives when a test says."""
 
-    pid, returncode = 1, None
+    pid, is_ended = 1, False
 
     def __init__(self):
-        self.stdin, self.stdout = self, asyncio.StreamReader()
+        self.answer = Future()
 
-    def write(self, line):
-        pass
+    def submit(self, fn, job):
+        return self.answer
 
-    async def drain(self):
-        pass
-
-    def kill(self):
-        self.returncode = -9
-
-    async def wait(self):
-        pass
+    def shutdown(self, wait=True):
+        self.is_ended = True
 
 
 def test_an_answer_that_comes_with_the_end_does_not_keep_the_processes():
     async def run():
         process = Answering()
-
-        async def start(is_quick):
-            return process
-
-        pool = Workers(1, start)
+        pool = Workers(1, lambda is_quick: process)
         pool.start({})
         await asyncio.sleep(0.1)
-        process.stdout.feed_data(b"{}\n")
+        process.answer.set_result({})
         async with asyncio.timeout(5.0):
             await pool.stop()
-        return process.returncode
+        return process.is_ended
 
-    assert asyncio.run(run()) == -9
+    assert asyncio.run(run())
 
 
 def ask(pool, name, rank=Rank.AT_REST, key="p", number=1, **job):
