@@ -77,8 +77,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             Route("/api/state", _state),
             Route("/api/example", _example, methods=["POST"]),
             Route("/api/upload", _upload, methods=["POST"]),
-            Route("/api/assess", _assess, methods=["POST"]),
-            *(Route(f"/api/{name}", _view, methods=["POST"], name=name) for name in _VIEWS),
+            *(Route(f"/api/{name}", _job, methods=["POST"]) for name in _JOBS),
             Route("/api/workbook", workbook, methods=["POST"]),
             *package_routes(),
             Mount("/static/fonts", StaticFiles(directory=FONTS)),
@@ -101,8 +100,8 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
     )
 
 
-_VIEWS = {"slide": ("array", "motion"), "contour": ("array",), "paths": ("array",)}
-"""Views, each with what must be named; a run may be."""
+_JOBS = {"assess": (), "slide": ("array", "motion"), "contour": ("array",), "paths": ("array",)}
+"""What the page has computed, each with what must be named; a run may be."""
 
 
 async def _clean(desk: Desk) -> None:
@@ -167,22 +166,16 @@ async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
     return found
 
 
-async def _assess(request: Request) -> Response:
-    asked = await receive_json(request)
-    job = {"do": "assess", "values": asked["values"], "moving": bool(asked.get("moving"))}
-    job |= {"room": asked["room"]} if "room" in asked else {}
-    rank = Rank.MOVING if job["moving"] else Rank.AT_REST
-    return JSONResponse(await desk_of(request).ask(session_of(request), job, rank, asked))
-
-
-async def _view(request: Request) -> Response:
-    asked = await receive_json(request)
-    kind = request.url.path.rpartition("/")[2]
-    if missing := [name for name in _VIEWS[kind] if asked.get(name) is None]:
+async def _job(request: Request) -> Response:
+    """Answer at values, or with a view; the job has what was asked by the same names."""
+    kind, asked = request.url.path.rpartition("/")[2], await receive_json(request)
+    if missing := [name for name in _JOBS[kind] if getattr(asked, name) is None]:
         raise InputError(f"the request lacks {' and '.join(missing)}; name what is to be shown")
-    job = {"do": kind, "values": asked["values"]}
-    job |= {k: str(asked[k]) for k in (*_VIEWS[kind], "run") if asked.get(k) is not None}
-    return JSONResponse(await desk_of(request).ask(session_of(request), job, Rank.VIEW, asked))
+    rank = Rank.VIEW
+    if kind == "assess":
+        rank = Rank.MOVING if asked.moving else Rank.AT_REST
+    job = {"do": kind, **asked.model_dump()}
+    return JSONResponse(await desk_of(request).ask(session_of(request), job, rank, asked))
 
 
 async def _refused(_: Request, error: Exception) -> Response:

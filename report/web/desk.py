@@ -9,9 +9,11 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
 
 from report.web.packages import Packages
+from report.web.plan import USUAL_PX
 from report.web.sessions import EXAMPLE, Session, Sessions
 from report.web.workers import JobOrigin, Rank, Workers
 
@@ -22,6 +24,26 @@ class RefusedError(Exception):
     def __init__(self, sentence: str, problems: Sequence[Mapping[str, Any]]) -> None:
         super().__init__(sentence)
         self.problems = problems
+
+
+class Asked(BaseModel):
+    """A request of the page about what is open, with the values of its sliders.
+
+    Of two requests of a page only that with the larger number counts. A script that does not say
+    what is open asks about whatever it is.
+    """
+
+    model_config = ConfigDict(strict=True, frozen=True)
+
+    page: str = Field("", max_length=100)
+    n: int = Field(0, ge=-(2**53), le=2**53)
+    opened: str | None = None
+    values: dict[str, int | float | str] = Field({}, max_length=40)
+    moving: bool = False
+    room: int = USUAL_PX
+    array: str | None = None
+    motion: str | None = None
+    run: str | None = None
 
 
 class Desk:
@@ -52,13 +74,13 @@ class Desk:
         session: Session,
         job: Mapping[str, Any],
         rank: Rank,
-        asked: Mapping[str, Any] | None = None,
+        asked: Asked | None = None,
     ) -> Mapping[str, Any]:
         """Return the answer to a job of a session, about what it has open if it names no workbook.
 
         Parameters
         ----------
-        asked : mapping, optional
+        asked : Asked, optional
             Request whose page and number tell which of two jobs is the newer one.
 
         Raises
@@ -68,7 +90,7 @@ class Desk:
             If the disk is full.
         """
         self._asked += 1
-        page, number = (asked["page"], asked["n"]) if asked else (str(self._asked), 0)
+        page, number = (asked.page, asked.n) if asked else (str(self._asked), 0)
         origin = JobOrigin((session.id, str(job["do"]), page), number)
         found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, origin)
         if "answer" in found:

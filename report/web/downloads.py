@@ -42,7 +42,7 @@ def package_routes() -> list[Route]:
 
 async def workbook(request: Request) -> Response:
     """Return the workbook with the values written into its cells."""
-    session, values = session_of(request), (await receive_json(request))["values"]
+    session, values = session_of(request), (await receive_json(request)).values
     path = session.folder / f"written-{secrets.token_hex(8)}.xlsx"
     try:
         await desk_of(request).ask(session, _writing(values, str(path)), Rank.AT_REST)
@@ -54,7 +54,7 @@ async def workbook(request: Request) -> Response:
 
 async def _begin(request: Request) -> Response:
     session, desk = session_of(request), desk_of(request)
-    values = (await receive_json(request))["values"]
+    values = (await receive_json(request)).values
     opened = session.workbook
     path = session.folder / f"package-{secrets.token_hex(8)}" / opened.name
     writing = _writing(values, str(path)) | {"workbook": str(opened)}

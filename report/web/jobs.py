@@ -63,7 +63,7 @@ def state(workbook: Path, job: Json) -> Json:
         given = _open(workbook)
     except InputError as error:
         return {"project": None, "problems": problems(workbook, error), "answer": None}
-    answered = answer_at(workbook, {"values": {}, "moving": False})
+    answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
         "project": {
             "name": given.sheet.project.project.name,
@@ -88,7 +88,7 @@ def answer_at(workbook: Path, job: Json) -> Json:
         found = anticipate(start, given.sheet.project)
     else:
         found = _at_rest(workbook, job["values"])
-    shows = answer(found, is_provisional=job["moving"], room_px=job.get("room", USUAL_PX))
+    shows = answer(found, is_provisional=job["moving"], room_px=job["room"])
     return {**shows, "shown": shown(given)}
 
 
@@ -110,7 +110,7 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "state": state,
     "assess": answer_at,
     "write": write,
-    "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job.get("run"))),
+    "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
     "contour": _view(lambda a, job: views.contour(a, job["array"])),
     "paths": _view(lambda a, job: views.paths(a, job["array"])),
 }

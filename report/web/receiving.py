@@ -5,31 +5,25 @@ Read `received`.
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
+from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.types import Message
 
-from report.web.desk import session_of
+from report.web.desk import Asked, session_of
 from report.web.uploads import MB, MOST_FILES, MOST_SENT, remove, store
 from solver.model import InputError
 
 MOST_JSON = 100_000
 _MOST_FIELDS = 10
-_MOST_VALUES = 40
-_MOST_NUMBER = 2**53
 
 
-async def receive_json(request: Request) -> dict[str, Any]:
-    """Return a request of the page about what is open: its values, its number and its page.
-
-    A script that does not name what is open asks about whatever it is.
+async def receive_json(request: Request) -> Asked:
+    """Return a request of the page about what is open.
 
     Raises
     ------
@@ -39,32 +33,12 @@ async def receive_json(request: Request) -> dict[str, Any]:
     if request.headers.get("content-type", "").partition(";")[0] != "application/json":
         raise HTTPException(415, "Send JSON")
     try:
-        asked = json.loads(await capped.body())
-    except (ValueError, RecursionError) as error:
-        raise InputError("the request is no JSON; load the page again") from error
-    if not _is_request(asked):
-        raise InputError("the request is not one of the page; load the page again")
-    found: Mapping[str, Any] = asked
-    session = session_of(request)
-    session.check_opened(found.get("opened", session.opened))
-    return {"page": "", "n": 0, "values": {}} | dict(found)
-
-
-def _is_request(asked: object) -> bool:
-    if not isinstance(asked, dict):
-        return False
-    page, number, values = asked.get("page", ""), asked.get("n", 0), asked.get("values", {})
-    room = asked.get("room", 0)
-    return (
-        isinstance(page, str)
-        and len(page) <= 100
-        and isinstance(number, int)
-        and abs(number) <= _MOST_NUMBER
-        and isinstance(room, int)
-        and isinstance(values, dict)
-        and len(values) <= _MOST_VALUES
-        and all(isinstance(value, int | float | str) for value in values.values())
-    )
+        asked = Asked.model_validate_json(await capped.body())
+    except ValidationError as error:
+        raise InputError("the request is not one of the page; load the page again") from error
+    if asked.opened is not None:
+        session_of(request).check_opened(asked.opened)
+    return asked
 
 
 async def received(request: Request, folder: Path) -> Path:
