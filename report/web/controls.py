@@ -13,10 +13,10 @@ from typing import Any
 from report.assessment.friction import mu_words
 from report.sheet.reading.read import Sheet
 from report.sheet.reading.what_if import retyped
-from report.sheet.schema import SIDES, Array, Polarity, ProjectInput, RuleSetName
+from report.sheet.schema import Array, Polarity, ProjectInput, RuleSetName
 from report.sheet.schema.fields import Place
 from report.web.opened import Opened
-from report.web.values import MUS, SHORT_PERIOD, Values, trim_unit_m, trimmed, typed
+from report.web.values import MUS, Values, trim_unit_m, typed
 from report.words.letters import cut
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import MOST_MU
@@ -30,8 +30,7 @@ _TURN_DEG = 5.0
 @lru_cache(16)
 def controls(given: Opened) -> Mapping[str, Any]:
     """Return the sliders and choices of a workbook for the page."""
-    sheet = given.sheet
-    sliders = [item for item in _sliders(sheet) if _is_offered(sheet, item["id"])]
+    sliders = [item for item in _sliders(given.sheet) if _is_offered(given, item)]
     return {"sliders": [_stopped(given, item) for item in sliders], "choices": _choices(given)}
 
 
@@ -137,26 +136,10 @@ def _value_at(slider: Mapping[str, Any], steps: int) -> float:
     return float(round(slider["typed"] + steps * slider["step"], 6))
 
 
-def _is_offered(sheet: Sheet, name: str) -> bool:
+def _is_offered(given: Opened, slider: Mapping[str, Any]) -> bool:
     """Whether the workbook has every cell that a slider changes."""
-    return all(place in sheet.addresses for place in _cells_of(sheet, name))
-
-
-def _cells_of(sheet: Sheet, name: str) -> Sequence[Place]:
-    motions = range(len(sheet.draft["motions"]))
-    site = sheet.draft["site"][0]
-    *given, design = SHORT_PERIOD
-    s_ds = [Place("site", 0, name) for name in given if site.get(name) is not None]
-    s_ds.append(Place("site", 0, design))
-    scaling = [Place("motions", i, field) for i in motions for field in ("scaling", "scale_value")]
-    arrays = enumerate(sheet.draft["arrays"])
-    return {
-        "friction": [Place("arrays", i, mu) for i, row in arrays for mu in MUS if row.get(mu)],
-        "slope": [Place("arrays", i, "slope_value") for i, _ in arrays],
-        "intensity": [*scaling, *s_ds],
-        "s_ds": [*scaling, *s_ds],
-        "clearance": [Place("arrays", i, side) for i, _ in trimmed(sheet) for side in SIDES],
-    }[name]
+    values = {slider["id"]: _value_at(slider, 1)} | slider.get("with_choice", {})
+    return given.sheet.addresses.keys() >= typed(given.sheet, given.scales, values).keys()
 
 
 def _choices(given: Opened) -> Sequence[Mapping[str, Any]]:

@@ -11,11 +11,15 @@ export function own({ unit, step }, value) {
   return `${value > 0 ? "+" : ""}${text}${unit === "°" ? "" : " "}${unit}`;
 }
 
+/** Return the controls whose values are not those of the workbook. */
+export function changed(controls, values) {
+  return controls.filter(({ id, typed }) => id in values && values[id] !== typed);
+}
+
 /** Return which values are not those of the workbook, such as `Friction × 0.90, Polarity: both`. */
 export function changes(values, { sliders, choices }) {
-  const isChanged = ({ id, typed }) => id in values && values[id] !== typed;
-  const moved = sliders.filter(isChanged).map((item) => `${item.label} ${own(item, values[item.id])}`);
-  const chosen = choices.filter(isChanged).map((item) => `${item.label}: ${labelOf(item, values[item.id])}`);
+  const moved = changed(sliders, values).map((item) => `${item.label} ${own(item, values[item.id])}`);
+  const chosen = changed(choices, values).map((item) => `${item.label}: ${labelOf(item, values[item.id])}`);
   return [...moved, ...chosen].join(", ") || "the values of the workbook";
 }
 

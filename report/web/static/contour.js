@@ -1,11 +1,10 @@
 // Contours of the mean PRD over friction and slope, with the arrays, and the value at a point.
 
 import { html, note, points, replace, set, svg } from "./make.js";
-import { isFree } from "./place.js";
 import { filled, measured, reading } from "./reading.js";
 import { scale, ticks, within } from "./view-axes.js";
 import { isolines, refined, surfaceAt } from "./view-contour.js";
-import { createView, onKeys } from "./view-frame.js";
+import { onKeys } from "./view-frame.js";
 import { cross, frame, linesAcross, linesUp, onPointer, setSize, textsAcross, textsUp } from "./view-parts.js";
 
 const HEIGHT = 370;
@@ -13,15 +12,12 @@ const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
 const EDGE = 0.03; // of the range, around the outermost points
 const FINE = 0.1; // of a cell
 const LABEL = 13; // height of a label
+const AIR = 3; // between labels
 const TICK = 4;
 const DOT = 13; // width of an array's dot
 
-/** Keep the contours in an element. */
-export function mount(element, api, scene) {
-  return createView(element, scene, api.contour, build);
-}
-
-function build(element, data) {
+/** Draw the contours in an element. */
+export function build(element, data) {
   const { mus, slopes_deg: slopes } = data;
   const cursor = svg("path", { class: "cursor", visibility: "hidden" });
   const plot = svg("svg", { class: "contour", tabindex: 0, role: "application", "aria-label": data.texts.title, "aria-describedby": "contour-keys" });
@@ -141,6 +137,13 @@ function fromMiddle(line) {
 
 function labelBox([x, y], wide) {
   return { x: x - wide / 2, y: y - LABEL / 2, wide, tall: LABEL };
+}
+
+// Whether a box is inside another and away from all others.
+function isFree({ x, y, wide, tall }, taken, inside) {
+  const isInside = x >= inside.x && y >= inside.y && x + wide <= inside.x + inside.wide && y + tall <= inside.y + inside.tall;
+  const touches = (other) => x < other.x + other.wide + AIR && other.x < x + wide + AIR && y < other.y + other.tall + AIR && other.y < y + tall + AIR;
+  return isInside && !taken.some(touches);
 }
 
 // Of a label, about.

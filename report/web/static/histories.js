@@ -3,7 +3,7 @@
 import { button, html, note, replace } from "./make.js";
 import { filled, measured } from "./reading.js";
 import { within } from "./view-axes.js";
-import { createView, onKeys, runSelect } from "./view-frame.js";
+import { onKeys, runSelect } from "./view-frame.js";
 import { createPanels } from "./view-panels.js";
 import { pointerIn } from "./view-parts.js";
 import { panelOf } from "./view-series.js";
@@ -18,12 +18,8 @@ const PAN = 0.25;
 const DRAG = 4; // pixels that make a drag of a click
 const KEYS = "Drag over a span to enlarge it. Click, then wheel or + and − zoom, arrows move the reading, Shift + arrows the span, 0 shows all. Shaded: slips.";
 
-/** Keep the histories in an element. */
-export function mount(element, api, scene) {
-  return createView(element, scene, api.slide, (inside, data, again) => build(inside, data, again, api.announce));
-}
-
-function build(element, data, again, announce) {
+/** Draw the histories in an element. */
+export function build(element, data, { again, announce }) {
   const panels = createPanels(PANELS.map((kind) => panelOf(data, kind, "title_with_unit")), data);
   const where = html("span", { class: "numbers when" });
   const brush = html("div", { class: "brush", hidden: true });

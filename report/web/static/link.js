@@ -1,9 +1,10 @@
 // The values in the address: `#friction=0.95&polarity=both` restores them.
 
+import { changed } from "./changes.js";
+
 /** Return the fragment of the values that differ from those of the workbook. */
 export function toFragment(values, controls) {
-  const changed = controls.filter(({ id, typed }) => id in values && values[id] !== typed);
-  return new URLSearchParams(changed.map(({ id }) => [id, String(values[id])])).toString();
+  return new URLSearchParams(changed(controls, values).map(({ id }) => [id, String(values[id])])).toString();
 }
 
 /** Return the values in a fragment; what is no control, no number or no option is left out. */

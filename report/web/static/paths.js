@@ -1,10 +1,9 @@
 // Hodographs: the path of an array in plan under every motion, all at one scale.
 
 import { html, note, points, replace, set, svg } from "./make.js";
-import { boxAround } from "./place.js";
 import { filled, measured, reading } from "./reading.js";
-import { within } from "./view-axes.js";
-import { createView, onKeys } from "./view-frame.js";
+import { boxAround, within } from "./view-axes.js";
+import { onKeys } from "./view-frame.js";
 import { arrow, cross, onPointer, setSize, scaleBar } from "./view-parts.js";
 
 const LEAST_WIDE = 128; // of a panel
@@ -13,12 +12,8 @@ const TALL = 330; // of all rows of panels, about
 const BAR = 90; // pixels of the scale bar, at most
 const LEAST_M = 1e-3; // extent that fills a panel, at least
 
-/** Keep the paths in an element. */
-export function mount(element, api, scene) {
-  return createView(element, scene, api.paths, build);
-}
-
-function build(element, data) {
+/** Draw the paths in an element. */
+export function build(element, data) {
   const extent = boxAround([[0, 0], ...data.paths.flatMap(({ x_m: x, y_m: y }) => x.map((value, k) => [value, y[k]]))]);
   const where = html("output", { class: "numbers", role: "status" }, "Point at a path, or Tab to it and use the arrow keys, to read it.");
   const panels = data.paths.map((path) => createPanel(path, data, (text) => {

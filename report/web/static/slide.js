@@ -3,7 +3,7 @@
 import { button, html, note, replace } from "./make.js";
 import { filled, measured } from "./reading.js";
 import { within } from "./view-axes.js";
-import { createView, onKeys, runSelect } from "./view-frame.js";
+import { onKeys, runSelect } from "./view-frame.js";
 import { createPlayer } from "./view-player.js";
 import { lastUpTo } from "./view-series.js";
 import { createStage } from "./view-stage.js";
@@ -12,19 +12,15 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 const STEP_S = 0.01;
 const KEYS = "Space plays and pauses, N and P go to the next slip and the one before, arrows step, < and > change the speed. Shaded: slips.";
 
-/** Keep the run in motion in an element. */
-export function mount(element, api, scene) {
-  const settings = { speed: 1 }; // kept from run to run
-  return createView(element, scene, api.slide, (inside, data, again) => build(inside, data, again, { announce: api.announce, settings }));
-}
-
-function build(element, data, again, { announce, settings }) {
+/** Draw the run in motion in an element. */
+export function build(element, data, { again, announce, kept }) {
   const { seconds, texts } = data;
+  kept.speed ??= 1;
   const slips = createSlips(data);
-  const player = createPlayer(seconds, slips.events, settings, show);
+  const player = createPlayer(seconds, slips.events, kept, show);
   const stage = createStage(data, player.seek);
   const caption = html("p", { class: "numbers slip-text" });
-  const speeds = speedSelect(settings);
+  const speeds = speedSelect(kept);
   const parts = controls(player, { data, before: () => go(slips.before(player.time)), after: () => go(slips.after(player.time)) });
 
   function show(time) {
@@ -115,14 +111,14 @@ function controls(player, { data: { seconds, units, texts }, before, after }) {
 }
 
 // How fast the player plays.
-function speedSelect(settings) {
+function speedSelect(kept) {
   const element = html(
     "select",
     { "aria-label": "Speed", title: "Speed (< and >)", on: { change: choose } },
-    SPEEDS.map((one) => html("option", { value: one, selected: one === settings.speed }, `${one}×`)),
+    SPEEDS.map((one) => html("option", { value: one, selected: one === kept.speed }, `${one}×`)),
   );
   function choose() {
-    settings.speed = Number(element.value);
+    kept.speed = Number(element.value);
   }
   return {
     element,

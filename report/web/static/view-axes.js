@@ -26,6 +26,13 @@ export function ticks(low, high, wanted) {
   return { values, step };
 }
 
+/** Return the box around points, as `{x, y, wide, tall}`. */
+export function boxAround(points) {
+  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+  const [x, y] = [Math.min(...xs), Math.min(...ys)];
+  return { x, y, wide: Math.max(...xs) - x, tall: Math.max(...ys) - y };
+}
+
 /** Return a value held between two limits. */
 export function within(value, low, high) {
   return Math.min(Math.max(value, low), high);

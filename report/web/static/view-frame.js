@@ -5,10 +5,12 @@ import { button, html, note, replace } from "./make.js";
 
 /**
  * Return a view of a scene, which is what it asks with: `fetch(request)` returns the answer, and
- * `build(element, data, again)` makes its drawing and returns `{ resize(width), stop() }`, where
- * `stop` may lack. `again(changes)` asks with other values of the view's own.
+ * `build(element, data, { again, announce, kept })` makes its drawing and returns
+ * `{ resize(width), stop() }`, where `stop` may lack. `again(changes)` asks with other values of the
+ * view's own; `kept` is the same object for every drawing of the view.
  */
-export function createView(element, scene, fetch, build) {
+export function createView(element, scene, fetch, build, announce) {
+  const kept = {};
   let drawing = null;
   let shown = ""; // the request that is drawn
   let own = {};
@@ -41,7 +43,7 @@ export function createView(element, scene, fetch, build) {
       if (data === null) return;
       drawing?.stop?.();
       element.replaceChildren();
-      drawing = build(element, data, again);
+      drawing = build(element, data, { again, announce, kept });
       draw();
       shown = key;
     } catch (error) {

@@ -6,11 +6,11 @@ const REST_MS = 700; // at each event, where motion is to be reduced
 const MOST_MS = 100; // between two frames: after a longer pause, playing goes on where it was
 
 /**
- * Return a player of a record of some seconds, at the speed of the settings; `show` is called with
+ * Return a player of a record of some seconds, at the `speed` of what is kept; `show` is called with
  * each time. Where the user wants motion reduced, it goes from one of the events to the next and rests
  * there.
  */
-export function createPlayer(seconds, events, settings, show) {
+export function createPlayer(seconds, events, kept, show) {
   const isReduced = matchMedia("(prefers-reduced-motion: reduce)");
   const player = { time: 0, isPlaying: false, seek, pause, toggle, rewind };
   let isAtStart = false;
@@ -42,7 +42,7 @@ export function createPlayer(seconds, events, settings, show) {
     if (isAtStart || player.time === seconds) player.time = 0;
     isAtStart = false;
     player.isPlaying = true;
-    stop = isReduced.matches ? step(() => move(events.find((event) => event > player.time) ?? seconds)) : run((elapsed) => move(player.time + elapsed * settings.speed));
+    stop = isReduced.matches ? step(() => move(events.find((event) => event > player.time) ?? seconds)) : run((elapsed) => move(player.time + elapsed * kept.speed));
     show(player.time);
   }
 

@@ -1,9 +1,8 @@
 // The plan in motion: the roof moves over the ground, the array over the roof, and leaves its path.
 
 import { points, replace, set, svg } from "./make.js";
-import { boxAround } from "./place.js";
 import { filled } from "./reading.js";
-import { roundBelow, within } from "./view-axes.js";
+import { boxAround, roundBelow, within } from "./view-axes.js";
 import { arrow, cross, scaleBar } from "./view-parts.js";
 import { lastUpTo } from "./view-series.js";
 

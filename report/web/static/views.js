@@ -1,11 +1,17 @@
 // The drawings behind the tabs: each is a module that is loaded when its tab is first opened.
 
 import { replace, html } from "./make.js";
+import { createView } from "./view-frame.js";
 
 const part = (id) => document.getElementById(id);
 
-// What each drawing needs chosen, beside the values.
-const NEEDS = { slide: ["array", "motion"], contour: ["array"], paths: ["array"], histories: ["array", "motion"] };
+// What each drawing asks for, and what it needs chosen beside the values.
+const DRAWINGS = {
+  slide: { asks: "slide", needs: ["array", "motion"] },
+  contour: { asks: "contour", needs: ["array"] },
+  paths: { asks: "paths", needs: ["array"] },
+  histories: { asks: "slide", needs: ["array", "motion"] },
+};
 const STALE = "Drawn for the values before the slider moved.";
 
 /** Return the tabs' drawings: `open(id)`, `update(scene)` at rest, `moving()` while a slider moves. */
@@ -16,8 +22,9 @@ export function createViews(api) {
 
   async function draw() {
     const id = current;
-    if (!(id in NEEDS) || !scene) return;
-    const needed = () => Object.fromEntries([...NEEDS[id], "values"].map((key) => [key, scene[key]]));
+    if (!(id in DRAWINGS) || !scene) return;
+    const { asks, needs } = DRAWINGS[id];
+    const needed = () => Object.fromEntries([...needs, "values"].map((key) => [key, scene[key]]));
     const element = part(id).querySelector(".view");
     element.classList.remove("is-stale");
     if (mounted.has(id)) {
@@ -25,8 +32,8 @@ export function createViews(api) {
       return;
     }
     try {
-      const { mount } = await import(`./${id}.js`);
-      if (scene && !mounted.has(id)) mounted.set(id, mount(element, api, needed()));
+      const { build } = await import(`./${id}.js`);
+      if (scene && !mounted.has(id)) mounted.set(id, createView(element, needed(), (request) => api.computed(asks, request), build, api.announce));
     } catch (error) {
       replace(element, html("p", {}, `This drawing could not be loaded. Reload the page. (${error.message})`));
     }
@@ -36,8 +43,8 @@ export function createViews(api) {
     open(id) {
       mounted.get(current)?.hide();
       current = id;
-      part("chosen").hidden = !(id in NEEDS);
-      for (const key of ["array", "motion"]) part(key).parentElement.hidden = !NEEDS[id]?.includes(key);
+      part("chosen").hidden = !(id in DRAWINGS);
+      for (const key of ["array", "motion"]) part(key).parentElement.hidden = !DRAWINGS[id]?.needs.includes(key);
       draw();
     },
     update(next) {

@@ -27,9 +27,10 @@ async ([view, data, wide]) => {
   window.said = [];
   window.reply = async () => data;
   const ask = (request) => (asked.push(request), reply(request));
-  const api = { slide: ask, contour: ask, paths: ask, announce: (text) => said.push(text) };
-  const { mount } = await import(`/static/${view}.js`);
-  window.view = mount(element, api, { values: { friction: 1 }, array: 'A2', motion: 'M1' });
+  const { build } = await import(`/static/${view}.js`);
+  const { createView } = await import('/static/view-frame.js');
+  const scene = { values: { friction: 1 }, array: 'A2', motion: 'M1' };
+  window.view = createView(element, scene, ask, build, (text) => said.push(text));
   while (!element.querySelector('svg')) await new Promise((done) => setTimeout(done, 5));
   while (document.styleSheets.length < 2) await new Promise((done) => setTimeout(done, 5));
 }"""
