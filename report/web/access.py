@@ -8,10 +8,9 @@ from __future__ import annotations
 import hmac
 from collections.abc import Collection
 from dataclasses import dataclass, field
-from http.cookies import CookieError, SimpleCookie
-from urllib.parse import parse_qs
 
-from starlette.datastructures import Headers, MutableHeaders
+from starlette.datastructures import MutableHeaders
+from starlette.requests import HTTPConnection
 from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -70,7 +69,7 @@ class Access:
             await send(message)
 
         try:
-            found = self._admitted(scope)
+            found = self._admitted(HTTPConnection(scope))
         except OSError as error:
             if not is_full(error):
                 raise
@@ -81,21 +80,20 @@ class Access:
         scope.setdefault("state", {})["session"] = found
         await self._app(scope, receive, with_headers)
 
-    def _admitted(self, scope: Scope) -> Session | Response:
+    def _admitted(self, request: HTTPConnection) -> Session | Response:
         """Return the session of a request, or the answer to one that may not pass."""
-        headers = Headers(scope=scope)
-        host = headers.get("host", "")
-        if self._gate.hosts and host not in self._gate.hosts:
+        path = request.scope["path"]
+        if self._gate.hosts and request.headers.get("host", "") not in self._gate.hosts:
             return PlainTextResponse("This server does not answer to that name.", 421)
-        if scope["method"] not in ("GET", "HEAD") and not _is_of_same_origin(scope, headers):
+        if request.scope["method"] not in ("GET", "HEAD") and not _is_of_same_origin(request):
             return JSONResponse({"error": "A request of another site is not answered."}, 403)
-        token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
-        session = self._sessions.find(_cookie(headers, self._gate.cookie))
-        if scope["path"] == "/" and token:
-            return self._let_in(scope, token, session)
+        token = request.query_params.get("token", "")
+        session = self._sessions.find(request.cookies.get(self._gate.cookie, ""))
+        if path == "/" and token:
+            return self._let_in(request.scope, token, session)
         if session is not None:
             return session
-        if scope["path"].startswith("/api/"):
+        if path.startswith("/api/"):
             return JSONResponse({"error": f"This session has ended. {_NO_SESSION}"}, 401)
         return PlainTextResponse(_NO_SESSION, 403)
 
@@ -114,17 +112,10 @@ class Access:
         return response
 
 
-def _is_of_same_origin(scope: Scope, headers: Headers) -> bool:
+def _is_of_same_origin(request: HTTPConnection) -> bool:
     """Whether a page of this server sent a request, as its browser tells."""
-    site = headers.get("sec-fetch-site", "")
+    site = request.headers.get("sec-fetch-site", "")
     if site:
         return site == "same-origin"
-    return headers.get("origin", "") == f"{scope['scheme']}://{headers.get('host', '')}"
-
-
-def _cookie(headers: Headers, name: str) -> str:
-    try:
-        morsel = SimpleCookie(headers.get("cookie", "")).get(name)
-    except CookieError:
-        return ""
-    return morsel.value if morsel else ""
+    here = f"{request.scope['scheme']}://{request.headers.get('host', '')}"
+    return request.headers.get("origin", "") == here

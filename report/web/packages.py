@@ -62,9 +62,8 @@ class Package:
     workbook: Path
     values: Values
     state: State = State.QUEUED
-    stage: str = "Waiting"
+    words: str = "Waiting"
     step: int = 0
-    message: str = ""
     worker: Executor | None = None
 
     @property
@@ -72,9 +71,9 @@ class Package:
         """Where its files are."""
         return self.workbook.parent / "out"
 
-    def begin_step(self, stage: str) -> None:
+    def begin_step(self, words: str) -> None:
         """Take note of the next step."""
-        self.stage, self.step = stage, self.step + 1
+        self.words, self.step = words, self.step + 1
 
 
 def started(package: Package) -> Executor:
@@ -144,9 +143,7 @@ class Packages:
             "ticket": package.ticket,
             "values": package.values,
             "state": package.state.value,
-            "words": f"In line, place {queued.index(package) + 1}"
-            if is_queued
-            else package.message or package.stage,
+            "words": f"In line, place {queued.index(package) + 1}" if is_queued else package.words,
             "part": None if is_queued else package.step / (STEPS + 1),
         }
 
@@ -154,7 +151,7 @@ class Packages:
         """End a package, and the process that makes it."""
         if package.state.is_over:
             return
-        package.state, package.message = State.CANCELED, "The package was canceled."
+        package.state, package.words = State.CANCELED, "The package was canceled."
         if package.worker is not None:
             package.worker.shutdown()
 
@@ -185,9 +182,8 @@ class Packages:
             package.state = State.RUNNING
             problem = await self._problem(package)
             if package.state is State.RUNNING:
-                package.begin_step("done")
+                package.begin_step(problem or "done")
                 package.state = State.FAILED if problem else State.DONE
-                package.message = problem
 
     async def _problem(self, package: Package) -> str:
         """Have a process make a package; return why there is none, empty if there is."""

@@ -48,8 +48,7 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
         changed |= dict(_intensity(sheet, scales, factors["intensity"]))
     if trim_m := float(values.get("clearance", 0.0)) * trim_unit_m(sheet):
         changed |= dict(_trim(sheet, trim_m))
-    changed |= {place: str(values["polarity"]) for place in polarities(sheet, values)}
-    return changed | dict(_rule_set(sheet, values))
+    return changed | dict(_polarity(sheet, values)) | dict(_rule_set(sheet, values))
 
 
 def trim_unit_m(sheet: Sheet) -> float:
@@ -142,11 +141,11 @@ def _in_cell(sheet: Sheet, place: Place, value: float) -> float:
     return round(value / size_of_unit(sheet, place), _PLAN_DIGITS)
 
 
-def polarities(sheet: Sheet, values: Values) -> Iterator[Place]:
-    """Yield the cells whose polarity changes."""
+def _polarity(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
+    asked = str(values.get("polarity", ""))
     for index, row in enumerate(sheet.draft["motions"]):
-        if values.get("polarity", "") not in ("", row["polarity"]):
-            yield Place("motions", index, "polarity")
+        if asked not in ("", row["polarity"]):
+            yield Place("motions", index, "polarity"), asked
 
 
 def _rule_set(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:

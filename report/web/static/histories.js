@@ -24,18 +24,21 @@ export function build(element, data, { again, announce }) {
   const where = html("span", { class: "numbers when" });
   const brush = html("div", { class: "brush", hidden: true });
   const stage = html("div", { class: "stage", tabindex: 0, role: "application", "aria-label": "Histories", "aria-describedby": "histories-keys" }, panels.element, brush);
-  const { texts } = data;
-  const lens = createLens(data);
+  const { seconds, texts } = data;
+  const lens = createLens(data, follow);
   const buttons = zoomButtons(lens);
   let drawn = null;
-  lens.follow((span, time) => {
+  let now = 0;
+
+  function follow(span, time) {
     if (span !== drawn) panels.show(span);
-    drawn = span;
+    [drawn, now] = [span, time];
     panels.at(time);
     where.textContent = filled(texts.read, { time: measured(time, data.units.sample[0]) });
-    buttons.follow(lens);
-  });
-  zoomByKeys(stage, lens, () => announce(`${where.textContent}. ${panels.words(lens.time)}.`));
+    buttons.follow(span, seconds);
+  }
+
+  zoomByKeys(stage, lens, () => announce(`${where.textContent}. ${panels.words(now)}.`));
   zoomByPointer(stage, brush, panels, lens);
 
   replace(
@@ -50,9 +53,8 @@ export function build(element, data, { again, announce }) {
   return { resize: (wide) => panels.resize(wide, HEIGHT, { isNarrow: wide < NARROW }) };
 }
 
-// The span of time that is shown, and the sample that is read, within it.
-function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
-  let changed = null;
+// The span of time that is shown, and the sample that is read, within it; `changed` gets both.
+function createLens({ seconds, dt_s: dt, t_prd_s: peak }, changed) {
   let span = [0, seconds];
   let time = peak ?? 0;
 
@@ -71,9 +73,6 @@ function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
   }
 
   return {
-    follow(listener) {
-      changed = listener;
-    },
     read,
     show,
     reset: () => show(0, seconds),
@@ -86,18 +85,6 @@ function createLens({ seconds, dt_s: dt, t_prd_s: peak }) {
       const shift = share * (span[1] - span[0]);
       time += shift;
       show(span[0] + shift, span[1] + shift);
-    },
-    get time() {
-      return time;
-    },
-    get isWhole() {
-      return span[1] - span[0] >= seconds;
-    },
-    get isFirst() {
-      return span[0] <= 0;
-    },
-    get isLast() {
-      return span[1] >= seconds;
     },
   };
 }
@@ -114,11 +101,10 @@ function zoomButtons(lens) {
   const all = named("All", "Whole record", "0", lens.reset);
   return {
     element: html("div", { class: "keys" }, closer, out, earlier, later, all),
-    follow({ isWhole, isFirst, isLast }) {
-      out.disabled = isWhole;
-      all.disabled = isWhole;
-      earlier.disabled = isFirst;
-      later.disabled = isLast;
+    follow([from, to], seconds) {
+      for (const one of [out, all]) one.disabled = to - from >= seconds;
+      earlier.disabled = from <= 0;
+      later.disabled = to >= seconds;
     },
   };
 }

@@ -42,7 +42,7 @@ def test_a_package_that_is_canceled_while_it_is_made_leaves_no_process():
                 await asyncio.sleep(0.01)
             await packages.cancel(package)
         await packages.stop()
-        return package.state, package.message, process.result.done()
+        return package.state, package.words, process.result.done()
 
     assert asyncio.run(run()) == (State.CANCELED, "The package was canceled.", True)
 
