@@ -2,18 +2,27 @@
 
 import json
 import math
+import os
 from pathlib import Path
 
 import pytest
 
+import report.workers
 from commands import run
 from report.cli import batch
 from report.cli.batch import BatchOutcome
+from report.workers import WorkerProcess
 from sheets import at, make
 
 
+@pytest.fixture
+def processes(monkeypatch):
+    """Have commands start processes, as they do outside the tests."""
+    monkeypatch.setattr(report.workers, "WorkerProcess", WorkerProcess)
+
+
 @pytest.mark.nightly
-def test_a_project_that_fails_stops_no_other(tmp_path):
+def test_a_project_that_fails_stops_no_other(tmp_path, processes):
     for name in ("one", "two"):
         make(tmp_path / name)
     (tmp_path / "two" / "records" / "x.csv").write_text("0.1\nabc\n0.2\n")
@@ -36,6 +45,20 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
 
 def outcome(**about):
     return BatchOutcome(source=Path("a"), **about)
+
+
+def made_or_killed(source):
+    if source.name == "killed":
+        os._exit(9)
+    return BatchOutcome(source=source, verdict="OK")
+
+
+def test_a_process_that_is_killed_takes_no_other_project_with_it(processes, monkeypatch):
+    monkeypatch.setattr(batch, "package", made_or_killed)
+    monkeypatch.setattr(os, "cpu_count", lambda: 1)
+    first, killed, last = batch.run([Path("a"), Path("killed"), Path("b")], quiet=True)
+    assert (first.word, killed.word, last.word) == ("OK", "internal error", "OK")
+    assert killed.internal.endswith("ended (exit code 9)")
 
 
 @pytest.mark.parametrize(
