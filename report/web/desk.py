@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -15,6 +16,7 @@ from starlette.requests import Request
 from report.web.packages import Packages
 from report.web.plan import USUAL_PX
 from report.web.sessions import EXAMPLE, Session, Sessions
+from report.web.worker import computing
 from report.web.workers import JobOrigin, Rank, Workers
 
 
@@ -51,7 +53,7 @@ class Desk:
 
     def __init__(self, sessions: Sessions, processes: int) -> None:
         self.sessions, self.packages = sessions, Packages()
-        self.workers = Workers(processes)
+        self.workers = Workers(processes, partial(computing, sessions.folder))
         self._asked = 0
 
     def start(self) -> None:

@@ -93,7 +93,7 @@ class Sessions:
     def __init__(
         self, folder: Path, clock: Callable[[], float] = time.monotonic, most: int = MOST
     ) -> None:
-        self._folder, self._clock, self._most = folder, clock, most
+        self.folder, self._clock, self._most = folder, clock, most
         self._by_id: dict[str, Session] = {}
 
     def begin(self) -> Session:
@@ -103,7 +103,7 @@ class Sessions:
             self.end(min(self._by_id.values(), key=lambda session: session.used_s))
         name = secrets.token_urlsafe(32)
         # Its name in the file system is another one: a listing opens no session.
-        folder = self._folder / secrets.token_hex(16)
+        folder = self.folder / secrets.token_hex(16)
         folder.mkdir(mode=0o700)
         session = Session(id=name, folder=folder, used_s=self._clock())
         self._by_id[name] = session

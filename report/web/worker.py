@@ -28,10 +28,10 @@ _NICE_OF_PACKAGES = 10
 _TOO_LARGE = "this needs more memory than a session may use; drop fewer or shorter records"
 
 
-def computing(is_quick: bool) -> WorkerProcess:
+def computing(folder: Path, is_quick: bool) -> WorkerProcess:
     """Start a process that computes; the others give way to that of quick jobs."""
     limits = partial(confine, 0 if is_quick else NICE, **_OF_JOBS)
-    return WorkerProcess(limits, is_trusted=False)
+    return WorkerProcess(limits, is_trusted=False, within=folder)
 
 
 def making(folder: Path, told: Callable[[str], object]) -> WorkerProcess:

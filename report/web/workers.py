@@ -13,7 +13,7 @@ from enum import IntEnum
 from itertools import count
 from typing import Any
 
-from report.web.worker import answered, computing, warmed
+from report.web.worker import answered, warmed
 from report.workers import WorkerProcess
 
 LONGEST_S = 120.0
@@ -64,7 +64,7 @@ class Workers:
     def __init__(
         self,
         number: int,
-        start: Callable[[bool], WorkerProcess] = computing,
+        start: Callable[[bool], WorkerProcess],
         longest_s: float = LONGEST_S,
     ) -> None:
         self._number, self._start, self._longest_s = number, start, longest_s
