@@ -128,7 +128,8 @@ class Workers:
     async def _serve(self, worker: WorkerProcess, warm: Mapping[str, Any], is_quick: bool) -> None:
         """Give a process its jobs until it is lost, which costs a job that was tried before."""
         try:
-            await self._done(worker, warmed, warm)
+            # Without a limit on its time: it is of no visitor, and may compile the solver.
+            await _done(worker, warmed, warm, None)
         except LostError:
             await asyncio.sleep(_PAUSE_S)
             return
@@ -138,7 +139,7 @@ class Workers:
             waiting = await self._next(is_quick)
             waiting.tries += 1
             try:
-                found = await self._done(worker, answered, waiting.job)
+                found = await _done(worker, answered, waiting.job, self._longest_s)
             except LostError as error:
                 if waiting.tries < _TRIES and not error.args:
                     await self._queue(waiting)
@@ -147,20 +148,6 @@ class Workers:
                 return
             if not waiting.answer.done():
                 waiting.answer.set_result(found)
-
-    async def _done(
-        self, worker: WorkerProcess, do: Callable[[Mapping[str, Any]], Any], job: Mapping[str, Any]
-    ) -> Any:
-        """Return what a process makes of a job."""
-        try:
-            # Not `wait_for`: it drops a cancellation that comes with the answer.
-            async with asyncio.timeout(self._longest_s):
-                return await asyncio.wrap_future(worker.submit(do, job))
-        except TimeoutError as error:
-            why = f"This took longer than {self._longest_s:.0f} s and was stopped."
-            raise LostError(why) from error
-        except Exception as error:  # it ended, or sent what is no answer
-            raise LostError from error
 
     async def _queue(self, waiting: _Waiting) -> None:
         self._waiting.append(waiting)
@@ -178,3 +165,20 @@ class Workers:
                     self._waiting.remove(chosen)
                     return chosen
                 await self._arrived.wait()
+
+
+async def _done(
+    worker: WorkerProcess,
+    do: Callable[[Mapping[str, Any]], Any],
+    job: Mapping[str, Any],
+    longest_s: float | None,
+) -> Any:
+    """Return what a process makes of a job."""
+    try:
+        # Not `wait_for`: it drops a cancellation that comes with the answer.
+        async with asyncio.timeout(longest_s):
+            return await asyncio.wrap_future(worker.submit(do, job))
+    except TimeoutError as error:
+        raise LostError(f"This took longer than {longest_s:.0f} s and was stopped.") from error
+    except Exception as error:  # it ended, or sent what is no answer
+        raise LostError from error

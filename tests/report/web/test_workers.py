@@ -164,6 +164,15 @@ def test_a_job_that_takes_too_long_is_stopped_and_says_so():
     assert quick == "quick"
 
 
+def test_the_first_job_of_a_process_may_take_longer():
+    """Where the solver is not compiled yet it takes minutes: a process that is ended never starts."""
+
+    async def script(pool):
+        return (await ask(pool, "after it"))["name"]
+
+    assert done(1, script, first={"seconds": 1.5}, longest_s=1.0) == "after it"
+
+
 def test_an_answer_is_a_line_whatever_is_in_it():
     text = "a line\u2028 another\n\x00 \u00e9"
 
