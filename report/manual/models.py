@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from report.document.sections import Section
-from report.document.tables import Column, by_name, listed
+from report.document.tables import Column, listed
 from report.entities.shown import plain, text, words
 from report.figures import models as figures
 from report.figures.scales import power_of_ten
@@ -28,7 +29,6 @@ from solver.verification.model_evidence import (
     SECOND,
     WORST,
     ModelEvidence,
-    PlaneRun,
     StaticEvidence,
 )
 from solver.verification.model_study import RATE_S_PER_M, ROW_SHARES, SLOW_SHARE
@@ -63,9 +63,9 @@ _TIME = (
 
 _WORK = (
     (words("Method", 3.2), lambda row: row[0]),
-    (words("Setting", 1.2), lambda row: _setting(row[1].setting)),
-    (text("Steps"), lambda row: row[1].steps),
-    (text("Time per run", share=1.2), lambda row: seconds(row[1].seconds)),
+    (words("Setting", 1.2), lambda row: _setting(row[1]["parameters"])),
+    (text("Steps"), lambda row: row[1]["steps"]),
+    (text("Time per run", share=1.2), lambda row: seconds(row[1]["time per run [s]"])),
     (text("Error", share=1.2), lambda row: _error(row[1])),
 )
 
@@ -81,11 +81,14 @@ _BOUND = (
 )
 
 _STOP = (
-    (words("Method", 3.4), lambda point: lettered(point.method)),
-    (words("Setting", 1.1), lambda point: _setting(point.setting)),
-    (text("Steps"), lambda point: point.steps),
-    (text("Position error", "mm", 1.3), lambda point: _position(point.end_error_m)),
-    (text("Final velocity", "mm/s", 1.3), lambda point: two_digits(1e3 * point.end_speed_mps)),
+    (words("Method", 3.4), lambda run: lettered(run["method"])),
+    (words("Setting", 1.1), lambda run: _setting(run["parameters"])),
+    (text("Steps"), lambda run: run["steps"]),
+    (text("Position error", "mm", 1.3), lambda run: _position(run["position error [m]"])),
+    (
+        text("Final velocity", "mm/s", 1.3),
+        lambda run: two_digits(1e3 * run["final velocity [m/s]"]),
+    ),
 )
 
 _PUSHED = (
@@ -145,7 +148,7 @@ def _found(evidence: ModelEvidence) -> Mapping[str, Any]:
         "times": listed(evidence.times, _TIME, kind="compact"),
         "work": listed(_shown(evidence.work), _WORK, kind="compact"),
         "bounds": listed(evidence.bounds, _BOUND, kind="compact"),
-        "stops": listed(evidence.stops, _STOP, kind="compact"),
+        "stops": listed(evidence.stops.to_dict("records"), _STOP, kind="compact"),
         "pushed": listed(static.pushed, _PUSHED, kind="compact"),
         **(_static(static) if static.n_scenes else {}),
     }
@@ -189,11 +192,12 @@ def _powers(static: StaticEvidence) -> list[float]:
     return [math.log(np.median(more) / np.median(less)) / step for more, less in pairs]
 
 
-def _shown(points: Sequence[PlaneRun]) -> Iterator[tuple[str, PlaneRun]]:
+def _shown(runs: pd.DataFrame) -> Iterator[tuple[str, Mapping[Hashable, Any]]]:
     """Yield the runs that are shown, the first of each method with its name."""
-    for name, own in by_name(points, lambda point: point.method).items():
-        for count, point in enumerate(own[::2] if len(own) > 3 else own):
-            yield "" if count else lettered(name), point
+    for name, group in runs.groupby("method", sort=False):
+        own = group.to_dict("records")
+        for count, run in enumerate(own[::2] if len(own) > 3 else own):
+            yield "" if count else lettered(str(name)), run
 
 
 def _setting(words: str) -> str:
@@ -205,8 +209,8 @@ def _ratio(value: float) -> str:
     return number(value, 0 if value >= 10.0 else 1)
 
 
-def _error(point: PlaneRun) -> str:
-    return "failed" if math.isnan(point.seconds) else percent(point.error_percent)
+def _error(run: Mapping[Hashable, Any]) -> str:
+    return "failed" if math.isnan(run["time per run [s]"]) else percent(run["PRD error [%]"])
 
 
 def _position(error_m: float) -> str:

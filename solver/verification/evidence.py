@@ -6,12 +6,12 @@ Computes only values read from the curves. See `solver.verification.run` for wha
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+import pandas as pd
 
-from solver.model import Floats, Status
+from solver.model import Floats
 from solver.studies.curves import minimum_friction
 from solver.verification.model_evidence import ModelEvidence
 from solver.verification.shake_table import ShakeTable
@@ -48,34 +48,6 @@ class CheckRow:
     error: float
     tolerance: float
     passed: bool  # whether error <= tolerance; a NaN does not pass
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkPoint:
-    """One run of one method: its run time and its error relative to the exact method."""
-
-    method: str  # key of `solver.METHODS`
-    setting: float  # value of the method's accuracy setting; NaN for a method without one
-    parameters: Mapping[str, float]  # all parameters of the run
-    record: str
-    scene: str
-    # least time of several repeats, warm, without input checks [s]; NaN for a failed run
-    seconds: float
-    # NaN for a failed run; see `percent_off`
-    prd_error_m: float
-    prd_error_percent: float
-    residual_error_m: float
-    residual_error_percent: float
-    status: Status
-
-
-def by_setting(points: Iterable[WorkPoint]) -> Mapping[str, list[list[WorkPoint]]]:
-    """Return the runs of each method, those of one setting together."""
-    groups: dict[str, dict[float, list[WorkPoint]]] = {}
-    for point in points:
-        setting = 0.0 if math.isnan(point.setting) else point.setting
-        groups.setdefault(point.method, {}).setdefault(setting, []).append(point)
-    return {method: list(of_method.values()) for method, of_method in groups.items()}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -241,7 +213,7 @@ class Verification:
     """The complete result of `verify`."""
 
     checks: tuple[CheckRow, ...]
-    work: tuple[WorkPoint, ...]
+    work: pd.DataFrame  # see `solver.verification.workprecision.work_points`
     maps: tuple[StabilityMap, ...]
     convergence: tuple[Convergence, ...]  # one for each record, the project's first
     links: tuple[LinkComparison, ...]  # slopes 0 and 4 degrees for each record, the project's first

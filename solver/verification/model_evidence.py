@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 
 from solver.model import Floats
 
@@ -131,20 +132,6 @@ class BoundRatios:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlaneRun:
-    """One run of a method in two axes; a failed run has no time and no errors, which are NaN."""
-
-    method: str
-    setting: str
-    seconds: float  # time per run [s]
-    steps: int  # steps; for SciPy, evaluations of the right-hand side
-    # error relative to the PRD: of the position, largest at samples, or of the PRD
-    error_percent: float
-    end_error_m: float  # error in final position [m]
-    end_speed_mps: float  # final speed [m/s]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelTime:
     """Run time of a model relative to the others."""
 
@@ -160,8 +147,8 @@ class ModelEvidence:
     study: ModelStudy
     static: StaticEvidence
     bounds: tuple[BoundRatios, ...]
-    work_scene: str
-    work: tuple[PlaneRun, ...]
-    stops: tuple[PlaneRun, ...]
+    # runs of one scene, and of a block that stops, see `solver.verification.plane_work`
+    work: pd.DataFrame
+    stops: pd.DataFrame
     times_motion: str  # name, length and time step of the motion used for `times`
     times: tuple[ModelTime, ...]

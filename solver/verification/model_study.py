@@ -73,15 +73,13 @@ ORIENTATIONS = tuple(
 
 def model_evidence(triples: Sequence[Triple], *, quick: bool) -> ModelEvidence:
     """Run all comparisons; accuracy and run times use the first motion."""
-    scene, work = plane_work.work(triples[0], quick=quick)
     first = triples[0]
     length = (first.x_mps2.size - 1) * first.dt_s
     return ModelEvidence(
         study=study(triples, quick=quick),
         static=static(triples, quick=quick),
         bounds=bound_ratios(quick=quick),
-        work_scene=scene,
-        work=work,
+        work=plane_work.work(first, quick=quick),
         stops=plane_work.stops(),
         times_motion=f"{first.name}, {length:.0f} s in steps of {first.dt_s:g} s",
         times=times(first),

@@ -74,7 +74,7 @@ def verify(
     rows += model_checks.model_checks(triples, quick=quick)
     models = model_study.model_evidence(triples, quick=quick)
     progress(f"Accuracy against run time: every method on {len(records)} records")
-    work = tuple(workprecision.work_points(records, quick=quick))
+    work = workprecision.work_points(records, quick=quick)
     progress("Stability: maps of error over two parameters")
     maps = tuple(stability.maps(records[0], quick=quick))
     progress("Sensitivity to small changes of friction")
