@@ -11,6 +11,7 @@ from report.document.tables import Column, Table, listed
 from report.entities.shown import text, words
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
+from report.manual.section import section
 from report.words.formats import percent, seconds, slug
 from report.words.letters import lettered
 from solver.rivals.methods import METHODS
@@ -31,18 +32,15 @@ def work(verification: Verification) -> Section:
     runs, least = verification.work, floor(verification)
     lost = runs[runs[["time per run [s]", "PRD error [m]"]].isna().any(axis=1)]
     envelopes = {measure: f"work-each-{slug(measure)}" for measure in figures.MEASURES}
-    return Section(
-        id="work",
-        title="Accuracy against run time",
-        template="manual/work.html",
-        content={
-            "cases": len(runs[["record", "case"]].drop_duplicates()),
-            "lost": lost.groupby("method", sort=False).size().to_dict(),
-            "floor_percent": 100.0 * least,
-            "least_percent": power_of_ten(LEAST_PERCENT),
-            "envelopes": envelopes,
-            "medians": _medians(runs),
-        },
+    return section(
+        "work",
+        "Accuracy against run time",
+        cases=len(runs[["record", "case"]].drop_duplicates()),
+        lost=lost.groupby("method", sort=False).size().to_dict(),
+        floor_percent=100.0 * least,
+        least_percent=power_of_ten(LEAST_PERCENT),
+        envelopes=envelopes,
+        medians=_medians(runs),
         charts={
             "work-percent": figures.overview(runs, "%", 100.0 * least),
             "work-meters": figures.overview(runs, "m", least * _typical_prd_m(runs)),

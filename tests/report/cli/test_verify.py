@@ -104,7 +104,7 @@ MEASURED = ["time per run [s]", *verified.NO_RUNS.filter(like="error")]
 def broken(verification):
     """The same verification with its second check failed, some runs lost, and other programs."""
     first, second, *others = verification.checks
-    wrong = replace(second, computed=1.5, error=0.25, passed=False)
+    wrong = replace(second, expected=2.0, computed=1.5)
     work = verification.work.copy()
     lost = (work["method"] == "penalty-explicit") & (work["setting"] == 1e2)
     work.loc[lost, MEASURED], work.loc[lost, "status"] = math.nan, Status.DIVERGED
