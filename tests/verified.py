@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from types import MappingProxyType
 
+import pandas as pd
 import pytest
 from click.testing import CliRunner
 
@@ -25,10 +26,17 @@ from solver.verification.run import verify
 DATE = dt.date(2026, 3, 5)
 
 
+_ERRORS = [f"{what} error [{unit}]" for what in ("PRD", "residual") for unit in ("m", "%")]
+NO_RUNS = pd.DataFrame(
+    columns=["method", "setting", "record", "case", "time per run [s]", *_ERRORS, "status"]
+)
+
+
 def only(**found: object) -> Verification:
     """Return a verification that has found nothing but this."""
     nothing = dict.fromkeys((field.name for field in fields(Verification)), ())
-    return Verification(**{**nothing, "quick": True, "seconds": 1.0, **found})
+    some = {"work": NO_RUNS, "quick": True, "seconds": 1.0}
+    return Verification(**{**nothing, **some, **found})
 
 
 def read_only(mapping: dict[str, object]) -> MappingProxyType[str, object]:

@@ -7,12 +7,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 
 from report.figures.base import ACCENT, GRAY, INK, bare, boxed, framed, labeled, style, svg_text
 from report.figures.scales import logarithmic, ticks
 from report.words.letters import lettered
-from solver.verification.model_evidence import BoundRatios, ModelChange, PlaneRun
+from solver.verification.model_evidence import BoundRatios, ModelChange
 
 _RATIOS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _DOT = "#9a9a9a"
@@ -67,16 +68,16 @@ LEAST_PERCENT, LEAST_RATIO = 1e-12, 1e-6
 """Smallest error and ratio drawn; smaller ones are drawn there."""
 
 
-def work(points: Sequence[PlaneRun]) -> str:
+def work(runs: pd.DataFrame) -> str:
     """Return a line for each method, from coarse to fine; failed runs are not drawn."""
-    names = list(dict.fromkeys(point.method for point in points))
+    answered = runs.dropna(subset="time per run [s]")
     with style():
         figure, axes = boxed(2.4, (0.085, 0.17, 0.5, 0.79))
-        for name, look in zip(names, _LOOKS, strict=False):
-            own = [p for p in points if p.method == name and not math.isnan(p.seconds)]
+        for name, look in zip(runs["method"].unique(), _LOOKS, strict=False):
+            own = answered[answered["method"] == name]
             axes.plot(
-                [point.seconds for point in own],
-                [max(point.error_percent, LEAST_PERCENT) for point in own],
+                own["time per run [s]"],
+                own["PRD error [%]"].clip(LEAST_PERCENT),
                 **look,
                 markersize=3.6,
                 markerfacecolor="white" if look["color"] == GRAY else look["color"],

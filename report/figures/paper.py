@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 
 from report.figures.base import (
@@ -26,7 +27,7 @@ from report.figures.base import (
 from report.figures.history import envelope
 from report.figures.scales import decades, ticks
 from solver.model import Floats
-from solver.verification.evidence import Convergence, DesignCurves, LinkComparison
+from solver.verification.evidence import DesignCurves, LinkComparison
 
 PAPER_P64_PERCENT = 0.48
 """The paper's largest error with 64 sub-steps."""
@@ -36,13 +37,13 @@ READ_OFF = (2.0, 0.5)
 """The paper's example on Fig. 12: slope [deg] and limit on PRD [m]."""
 
 
-def convergence(studies: Sequence[Convergence]) -> str:
+def convergence(studies: Sequence[tuple[str, pd.DataFrame]]) -> str:
     """Return Fig. 5, a row for each record: largest error and longest time against P."""
     with style():
         figure, grid = _rows(len(studies), 2.25)
-        for (left, right), study in zip(grid, studies, strict=True):
+        for (left, right), (record, study) in zip(grid, studies, strict=True):
             _errors(left, study)
-            right.plot(study.substeps, 1e3 * study.longest_seconds, "o-", color=INK, markersize=4)
+            right.plot(study.index, 1e3 * study["seconds"], "o-", color=INK, markersize=4)
             right.set_yscale("log")
             decades(right.yaxis, maximum=7)
             for axes, y in (
@@ -50,31 +51,24 @@ def convergence(studies: Sequence[Convergence]) -> str:
                 (right, "Longest time per run [ms]"),
             ):
                 axes.set_xscale("log", base=2)
-                ticks(axes.xaxis, study.substeps)
+                ticks(axes.xaxis, study.index.tolist())
                 labeled(axes, "Sub-steps P per sampling interval", y)
-            left.set_title(study.record, loc="left", weight="semibold")
+            left.set_title(record, loc="left", weight="semibold")
         return svg_text(figure)
 
 
-def _errors(axes: Axes, study: Convergence) -> None:
+def _errors(axes: Axes, study: pd.DataFrame) -> None:
+    exact, finest = study["exact_percent"], study["finest_percent"]
+    axes.plot(study.index, exact, "o-", color=INK, markersize=4, label="against exact")
     axes.plot(
-        study.substeps,
-        study.largest_error_exact_percent,
-        "o-",
-        color=INK,
-        markersize=4,
-        label="against exact",
-    )
-    by_finest = study.largest_error_p256_percent > 0.0
-    axes.plot(
-        np.array(study.substeps)[by_finest],
-        study.largest_error_p256_percent[by_finest],
+        study.index,
+        finest.where(finest > 0.0),  # no 0 on a logarithmic scale
         marker="s",
         markerfacecolor="white",
         linestyle=DASHED,
         color=ACCENT,
         markersize=4,
-        label=f"against P = {study.substeps[-1]}, as in the paper",
+        label=f"against P = {study.index[-1]}, as in the paper",
     )
     axes.plot(
         [64], [PAPER_P64_PERCENT], linestyle="", marker="*", markersize=9, color=GRAY,
@@ -103,28 +97,29 @@ def links(comparisons: Sequence[LinkComparison]) -> str:
 
 
 def _history(axes: Axes, comparison: LinkComparison) -> None:
-    for u_m, line, color, width, label in (
-        (comparison.history_exact_m, "-", INK, 1.0, "exact"),
-        (comparison.history_link_m, DASHED, ACCENT, 1.4, "link"),
-    ):
-        t, u = envelope(comparison.history_t_s, 1e3 * u_m)
-        axes.plot(t, u, linestyle=line, color=color, linewidth=width, label=label)
+    looks: tuple[tuple[str, Any, str, float], ...] = (
+        ("exact", "-", INK, 1.0),
+        ("link", DASHED, ACCENT, 1.4),
+    )
+    for name, line, color, width in looks:
+        u_m = comparison.history_m[name]
+        t, u = envelope(u_m.index.to_numpy(), 1e3 * u_m.to_numpy())
+        axes.plot(t, u, linestyle=line, color=color, linewidth=width, label=name)
     title = f"θ = {comparison.slope_deg:g}°: history at μ = {comparison.history_mu:g}"
     labeled(axes, "Time [s]", "Displacement u [mm]", title)
     axes.legend(loc="best", handlelength=2.8)
 
 
 def _over_mu(axes: Axes, comparison: LinkComparison) -> None:
-    looks: tuple[tuple[str, Floats, str, Any, str, str], ...] = (
-        ("PRD, exact", comparison.prd_exact_m, "o", "-", INK, INK),
-        ("PRD, link", comparison.prd_link_m, "x", "", ACCENT, ACCENT),
-        ("RRD, exact", comparison.rrd_exact_m, "s", DASHED, INK, "white"),
-        ("RRD, link", comparison.rrd_link_m, "+", "", ACCENT, ACCENT),
+    looks: tuple[tuple[str, str, Any, str, str], ...] = (
+        ("PRD, exact", "o", "-", INK, INK),
+        ("PRD, link", "x", "", ACCENT, ACCENT),
+        ("RRD, exact", "s", DASHED, INK, "white"),
+        ("RRD, link", "+", "", ACCENT, ACCENT),
     )
-    for label, values, marker, line, color, fill in looks:
+    for label, marker, line, color, fill in looks:
         axes.plot(
-            comparison.mus,
-            1e3 * values,
+            1e3 * comparison.runs_m[label],
             marker=marker,
             linestyle=line,
             color=color,

@@ -3,90 +3,74 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Any
 
-import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 
 from report.figures.base import GRAY, INK, PALE, Broken, labeled, panels, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import logarithmic
-from solver.model import Floats
-from solver.verification.evidence import WorkPoint, by_setting
 
-PANELS = (("prd_error", "PRD"), ("residual_error", "residual"))
-UNITS = {"percent": "%", "m": "m"}
+MEASURES = ("PRD", "residual")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkCurve:
-    """One method from coarse to fine: median time [s], and error over the scenes.
-
-    `each` has one row per run: time, error.
-    """
-
-    method: str
-    seconds: Floats
-    low: Floats
-    median: Floats
-    high: Floats
-    each: Floats
-
-
-def curves(points: Sequence[WorkPoint], measure: str, floor: float) -> tuple[WorkCurve, ...]:
-    """Return a curve for each method, in the order of the points; failed runs are omitted.
+def drawn(runs: pd.DataFrame, error: str, floor: float) -> dict[str, pd.DataFrame]:
+    """Return method, setting, seconds and error of the runs of each method: NaN of a failed run.
 
     Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
     """
-    drawn = []
-    for name, groups in by_setting(points).items():
-        answered = (_answered(group, measure, floor) for group in groups)
-        runs = [group for group in answered if group.size]
-        if runs:
-            drawn.append(_curve(name, runs))
-    return tuple(drawn)
-
-
-def _answered(points: Sequence[WorkPoint], measure: str, floor: float) -> Floats:
-    rows = [(point.seconds, getattr(point, measure)) for point in points]
-    return np.array([(s, max(error, floor)) for s, error in rows if not math.isnan(s + error)])
-
-
-def _curve(name: str, runs: Sequence[Floats]) -> WorkCurve:
-    return WorkCurve(
-        method=name,
-        seconds=np.array([np.median(group[:, 0]) for group in runs]),
-        low=np.array([group[:, 1].min() for group in runs]),
-        median=np.array([np.median(group[:, 1]) for group in runs]),
-        high=np.array([group[:, 1].max() for group in runs]),
-        each=np.concatenate(runs),
+    seconds, errors = runs["time per run [s]"], runs[error]
+    shown = runs[["method", "setting"]].assign(
+        seconds=seconds.where(errors.notna()), error=errors.where(seconds.notna()).clip(floor)
     )
+    return {str(name): own for name, own in shown.groupby("method", sort=False)}
 
 
-def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
+def curve(runs: pd.DataFrame) -> pd.DataFrame:
+    """Return median time, and range and median of the error, for each setting that gave a result.
+
+    In the order of the runs of a method, from coarse to fine.
+    """
+    by_setting = runs.groupby("setting", sort=False, dropna=False)
+    found = by_setting.agg(
+        seconds=("seconds", "median"),
+        low=("error", "min"),
+        middle=("error", "median"),
+        high=("error", "max"),
+    )
+    return found.dropna()
+
+
+def overview(runs: pd.DataFrame, unit: str, floor: float) -> str:
     """Return the medians of every method: one panel for PRD and one for the residual.
 
     Parameters
     ----------
     unit : str
-        `percent` or `m`.
+        `%` or `m`.
     floor : float
         Error of the exact method in that unit, from its checks.
     """
     with style():
         margins = {"left": 0.085, "right": 0.99, "above": 0.221, "below": 1.02, "wspace": 0.08}
         figure, grid = panels(1, 2, 3.4, **margins, sharey=True)
-        for axes, (measure, name) in zip(grid.flat, PANELS, strict=True):
-            for curve in curves(points, f"{measure}_{unit}", floor):
-                look = LOOKS[curve.method]
-                size = {"markersize": 10} if curve.method == "exact" else {}
-                axes.plot(curve.seconds, curve.median, **look | size)
-                if curve.method == "exact":
-                    _name_floor(axes, curve)
-            labeled(axes, "Time per run [s]", title=f"Error in {name}")
+        for axes, measure in zip(grid.flat, MEASURES, strict=True):
+            for name, own in drawn(runs, f"{measure} error [{unit}]", floor).items():
+                medians = curve(own)
+                size = {"markersize": 10} if name == "exact" else {}
+                axes.plot(medians["seconds"], medians["middle"], **LOOKS[name] | size)
+                if name == "exact":
+                    axes.annotate(
+                        "exact: rounding error",
+                        (medians["seconds"].iloc[0], medians["middle"].iloc[0]),
+                        (9, 0),
+                        textcoords="offset points",
+                        va="center",
+                    )
+            labeled(axes, "Time per run [s]", title=f"Error in {measure}")
             logarithmic(axes, 9, 12)
-        grid[0, 0].set_ylabel(f"Median error over analysis cases [{UNITS[unit]}]")
+        grid[0, 0].set_ylabel(f"Median error over analysis cases [{unit}]")
         handles, labels = grid[0, 0].get_legend_handles_labels()
         figure.legend(
             handles, labels, loc="lower center", ncols=4, handlelength=2.6, columnspacing=0.9
@@ -94,63 +78,44 @@ def overview(points: Sequence[WorkPoint], unit: str, floor: float) -> str:
         return svg_text(figure)
 
 
-def _name_floor(axes: Axes, curve: WorkCurve) -> None:
-    axes.annotate(
-        "exact: rounding error",
-        (curve.seconds[0], curve.median[0]),
-        (9, 0),
-        textcoords="offset points",
-        va="center",
-    )
-
-
-def by_method(points: Sequence[WorkPoint], measure: str, floor: float) -> str:
+def by_method(runs: pd.DataFrame, measure: str, floor: float) -> str:
     """Return a panel for each rival: a dot per run, the median as a line, the range as a band.
 
     The medians of the other methods are drawn in light gray behind each panel.
     """
-    rivals = [point for point in points if point.method != "exact"]
-    shown = curves(rivals, f"{measure}_percent", floor)
-    rows = math.ceil(len(shown) / 4)
+    found = drawn(runs[runs["method"] != "exact"], f"{measure} error [%]", floor)
+    medians = {name: own_curve for name, own in found.items() if len(own_curve := curve(own))}
+    others = Broken()
+    for other in medians.values():
+        others.add(other["seconds"], other["middle"])
+    rows = math.ceil(len(medians) / 4)
     margins = {"left": 0.085, "right": 0.99, "above": 0.2, "below": 0.42}
     between = {"wspace": 0.1, "hspace": 0.22}
     with style():
         figure, grid = panels(
             rows, 4, 1.75 * rows + 0.45, **margins, **between, sharex=True, sharey=True
         )
-        for axes in grid.flat[len(shown) :]:
+        for axes in grid.flat[len(medians) :]:
             axes.set_axis_off()
-        for axes, curve in zip(grid.flat, shown, strict=False):
-            _panel(axes, curve, shown)
+        for axes, (name, own_curve) in zip(grid.flat, medians.items(), strict=False):
+            axes.plot(others.x, others.y, color=PALE, linewidth=1.0, zorder=1)
+            _panel(axes, name, found[name], own_curve)
         for axes in grid[:, 0]:
             axes.set_ylabel("Error [%]")
-        for axes in grid.flat[max(len(shown) - 4, 0) : len(shown)]:
+        for axes in grid.flat[max(len(medians) - 4, 0) : len(medians)]:
             axes.set_xlabel("Time per run [s]")
             axes.tick_params(labelbottom=True)
         return svg_text(figure)
 
 
-def _panel(axes: Axes, curve: WorkCurve, shown: Sequence[WorkCurve]) -> None:
-    others = Broken()
-    for other in shown:
-        others.add(other.seconds, other.median)
-    axes.plot(others.x, others.y, color=PALE, linewidth=1.0, zorder=1)
-    axes.plot(
-        curve.each[:, 0],
-        curve.each[:, 1],
-        linestyle="",
-        marker=".",
-        markersize=2.2,
-        color=GRAY,
-        zorder=2,
-    )
-    axes.fill_between(
-        curve.seconds, curve.low, curve.high, facecolor="#c9d5e3", edgecolor="none", zorder=1.5
-    )
-    look = LOOKS[curve.method]
-    axes.plot(curve.seconds, curve.median, **look | {"markersize": 3.8}, zorder=3)
-    if curve.seconds.size == 1:
-        axes.vlines(curve.seconds, curve.low, curve.high, color=INK, linewidth=0.8, zorder=2.5)
+def _panel(axes: Axes, name: str, runs: pd.DataFrame, medians: pd.DataFrame) -> None:
+    dots: dict[str, Any] = {"linestyle": "", "marker": ".", "markersize": 2.2, "color": GRAY}
+    axes.plot(runs["seconds"], runs["error"], **dots, zorder=2)
+    seconds, low, high = medians["seconds"], medians["low"], medians["high"]
+    axes.fill_between(seconds, low, high, facecolor="#c9d5e3", edgecolor="none", zorder=1.5)
+    axes.plot(seconds, medians["middle"], **LOOKS[name] | {"markersize": 3.8}, zorder=3)
+    if len(medians) == 1:
+        axes.vlines(seconds, low, high, color=INK, linewidth=0.8, zorder=2.5)
     labeled(axes)
-    axes.set_title(look["label"], loc="left")
+    axes.set_title(LOOKS[name]["label"], loc="left")
     logarithmic(axes, 5, 6)

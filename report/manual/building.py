@@ -8,10 +8,10 @@ from report.document.sections import Section
 from report.document.tables import Column, Table, listed, with_total
 from report.entities.shown import plain, text, words
 from report.figures import building as figures
+from report.manual.section import section
 from report.words.counts import capitalized
 from report.words.formats import slug
 from report.words.units import G_MPS2, number
-from solver.building.roof import FINENESS, RESTING_SHARE, SHARE
 from solver.model import Floats
 from solver.verification.evidence import RoofComparison, RoofPrediction, Verification
 
@@ -19,21 +19,15 @@ from solver.verification.evidence import RoofComparison, RoofPrediction, Verific
 def building(verification: Verification) -> Section:
     """Return each building, the model building first."""
     names = [f"building-{slug(roof.title)}" for roof in verification.roofs]
-    return Section(
-        id="building",
-        title="Roof motion computed from ground motion",
-        template="manual/building.html",
-        content={
-            "SHARE": SHARE,
-            "FINENESS": FINENESS,
-            "RESTING_SHARE": RESTING_SHARE,
-            "SHOWN_S": figures.SHOWN_S,
-            "computed": figures.computed,
-            "roofs": [
-                (roof, name, _properties(roof), _bands(roof), _peaks(roof))
-                for roof, name in zip(verification.roofs, names, strict=True)
-            ],
-        },
+    return section(
+        "building",
+        "Roof motion computed from ground motion",
+        SHOWN_S=figures.SHOWN_S,
+        computed=figures.computed,
+        roofs=[
+            (roof, name, _properties(roof), _bands(roof), _peaks(roof))
+            for roof, name in zip(verification.roofs, names, strict=True)
+        ],
         charts={
             name: figures.comparison(roof)
             for roof, name in zip(verification.roofs, names, strict=True)
@@ -59,17 +53,16 @@ def _properties(roof: RoofComparison) -> Table:
             (plain("Damping", 1, "%", 0.9), lambda found: 100.0 * found.damping),
             (plain("Stiffness ratio", 1), lambda found: found.alpha0),
             (text("Modes included", share=0.9), lambda found: found.n_modes or "—"),
-            (text("Neglected", "%"), _neglected),
+            (
+                text("Neglected", "%"),
+                lambda found: number(100.0 * found.left_out_share, 1) if found.n_modes else "—",
+            ),
             (plain("Peak", 3, "g", 0.8), lambda found: found.peak_mps2 / G_MPS2),
             (plain("Unexplained", 1, "%", 1.1), lambda found: 100.0 * found.unexplained),
         ),
     )
     peak = number(float(np.abs(roof.roof_mps2).max()) / G_MPS2, 3)
     return with_total(found, (_reference(roof), *["—"] * 5, peak, "—"), is_first=True)
-
-
-def _neglected(found: RoofPrediction) -> str:
-    return number(100.0 * found.left_out_share, 1) if found.n_modes else "—"
 
 
 def _bands(roof: RoofComparison) -> Table:

@@ -7,15 +7,18 @@ from itertools import groupby
 from report.document.sections import Section
 from report.document.tables import listed
 from report.entities.shown import text, words
+from report.manual.section import section
 from report.manual.summary import judged
-from report.words.validation import validation
 from solver.verification.evidence import Verification
 from solver.verification.features import FeatureStatus, statuses
 
 _FEATURE = (
     (words("Feature", 2.9), lambda status: status.feature.name),
     (words("Checks (section 3)", 1.9), lambda status: ", ".join(spans(status.ids)) or "—"),
-    (text("Passed", share=0.9), lambda status: _passed(status)),
+    (
+        text("Passed", share=0.9),
+        lambda status: f"{status.n_passed} of {status.n_checks}" if status.n_checks else "—",
+    ),
     (words("Status", 1.8), lambda status: _status(status)),
     (words("Limits of the checks", 3.2), lambda status: _limits(status)),
 )
@@ -31,14 +34,10 @@ _ERROR = (
 def features(verification: Verification) -> Section:
     """Return the table of features."""
     found = statuses(verification.checks, verification.tables)
-    return Section(
-        id="features",
-        title="Status of each feature",
-        template="manual/features.html",
-        content={
-            "validation": validation(verification.tables),
-            "features": listed(found, _FEATURE, kind="compact"),
-        },
+    return section(
+        "features",
+        "Status of each feature",
+        features=listed(found, _FEATURE, kind="compact"),
     )
 
 
@@ -51,10 +50,6 @@ def spans(ids: tuple[str, ...]) -> list[str]:
         own = [f"{letters}-{number}" for _, (letters, number) in members]
         words += [f"{own[0]} to {own[-1]}"] if len(own) > 2 else own
     return words
-
-
-def _passed(status: FeatureStatus) -> str:
-    return f"{status.n_passed} of {status.n_checks}" if status.n_checks else "—"
 
 
 def _status(status: FeatureStatus) -> str:
@@ -75,9 +70,8 @@ def _limits(status: FeatureStatus) -> str:
 
 def known_errors() -> Section:
     """Return the errors of released versions, with what to do about them."""
-    return Section(
-        id="known-errors",
-        title="Known errors of released versions",
-        template="manual/known-errors.html",
-        content={"columns": listed((), _ERROR, kind="compact")},
+    return section(
+        "known-errors",
+        "Known errors of released versions",
+        columns=listed((), _ERROR, kind="compact"),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import platform
-from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 
@@ -12,31 +11,16 @@ _LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "pandas", "matplotlib", "ji
 _CPU_INFO = Path("/proc/cpuinfo")
 
 
-@dataclass(frozen=True, slots=True)
-class Machine:
-    """Labels and versions or descriptions, the program first."""
-
-    rows: tuple[tuple[str, str], ...]
-
-    @property
-    def line(self) -> str:
-        """Processor, cores and system in one line."""
-        values = dict(self.rows)
-        return f"{values['Processor']}, {values['Cores']} cores, {values['System']}"
-
-
-def this_machine() -> Machine:
-    """Return this machine, without names of persons, hosts or paths."""
-    return Machine(
-        (
-            ("Roofslip", metadata.version("roofslip")),
-            ("Python", platform.python_version()),
-            *((name, _version(name)) for name in _LIBRARIES),
-            ("Processor", processor()),
-            ("Cores", str(os.cpu_count() or 1)),
-            ("System", f"{platform.system()} {platform.release()}, {platform.machine()}"),
-        )
-    )
+def this_machine() -> dict[str, str]:
+    """Return labels with versions or descriptions, without names of persons, hosts or paths."""
+    return {
+        "Roofslip": metadata.version("roofslip"),
+        "Python": platform.python_version(),
+        **{name: _version(name) for name in _LIBRARIES},
+        "Processor": processor(),
+        "Cores": str(os.cpu_count() or 1),
+        "System": f"{platform.system()} {platform.release()}, {platform.machine()}",
+    }
 
 
 def _version(library: str) -> str:

@@ -3,41 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from report.document.sections import Section
-from report.document.tables import Column, by_name, listed
+from report.document.tables import Column, Table, listed
 from report.entities.shown import plain, text, words
 from report.figures import models as figures
 from report.figures.scales import power_of_ten
+from report.manual.section import section
 from report.words.formats import general, percent, scientific, seconds, ten_digits, two_digits
 from report.words.letters import lettered
 from report.words.units import number
-from solver.model import Floats
 from solver.verification.evidence import Verification
-from solver.verification.model_evidence import (
-    HELD,
-    HELD_ONE,
-    LEAST_M,
-    OVER_FAST,
-    OVER_SLOW,
-    OVER_STATIC,
-    SECOND,
-    WORST,
-    ModelEvidence,
-    PlaneRun,
-    StaticEvidence,
-)
-from solver.verification.model_study import RATE_S_PER_M, ROW_SHARES, SLOW_SHARE
-from solver.verification.static_study import (
-    FALLING,
-    JUMPING,
-    PUSHED_BACK_G,
-    PUSHED_TOLERANCE,
-)
+from solver.verification.model_evidence import ModelEvidence, StaticEvidence
 
 CHANGED = 1e-3
 """Least relative change of the PRD for which a case counts as changed."""
@@ -55,17 +37,11 @@ _CHANGE = (
     (plain("Largest change", 0, "mm", 1.3), lambda change: 1e3 * change.maximum_m),
 )
 
-_TIME = (
-    (words("Model", 3.0), lambda time: time.title),
-    (text("Time per run", share=1.2), lambda time: seconds(time.seconds)),
-    (text("Ratio to one axis", share=1.2), lambda time: _ratio(time.ratio)),
-)
-
 _WORK = (
     (words("Method", 3.2), lambda row: row[0]),
-    (words("Setting", 1.2), lambda row: _setting(row[1].setting)),
-    (text("Steps"), lambda row: row[1].steps),
-    (text("Time per run", share=1.2), lambda row: seconds(row[1].seconds)),
+    (words("Setting", 1.2), lambda row: _setting(row[1]["parameters"])),
+    (text("Steps"), lambda row: row[1]["steps"]),
+    (text("Time per run", share=1.2), lambda row: seconds(row[1]["time per run [s]"])),
     (text("Error", share=1.2), lambda row: _error(row[1])),
 )
 
@@ -81,43 +57,32 @@ _BOUND = (
 )
 
 _STOP = (
-    (words("Method", 3.4), lambda point: lettered(point.method)),
-    (words("Setting", 1.1), lambda point: _setting(point.setting)),
-    (text("Steps"), lambda point: point.steps),
-    (text("Position error", "mm", 1.3), lambda point: _position(point.end_error_m)),
-    (text("Final velocity", "mm/s", 1.3), lambda point: two_digits(1e3 * point.end_speed_mps)),
+    (words("Method", 3.4), lambda run: lettered(run["method"])),
+    (words("Setting", 1.1), lambda run: _setting(run["parameters"])),
+    (text("Steps"), lambda run: run["steps"]),
+    (text("Position error", "mm", 1.3), lambda run: _position(run["position error [m]"])),
+    (
+        text("Final velocity", "mm/s", 1.3),
+        lambda run: two_digits(1e3 * run["final velocity [m/s]"]),
+    ),
 )
 
 _PUSHED = (
-    (text("Transverse acceleration", "m/s²", 1.5), lambda point: ten_digits(point.across_mps2)),
-    (plain("Distance", 2, "mm"), lambda point: 1e3 * point.end_m),
-    (text("Error reported by the run", "mm", 1.6), lambda point: scientific(1e3 * point.error_m)),
-    (
-        plain("Distance, gradual decrease of μ", 2, "mm", 2.0),
-        lambda point: 1e3 * point.falling_end_m,
-    ),
+    (text("Transverse acceleration", "m/s²", 1.5), lambda row: ten_digits(row.Index)),
+    (plain("Distance", 2, "mm"), lambda row: 1e3 * row.end_m),
+    (text("Error reported by the run", "mm", 1.6), lambda row: scientific(1e3 * row.error_m)),
+    (plain("Distance, gradual decrease of μ", 2, "mm", 2.0), lambda row: 1e3 * row.falling_end_m),
 )
 
 
 def models(verification: Verification) -> Section:
     """Return the comparison of the models."""
-    return Section(
-        id="models",
-        title="Models: one axis, two axes and rows of blocks",
-        template="manual/models.html",
-        content={
-            "LEAST_M": LEAST_M,
-            "SLOW_SHARE": SLOW_SHARE,
-            "RATE_S_PER_M": RATE_S_PER_M,
-            "ROW_SHARES": ROW_SHARES,
-            "CHANGED": CHANGED,
-            "FALLING": FALLING,
-            "JUMPING": JUMPING,
-            "PUSHED_BACK_G": PUSHED_BACK_G,
-            "PUSHED_TOLERANCE": PUSHED_TOLERANCE,
-            "least_ratio": power_of_ten(figures.LEAST_RATIO),
-            "models": [(evidence, _found(evidence)) for evidence in verification.models],
-        },
+    return section(
+        "models",
+        "Models: one axis, two axes and rows of blocks",
+        CHANGED=CHANGED,
+        least_ratio=power_of_ten(figures.LEAST_RATIO),
+        models=[(evidence, _found(evidence)) for evidence in verification.models],
         charts={
             name: svg
             for evidence in verification.models
@@ -131,50 +96,60 @@ def models(verification: Verification) -> Section:
 
 
 def _found(evidence: ModelEvidence) -> Mapping[str, Any]:
-    """Return the changes that the words name, and the tables."""
+    """Return the tables."""
     study, static = evidence.study, evidence.static
     return {
-        "second": study.named(SECOND),
-        "worst": study.named(WORST),
-        "slow": study.named(OVER_SLOW),
-        "fast": study.named(OVER_FAST),
-        "one_axis": study.named(HELD_ONE),
-        "two_axes": study.named(HELD),
-        "over_static": study.named(OVER_STATIC),
         "changes": listed(study.changes, _CHANGE, kind="compact"),
-        "times": listed(evidence.times, _TIME, kind="compact"),
+        "times": _times(evidence.times),
         "work": listed(_shown(evidence.work), _WORK, kind="compact"),
         "bounds": listed(evidence.bounds, _BOUND, kind="compact"),
-        "stops": listed(evidence.stops, _STOP, kind="compact"),
-        "pushed": listed(static.pushed, _PUSHED, kind="compact"),
+        "stops": listed(evidence.stops.to_dict("records"), _STOP, kind="compact"),
+        "pushed": listed(static.pushed.itertuples(), _PUSHED, kind="compact"),
         **(_static(static) if static.n_scenes else {}),
     }
+
+
+def _times(times: Mapping[str, float]) -> Table:
+    one_axis_s = next(iter(times.values()))
+
+    def ratio(time_s: float) -> str:
+        return number(time_s / one_axis_s, 0 if time_s >= 10.0 * one_axis_s else 1)
+
+    return listed(
+        times.items(),
+        (
+            (words("Model", 3.0), lambda time: time[0]),
+            (text("Time per run", share=1.2), lambda time: seconds(time[1])),
+            (text("Ratio to one axis", share=1.2), lambda time: ratio(time[1])),
+        ),
+        kind="compact",
+    )
 
 
 def _static(static: StaticEvidence) -> Mapping[str, Any]:
     ratio = f"Static / kinetic μ = {static.ratio:.4g}"
     difference = (
-        (text("Static / kinetic μ", share=1.4), lambda row: general(1.0 + row.excess)),
-        *_middle_and_top("One axis", lambda row: row.one_axis),
-        *_middle_and_top("Two axes", lambda row: row.two_axes),
+        (text("Static / kinetic μ", share=1.4), lambda row: general(1.0 + row[0])),
+        *_middle_and_top("One axis", "one_axis"),
+        *_middle_and_top("Two axes", "two_axes"),
     )
     fading = (
-        (text("Factor on second component", share=1.4), lambda row: general(row.share)),
-        *_middle_and_top("One coefficient", lambda row: row.one_coefficient),
-        *_middle_and_top(ratio, lambda row: row.static_above),
+        (text("Factor on second component", share=1.4), lambda row: general(row[0])),
+        *_middle_and_top("One coefficient", "one_coefficient"),
+        *_middle_and_top(ratio, "static_above"),
     )
     return {
         "powers": _powers(static),
-        "difference": listed(static.differences, difference, kind="compact"),
-        "fading": listed(static.fading, fading, kind="compact"),
+        "difference": listed(static.differences.items(), difference, kind="compact"),
+        "fading": listed(static.fading.items(), fading, kind="compact"),
     }
 
 
-def _middle_and_top(head: str, of: Callable[[Any], Floats]) -> tuple[Column, Column]:
-    """Return the columns of the median and of the largest of sorted changes."""
+def _middle_and_top(head: str, name: str) -> tuple[Column, Column]:
+    """Return the columns of the median and of the largest of the changes of all scenes."""
     return (
-        (text(head, "median"), lambda row: percent(100.0 * float(np.median(of(row))))),
-        (text(head, "largest"), lambda row: percent(100.0 * float(of(row)[-1]))),
+        (text(head, "median"), lambda row: percent(100.0 * row[1][name].median())),
+        (text(head, "largest"), lambda row: percent(100.0 * row[1][name].max())),
     )
 
 
@@ -183,17 +158,17 @@ def _powers(static: StaticEvidence) -> list[float]:
 
     The largest change is of a single case, whose terms of second and third order may still cancel.
     """
-    former, last = static.differences[-2:]
-    step = math.log(former.excess / last.excess)
-    pairs = (former.one_axis, last.one_axis), (former.two_axes, last.two_axes)
-    return [math.log(np.median(more) / np.median(less)) / step for more, less in pairs]
+    (former, more), (last, less) = list(static.differences.items())[-2:]
+    orders: list[float] = (np.log(more.median() / less.median()) / math.log(former / last)).tolist()
+    return orders
 
 
-def _shown(points: Sequence[PlaneRun]) -> Iterator[tuple[str, PlaneRun]]:
+def _shown(runs: pd.DataFrame) -> Iterator[tuple[str, Mapping[Hashable, Any]]]:
     """Yield the runs that are shown, the first of each method with its name."""
-    for name, own in by_name(points, lambda point: point.method).items():
-        for count, point in enumerate(own[::2] if len(own) > 3 else own):
-            yield "" if count else lettered(name), point
+    for name, group in runs.groupby("method", sort=False):
+        own = group.to_dict("records")
+        for count, run in enumerate(own[::2] if len(own) > 3 else own):
+            yield "" if count else lettered(str(name)), run
 
 
 def _setting(words: str) -> str:
@@ -201,12 +176,8 @@ def _setting(words: str) -> str:
     return f"{name} {power_of_ten(float(value))}" if name == "tol." else words
 
 
-def _ratio(value: float) -> str:
-    return number(value, 0 if value >= 10.0 else 1)
-
-
-def _error(point: PlaneRun) -> str:
-    return "failed" if math.isnan(point.seconds) else percent(point.error_percent)
+def _error(run: Mapping[Hashable, Any]) -> str:
+    return "failed" if math.isnan(run["time per run [s]"]) else percent(run["PRD error [%]"])
 
 
 def _position(error_m: float) -> str:

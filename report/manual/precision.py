@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import math
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 
-import numpy as np
+import pandas as pd
 
 from report.document.sections import Section
 from report.document.tables import Column, Table, listed
 from report.entities.shown import text, words
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
+from report.manual.section import section
 from report.words.formats import percent, seconds, slug
 from report.words.letters import lettered
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import Verification, WorkPoint, by_setting
+from solver.verification.evidence import Verification
 
 LEAST_PERCENT = 1e-6
 """Smallest error drawn in the charts of single methods; smaller ones are drawn there."""
@@ -30,92 +29,79 @@ def floor(verification: Verification) -> float:
 
 def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
-    points, least = verification.work, floor(verification)
-    envelopes = {name: f"work-each-{slug(name)}" for _, name in figures.PANELS}
-    return Section(
-        id="work",
-        title="Accuracy against run time",
-        template="manual/work.html",
-        content={
-            "cases": len({(p.record, p.scene) for p in points}),
-            "lost": Counter(
-                p.method for p in points if math.isnan(p.seconds) or math.isnan(p.prd_error_m)
-            ),
-            "floor_percent": 100.0 * least,
-            "least_percent": power_of_ten(LEAST_PERCENT),
-            "envelopes": envelopes,
-            "medians": _medians(points),
-        },
+    runs, least = verification.work, floor(verification)
+    lost = runs[runs[["time per run [s]", "PRD error [m]"]].isna().any(axis=1)]
+    envelopes = {measure: f"work-each-{slug(measure)}" for measure in figures.MEASURES}
+    return section(
+        "work",
+        "Accuracy against run time",
+        cases=len(runs[["record", "case"]].drop_duplicates()),
+        lost=lost.groupby("method", sort=False).size().to_dict(),
+        floor_percent=100.0 * least,
+        least_percent=power_of_ten(LEAST_PERCENT),
+        envelopes=envelopes,
+        medians=_medians(runs),
         charts={
-            "work-percent": figures.overview(points, "percent", 100.0 * least),
-            "work-meters": figures.overview(points, "m", least * _typical_prd_m(points)),
+            "work-percent": figures.overview(runs, "%", 100.0 * least),
+            "work-meters": figures.overview(runs, "m", least * _typical_prd_m(runs)),
             **{
-                envelopes[name]: figures.by_method(points, measure, LEAST_PERCENT)
-                for measure, name in figures.PANELS
+                name: figures.by_method(runs, measure, LEAST_PERCENT)
+                for measure, name in envelopes.items()
             },
         },
     )
 
 
-def _typical_prd_m(points: Sequence[WorkPoint]) -> float:
+def _typical_prd_m(runs: pd.DataFrame) -> float:
     """Return the median PRD [m], from errors given both in meters and in percent of the PRD."""
-    prds = [
-        100.0 * p.prd_error_m / p.prd_error_percent for p in points if p.prd_error_percent > 0.0
-    ]
-    return float(np.median(prds)) if prds else 1.0
+    off = runs[runs["PRD error [%]"] > 0.0]
+    return (
+        float((100.0 * off["PRD error [m]"] / off["PRD error [%]"]).median()) if len(off) else 1.0
+    )
 
 
-def _medians(points: Sequence[WorkPoint]) -> Table:
+def _medians(runs: pd.DataFrame) -> Table:
     return listed(
-        _shown(points),
+        _shown(runs),
         (
             (words("Method", 3.6), lambda row: row[0]),
-            (words("Setting", 1.4), lambda row: _setting(row[1][0])),
-            (text("Time per run", share=1.2), lambda row: _time(row[1])),
-            *_errors("Error in PRD", "prd_error_percent"),
-            *_errors("Error in residual", "residual_error_percent"),
-            (text("Failed", share=0.7), lambda row: len(row[1]) - len(_good(row[1]))),
+            (words("Setting", 1.4), lambda row: _setting(*row[1].iloc[0][["method", "setting"]])),
+            (
+                text("Time per run", share=1.2),
+                lambda row: seconds(row[1]["time per run [s]"].median()),
+            ),
+            *_errors("Error in PRD", "PRD error [%]"),
+            *_errors("Error in residual", "residual error [%]"),
+            (text("Failed", share=0.7), lambda row: row[1]["time per run [s]"].isna().sum()),
         ),
         kind="compact",
     )
 
 
-def _shown(points: Sequence[WorkPoint]) -> Iterator[tuple[str, Sequence[WorkPoint]]]:
+def _shown(runs: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Yield the runs of each setting that is shown, the first with the name of its method."""
-    for name, groups in by_setting(points).items():
+    for name, own in runs.groupby("method", sort=False):
+        groups = [group for _, group in own.groupby("setting", sort=False, dropna=False)]
         for count, group in enumerate(groups[::2] if len(groups) > 5 else groups):
-            yield "" if count else lettered(METHODS[name].title), group
+            yield "" if count else lettered(METHODS[str(name)].title), group
 
 
-def _setting(point: WorkPoint) -> str:
-    knob = METHODS[point.method].knob
+def _setting(method: str, value: float) -> str:
+    knob = METHODS[method].knob
     if knob == "substeps":
-        return f"P = {point.setting:g}"
+        return f"P = {value:g}"
     form = {"stiffness_per_m": "k = {} /m", "tolerance": "tol. {}"}
-    return form[knob].format(power_of_ten(point.setting)) if knob in form else "none"
+    return form[knob].format(power_of_ten(value)) if knob in form else "none"
 
 
-def _good(points: Sequence[WorkPoint]) -> list[WorkPoint]:
-    return [point for point in points if not math.isnan(point.seconds)]
-
-
-def _time(points: Sequence[WorkPoint]) -> str:
-    good = _good(points)
-    return seconds(float(np.median([p.seconds for p in good]))) if good else "—"
-
-
-def _errors(head: str, measure: str) -> tuple[Column, Column]:
+def _errors(head: str, error: str) -> tuple[Column, Column]:
     """Return the columns of the median and of the largest error."""
+
+    def found(runs: pd.DataFrame, of: str) -> str:
+        is_exact = runs["method"].iloc[0] == "exact"
+        return "reference" if is_exact else percent(runs[error].agg(of))
+
     return (
-        (text(head, "median", 1.2), lambda row: _error(row[1], measure, np.median)),
-        (text(head, "largest", 1.2), lambda row: _error(row[1], measure, np.max)),
+        (text(head, "median", 1.2), lambda row: found(row[1], "median")),
+        (text(head, "largest", 1.2), lambda row: found(row[1], "max")),
     )
-
-
-def _error(
-    points: Sequence[WorkPoint], measure: str, of: Callable[[Sequence[float]], float]
-) -> str:
-    if points[0].method == "exact":
-        return "reference"
-    errors = [getattr(point, measure) for point in _good(points)]
-    return percent(float(of(errors))) if errors else "—"

@@ -6,7 +6,8 @@ import numpy as np
 
 from report.document.sections import Section
 from report.figures import maps
-from solver.verification.evidence import Conditioning, Verification
+from report.manual.section import section
+from solver.verification.evidence import Verification
 
 
 def stability(verification: Verification) -> Section:
@@ -16,11 +17,10 @@ def stability(verification: Verification) -> Section:
         f"stability-{at // maps.MOST + 1}": counted[at : at + maps.MOST]
         for at in range(0, len(counted), maps.MOST)
     }
-    return Section(
-        id="stability",
-        title="Stability",
-        template="manual/stability.html",
-        content={"by_chart": by_chart},
+    return section(
+        "stability",
+        "Stability",
+        by_chart=by_chart,
         charts={
             name: maps.stability([sweep for _, sweep in found], first=found[0][0])
             for name, found in by_chart.items()
@@ -32,18 +32,16 @@ def conditioning(verification: Verification) -> Section:
     """Return the effect of a small change of friction."""
     cases = verification.conditioning
     by_chart = {f"conditioning-{at // 2 + 1}": cases[at : at + 2] for at in range(0, len(cases), 2)}
-    return Section(
-        id="conditioning",
-        title="Sensitivity to the friction coefficient",
-        template="manual/conditioning.html",
-        content={
-            "by_chart": {name: list(map(_changes, found)) for name, found in by_chart.items()}
+    return section(
+        "conditioning",
+        "Sensitivity to the friction coefficient",
+        by_chart={
+            # A case with the largest and the median change [%].
+            name: [
+                (case, np.nanmax(case.change_percent), np.nanmedian(case.change_percent))
+                for case in found
+            ]
+            for name, found in by_chart.items()
         },
         charts={name: maps.conditioning(found) for name, found in by_chart.items()},
     )
-
-
-def _changes(case: Conditioning) -> tuple[Conditioning, float, float]:
-    """Return a case with the largest and the median change [%]."""
-    change = case.change_percent
-    return case, float(np.nanmax(change)), float(np.nanmedian(change))

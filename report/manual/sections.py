@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from report.document.sections import Section
 from report.manual.building import building
 from report.manual.features import features, known_errors
-from report.manual.machine import Machine
 from report.manual.models import models
 from report.manual.precision import work
 from report.manual.robustness import conditioning, stability
+from report.manual.section import section
 from report.manual.shake_table import shake_table
 from report.manual.studies import convergence, curves, links
 from report.manual.summary import summary
 from report.manual.tables import checks, methods, peers, software
 from solver.verification.evidence import Verification
 
-_SCOPE = Section(id="scope", title="Scope and terms", template="manual/scope.html")
+_SCOPE = section("scope", "Scope and terms")
 
 
-def sections(verification: Verification, machine: Machine) -> tuple[Section, ...]:
+def sections(verification: Verification, machine: Mapping[str, str]) -> tuple[Section, ...]:
     """Return all sections except cover and contents."""
     return (
         summary(verification),

@@ -6,14 +6,17 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 
 from report.document.sections import Section
 from report.document.tables import Table, by_name, listed, with_total
 from report.entities.shown import text, words
 from report.figures import paper
+from report.manual.section import section
 from report.words.formats import general, percent, seconds, slug
 from report.words.letters import lettered
-from solver.verification.evidence import Convergence, DesignCurves, LinkComparison, Verification
+from solver.verification import paper_studies
+from solver.verification.evidence import DesignCurves, LinkComparison, Verification
 
 PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
 """Differences in RRD between the paper's method and SAP 2000."""
@@ -21,15 +24,13 @@ PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
 
 def convergence(verification: Verification) -> Section:
     """Return the paper's Fig. 5."""
-    found = verification.convergence
-    return Section(
-        id="convergence",
-        title="The paper's convergence study (Fig. 5)",
-        template="manual/convergence.html",
-        content={
-            "paper_percent": paper.PAPER_P64_PERCENT,
-            "errors": [(study.record, _errors(study)) for study in found],
-        },
+    found = list(verification.convergence.items())
+    return section(
+        "convergence",
+        "The paper's convergence study (Fig. 5)",
+        scenarios=len(paper_studies.CONVERGENCE_CASES),
+        paper_percent=paper.PAPER_P64_PERCENT,
+        errors=[(record, _errors(study)) for record, study in found],
         charts={
             f"convergence-{at // 3 + 1}": paper.convergence(found[at : at + 3])
             for at in range(0, len(found), 3)
@@ -37,26 +38,20 @@ def convergence(verification: Verification) -> Section:
     )
 
 
-def _errors(study: Convergence) -> Table:
-    last = study.substeps[-1]
+def _errors(study: pd.DataFrame) -> Table:
     return listed(
-        zip(
-            study.substeps,
-            study.largest_error_exact_percent.tolist(),
-            study.largest_error_p256_percent.tolist(),
-            study.largest_error_of_prd_percent.tolist(),
-            study.longest_seconds.tolist(),
-            study.worst_cases,
-            strict=True,
-        ),
+        study.itertuples(),
         (
-            (text("P", share=0.6), lambda row: row[0]),
-            (text("Against exact", share=1.2), lambda row: percent(row[1])),
+            (text("P", share=0.6), lambda row: row.Index),
+            (text("Against exact", share=1.2), lambda row: percent(row.exact_percent)),
             # 0 for the last P, which is compared with itself: no error, and none is printed.
-            (text(f"Against P = {last}", share=1.2), lambda row: percent(row[2] or math.nan)),
-            (text("Against exact, of the PRD", share=1.3), lambda row: percent(row[3])),
-            (text("Longest time"), lambda row: seconds(row[4])),
-            (words("Worst scenario", 2.2), lambda row: lettered(row[5])),
+            (
+                text(f"Against P = {study.index[-1]}", share=1.2),
+                lambda row: percent(row.finest_percent or math.nan),
+            ),
+            (text("Against exact, of the PRD", share=1.3), lambda row: percent(row.prd_percent)),
+            (text("Longest time"), lambda row: seconds(row.seconds)),
+            (words("Worst scenario", 2.2), lambda row: lettered(row.worst_case)),
         ),
         kind="compact",
     )
@@ -66,11 +61,11 @@ def links(verification: Verification) -> Section:
     """Return the paper's Figs. 6 to 9."""
     by_record = by_name(verification.links, lambda link: link.record)
     by_chart = {f"links-{slug(name)}": tuple(rows) for name, rows in by_record.items()}
-    return Section(
-        id="links",
-        title="Comparison with a link model (Figs. 6 to 9)",
-        template="manual/links.html",
-        content={"by_chart": by_chart, "differences": _differences(verification.links)},
+    return section(
+        "links",
+        "Comparison with a link model (Figs. 6 to 9)",
+        by_chart=by_chart,
+        differences=_differences(verification.links),
         charts={name: paper.links(rows) for name, rows in by_chart.items()},
     )
 
@@ -81,7 +76,7 @@ def _differences(links: Sequence[LinkComparison]) -> Table:
         (
             (words("Record", 3.0), lambda link: link.record),
             (text("θ", share=0.6), lambda link: f"{link.slope_deg:g}°"),
-            (text("Runs", share=0.7), lambda link: link.mus.size),
+            (text("Runs", share=0.7), lambda link: len(link.runs_m)),
             (text("Largest"), lambda link: percent(link.worst_percent)),
             (text("At μ", share=0.7), lambda link: general(link.history_mu)),
             (text("Absolute", share=0.9), lambda link: f"{worst_mm(link):.2g} mm"),
@@ -97,28 +92,25 @@ def _differences(links: Sequence[LinkComparison]) -> Table:
 
 def worst_mm(link: LinkComparison) -> float:
     """Return the difference in RRD [mm] in the case where it is largest in percent."""
-    at = int(np.abs(link.mus - link.history_mu).argmin())
-    return 1e3 * abs(float(link.rrd_exact_m[at] - link.rrd_link_m[at]))
+    off_m = link.runs_m["RRD, exact"] - link.runs_m["RRD, link"]
+    return 1e3 * float(abs(off_m[link.history_mu]))
 
 
 def curves(verification: Verification) -> Section:
     """Return the paper's Figs. 10 to 12."""
     slope_deg, wanted_m = paper.READ_OFF
     names = [slug(study.record) for study in verification.curves]
-    return Section(
-        id="curves",
-        title="Design curves (Figs. 10 to 12)",
-        template="manual/curves.html",
-        content={
-            "ppa_g": paper.FIG_12_PPA_G,
-            "slope_deg": slope_deg,
-            "wanted_mm": 1e3 * wanted_m,
-            "studies": [
-                (study, _least_mu(study), f"curves-{name}", f"contours-{name}")
-                for study, name in zip(verification.curves, names, strict=True)
-            ],
-            "read_off": _read_off(verification.curves),
-        },
+    return section(
+        "curves",
+        "Design curves (Figs. 10 to 12)",
+        ppa_g=paper.FIG_12_PPA_G,
+        slope_deg=slope_deg,
+        wanted_mm=1e3 * wanted_m,
+        studies=[
+            (study, _least_mu(study), f"curves-{name}", f"contours-{name}")
+            for study, name in zip(verification.curves, names, strict=True)
+        ],
+        read_off=_read_off(verification.curves),
         charts={
             chart: svg
             for study, name in zip(verification.curves, names, strict=True)

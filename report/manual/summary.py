@@ -13,13 +13,12 @@ from report.document.tables import Table, by_name, listed
 from report.entities.shown import centered, text, words
 from report.manual import studies
 from report.manual.precision import floor
+from report.manual.section import section
 from report.pages.parts import verdict
 from report.words.formats import scientific
-from report.words.validation import validation
 from solver.verification.building import BY_HEIGHT
-from solver.verification.evidence import CheckRow, Verification, WorkPoint
+from solver.verification.evidence import Check, Verification
 from solver.verification.features import statuses
-from solver.verification.model_evidence import SECOND, WORST
 
 _KEY_RESULTS = (
     (words("Quantity", 2.6), str),
@@ -27,6 +26,9 @@ _KEY_RESULTS = (
     (words("Section", 0.7), str),
 )
 """Its rows are in the template."""
+
+
+_TIME = "time per run [s]"
 
 
 def judged(is_passed: bool) -> Markup:
@@ -37,66 +39,49 @@ def judged(is_passed: bool) -> Markup:
 def summary(verification: Verification) -> Section:
     """Return verdict, key results and checks by section."""
     work, maps, links = verification.work, verification.maps, verification.links
-    exact = [p.seconds for p in work if p.method == "exact"]
-    paper = [p for p in work if p.method == "paper" and p.setting == 64]
+    paper = work[(work["method"] == "paper") & (work["setting"] == 64)]
+    # Of the same record and case.
+    beside = paper.merge(work[work["method"] == "exact"], on=["record", "case"])
     worst = max(links, key=lambda link: link.worst_percent) if links else None
-    return Section(
-        id="summary",
-        title="Summary",
-        template="manual/summary.html",
-        content={
-            "key_results": listed((), _KEY_RESULTS),
-            "floor": floor(verification),
-            "exact_s": float(np.median(exact)) if exact else math.nan,
-            "times_longer": _times_longer(work, paper),
-            "paper_percent": max((p.prd_error_percent for p in paper), default=math.nan),
-            "failed_runs": sum(math.isnan(p.seconds) for p in work),
-            "failed_cells": sum(int(sweep.failed.sum()) for sweep in maps),
-            "cells": sum(sweep.failed.size for sweep in maps),
-            "worst": worst,
-            "worst_mm": studies.worst_mm(worst) if worst else math.nan,
-            "links_percent": float(np.mean([link.mean_percent for link in links] or [math.nan])),
-            "PAPER_WORST_PERCENT": studies.PAPER_WORST_PERCENT,
-            "PAPER_MEAN_PERCENT": studies.PAPER_MEAN_PERCENT,
-            "recorded": [roof for roof in verification.roofs if roof.is_recorded],
-            "BY_HEIGHT": BY_HEIGHT,
-            "two_axes": [
-                (evidence.study.named(SECOND), evidence.study.named(WORST))
-                for evidence in verification.models
-            ],
-            "validation": validation(verification.tables),
-            "features": statuses(verification.checks, verification.tables),
-            "by_section": _by_section(verification.checks),
-            "failed": [row for row in verification.checks if not row.passed],
-        },
+    return section(
+        "summary",
+        "Summary",
+        key_results=listed((), _KEY_RESULTS),
+        floor=floor(verification),
+        exact_s=work.loc[work["method"] == "exact", _TIME].median(),
+        times_longer=(beside[f"{_TIME}_x"] / beside[f"{_TIME}_y"]).median(),
+        paper_percent=paper["PRD error [%]"].max(),
+        failed_runs=work[_TIME].isna().sum(),
+        failed_cells=sum(int(sweep.failed.sum()) for sweep in maps),
+        cells=sum(sweep.failed.size for sweep in maps),
+        worst=worst,
+        worst_mm=studies.worst_mm(worst) if worst else math.nan,
+        links_percent=float(np.mean([link.mean_percent for link in links] or [math.nan])),
+        PAPER_WORST_PERCENT=studies.PAPER_WORST_PERCENT,
+        PAPER_MEAN_PERCENT=studies.PAPER_MEAN_PERCENT,
+        BY_HEIGHT=BY_HEIGHT,
+        features=statuses(verification.checks, verification.tables),
+        by_section=_by_section(verification.checks),
     )
 
 
-def _times_longer(points: Sequence[WorkPoint], paper: Sequence[WorkPoint]) -> float:
-    """Return the median ratio of the paper's time to that of the exact method."""
-    exact = {(p.record, p.scene): p.seconds for p in points if p.method == "exact"}
-    ratios = [p.seconds / exact[p.record, p.scene] for p in paper if (p.record, p.scene) in exact]
-    return float(np.median(ratios)) if ratios else math.nan
-
-
-def _by_section(checks: Sequence[CheckRow]) -> Table:
+def _by_section(checks: Sequence[Check]) -> Table:
     return listed(
         by_name(checks, lambda row: row.section).items(),
         (
             (words("Section", 3.0), lambda group: group[0]),
             (text("Checks"), lambda group: len(group[1])),
             (text("Passed"), lambda group: sum(row.passed for row in group[1])),
-            (text("Largest error", share=1.4), lambda group: _largest_error(group[1])),
+            (
+                text("Largest error", share=1.4),
+                lambda group: scientific(max(row.error for row in group[1])),
+            ),
             (text("Tolerance used", share=1.4), lambda group: _used(group[1])),
             (centered("Result"), lambda group: judged(all(row.passed for row in group[1]))),
         ),
     )
 
 
-def _largest_error(rows: Sequence[CheckRow]) -> str:
-    return scientific(max(row.error for row in rows))
-
-
-def _used(rows: Sequence[CheckRow]) -> str:
+def _used(rows: Sequence[Check]) -> str:
     shares = [row.error / row.tolerance for row in rows if row.tolerance > 0.0]
     return f"{100.0 * max(shares):.2g} %" if shares else "—"

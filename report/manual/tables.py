@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from report.document.sections import Section
 from report.document.tables import by_name, grouped, listed
 from report.entities.shown import centered, text, words
-from report.manual.machine import Machine
+from report.manual.section import section
 from report.manual.summary import judged
 from report.words.formats import percent, scientific, seconds, ten_digits, unbroken
 from report.words.letters import lettered
 from report.words.units import number
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import CheckRow, PeerPoint, Verification
+from solver.verification.evidence import Check, PeerPoint, Verification
 
 _CHECK = (
     (words("Problem", 3.15), lambda row: unbroken(lettered(row.problem))),
@@ -58,45 +58,40 @@ _VERSION = (
 
 def checks(verification: Verification) -> Section:
     """Return every check, a table for each section."""
-    return Section(
-        id="checks",
-        title="Checks",
-        template="manual/checks.html",
-        content={
-            "by_section": {
-                name: grouped(by_name(rows, _source), _CHECK, kind="compact")
-                for name, rows in by_name(verification.checks, lambda row: row.section).items()
-            }
+
+    def source(row: Check) -> str:
+        return f"{row.id}. Source: {lettered(row.source)}"
+
+    return section(
+        "checks",
+        "Checks",
+        by_section={
+            name: grouped(by_name(rows, source), _CHECK, kind="compact")
+            for name, rows in by_name(verification.checks, lambda row: row.section).items()
         },
     )
 
 
-def _source(row: CheckRow) -> str:
-    return f"{row.id}. Source: {lettered(row.source)}"
-
-
-def _quantity(row: CheckRow) -> str:
+def _quantity(row: Check) -> str:
     return row.quantity if row.unit == "1" else f"{row.quantity} [{lettered(row.unit)}]"
 
 
 def methods() -> Section:
     """Return the table of methods."""
-    return Section(
-        id="methods",
-        title="Methods compared",
-        template="manual/methods.html",
-        content={"methods": listed(METHODS.values(), _METHOD, kind="compact")},
+    return section(
+        "methods",
+        "Methods compared",
+        methods=listed(METHODS.values(), _METHOD, kind="compact"),
     )
 
 
 def peers(points: Sequence[PeerPoint]) -> Section:
     """Return the results of other programs, each run below its program and model."""
     groups = by_name(points, lambda peer: f"{peer.peer} {peer.version}: {peer.note}")
-    return Section(
-        id="peers",
-        title="Other programs",
-        template="manual/peers.html",
-        content={"peers": grouped(groups, _PEER, kind="compact")},
+    return section(
+        "peers",
+        "Other programs",
+        peers=grouped(groups, _PEER, kind="compact"),
     )
 
 
@@ -104,11 +99,10 @@ def _error(value_percent: float) -> str:
     return "failed" if math.isnan(value_percent) else percent(value_percent)
 
 
-def software(machine: Machine) -> Section:
+def software(machine: Mapping[str, str]) -> Section:
     """Return versions and the machine."""
-    return Section(
-        id="software",
-        title="Software and machine",
-        template="manual/software.html",
-        content={"versions": listed(machine.rows, _VERSION)},
+    return section(
+        "software",
+        "Software and machine",
+        versions=listed(machine.items(), _VERSION),
     )

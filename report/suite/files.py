@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
@@ -18,9 +18,10 @@ import numpy as np
 from report.figures.base import load_fonts
 from report.figures.suite import Panel, suite_png
 from report.suite.acceptance import acceptance_facts, acceptance_lines, suite_acceptance
-from report.suite.info import aligned, without_noise
+from report.suite.info import without_noise
 from report.suite.inputs import SuiteTargets
 from report.typeset.pdf import TEMPLATES
+from report.words.formats import aligned
 from report.words.units import G_MPS2
 from solver.model import Floats
 from solver.records.measures import Measures, measures
@@ -37,6 +38,7 @@ from solver.synthesis import (
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
 """Limits on every component's ratios to its target, at 1/12 octave."""
 
+_PAIRS = ("x-y", "x-z", "y-z")
 _DRAWN_HZ: Floats = np.geomspace(0.1, 50.0, 180)
 
 
@@ -50,6 +52,9 @@ class SuiteComponent:
     record: Record
     fit: SpectrumFit
     measures: Measures
+    # of two components of its motion: their names, and the coefficient
+    pair: str
+    correlation: float
 
     @property
     def is_within_limits(self) -> bool:
@@ -79,9 +84,13 @@ def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[Sui
             record=record,
             fit=spectrum_fit(record, targets.of(name)),
             measures=measures(record),
+            pair=pair,
+            correlation=correlation,
         )
         for k, motion in enumerate(suite, start=1)
-        for name, record, grew_from in zip("xyz", motion.components, motion.seeds, strict=True)
+        for name, record, grew_from, pair, correlation in zip(
+            "xyz", motion.components, motion.seeds, _PAIRS, motion.correlations, strict=True
+        )
     )
 
 
@@ -204,59 +213,37 @@ def _panel(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> Pa
     )
 
 
-_COLUMNS = (
-    ("motion", "<"),
-    ("", "<"),
-    ("min", ">"),
-    ("max", ">"),
-    ("mean", ">"),
-    ("PGA [g]", ">"),
-    ("PGV [cm/s]", ">"),
-    ("PGD [cm]", ">"),
-    ("D5-95 [s]", ">"),
-    ("final v [cm/s]", ">"),
-    ("final d [cm]", ">"),
-    ("correlation", "<"),
-    ("seed", "<"),
+_Text = Callable[[SuiteComponent], str]
+_COLUMNS: tuple[tuple[str, str, _Text], ...] = (
+    ("motion", "<", lambda part: part.motion if part.component == "x" else ""),
+    ("", "<", lambda part: part.component),
+    ("min", ">", lambda part: f"{part.fit.minimum:.3f}"),
+    ("max", ">", lambda part: f"{part.fit.maximum:.3f}"),
+    ("mean", ">", lambda part: f"{part.fit.mean:.3f}"),
+    ("PGA [g]", ">", lambda part: f"{part.measures.pga_mps2 / G_MPS2:.3f}"),
+    ("PGV [cm/s]", ">", lambda part: f"{100.0 * part.measures.pgv_mps:.1f}"),
+    ("PGD [cm]", ">", lambda part: f"{100.0 * part.measures.pgd_m:.1f}"),
+    ("D5-95 [s]", ">", lambda part: f"{part.measures.d5_95_s:.1f}"),
+    ("final v [cm/s]", ">", lambda part: f"{100.0 * part.final_velocity_mps:.3g}"),
+    ("final d [cm]", ">", lambda part: f"{100.0 * part.final_displacement_m:.3g}"),
+    ("correlation", "<", lambda part: f"{part.pair} {part.correlation:+.2f}"),
+    ("seed", "<", lambda part: part.grew_from),
 )
+"""Heading of a column, its side, and its text for a component."""
 
 
 def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str]:
     """Return the lines to print: targets, components, their fit, and the acceptance."""
     parts = components(suite, targets)
-    pairs = [
-        f"{name} {value:+.2f}"
-        for motion in suite
-        for name, value in zip(("x-y", "x-z", "y-z"), motion.correlations, strict=True)
-    ]
-    rows = [tuple(name for name, _ in _COLUMNS)]
-    rows += [_cells(part, pair) for part, pair in zip(parts, pairs, strict=True)]
+    headings, sides, texts = zip(*_COLUMNS, strict=True)
+    rows = [headings, *(tuple(text(part) for text in texts) for part in parts)]
     lowest = " and ".join(f"{hz:.3g}" for hz in sorted({part.fit.freq_hz[0] for part in parts}))
     n_within = sum(part.is_within_limits for part in parts)
     return [
         *targets.lines,
-        *aligned(rows, [side for _, side in _COLUMNS]),
+        *aligned(rows, sides),
         f"{n_within} of {len(parts)} components have spectra of {LEAST:.2f} to {GREATEST:.2f} "
         f"times the target and a mean ratio within {100 * MEAN_OFF:g} % of 1 (1/12 octave, "
         f"from {lowest} Hz to {BAND_HZ[1]:g} Hz, 5 % damping)",
         *acceptance_lines(suite_acceptance(suite, targets).rows),
     ]
-
-
-def _cells(part: SuiteComponent, pair: str) -> tuple[str, ...]:
-    values = part.measures
-    return (
-        part.motion if part.component == "x" else "",
-        part.component,
-        f"{part.fit.minimum:.3f}",
-        f"{part.fit.maximum:.3f}",
-        f"{part.fit.mean:.3f}",
-        f"{values.pga_mps2 / G_MPS2:.3f}",
-        f"{100.0 * values.pgv_mps:.1f}",
-        f"{100.0 * values.pgd_m:.1f}",
-        f"{values.d5_95_s:.1f}",
-        f"{100.0 * part.final_velocity_mps:.3g}",
-        f"{100.0 * part.final_displacement_m:.3g}",
-        pair,
-        part.grew_from,
-    )

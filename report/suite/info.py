@@ -5,11 +5,12 @@ Prints and plots nothing. Read `report.cli.motion` for the command.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from report.words.formats import aligned
 from report.words.units import G_MPS2
 from solver.model import Floats
 from solver.records.measures import measures
@@ -55,10 +56,10 @@ def summary(record: Record) -> dict[str, Any]:
     }
 
 
-def table(channels: Sequence[Mapping[str, Any]]) -> list[str]:
+def table(channels: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     """Return summaries as lines of a table, one channel per line, under a heading."""
     rows = [("", "channel", *(heading for heading, _, _ in _COLUMNS))]
-    rows += [(str(number), *_row(record)) for number, record in enumerate(channels, start=1)]
+    rows += [(str(count), *_row(channel)) for count, channel in enumerate(channels, start=1)]
     return aligned(rows, (">", "<", *(">" for _ in _COLUMNS)))
 
 
@@ -72,25 +73,10 @@ def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
     shown = dict(channel)
     for end, peak in (("final_velocity_mps", "pgv_mps"), ("final_displacement_m", "pgd_m")):
         shown[end] = without_noise(channel[end], channel[peak])
-    values = (_number(shown[key] * size, key) for _, key, size in _COLUMNS)
-    return (channel["name"], *values)
-
-
-def _number(value: float, key: str) -> str:
-    return f"{value:.0f}" if key == "npts" else f"{value:.4g}"
+    values = ((shown[key] * size, ".0f" if key == "npts" else ".4g") for _, key, size in _COLUMNS)
+    return (channel["name"], *(f"{value:{form}}" for value, form in values))
 
 
 def without_noise(final: float, peak: float) -> float:
     """Return a value at the end of a record, or 0 if it is rounding error beside the peak."""
     return 0.0 if abs(final) <= _NO_DRIFT * peak else final
-
-
-def aligned(rows: Sequence[Sequence[str]], sides: Sequence[str]) -> list[str]:
-    """Return rows as lines of a table, each column to the left (`<`) or right (`>`)."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(
-            f"{text:{side}{width}}" for text, side, width in zip(row, sides, widths, strict=True)
-        ).rstrip()
-        for row in rows
-    ]

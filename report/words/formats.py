@@ -82,12 +82,18 @@ def shortened(text: str, most: int) -> str:
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"
 
 
-def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield rows of text as lines, each column as wide as its longest text."""
+def aligned(rows: Sequence[Sequence[str]], sides: Sequence[str] = ()) -> Iterator[str]:
+    """Yield rows of text as lines, each column as wide as its longest text.
+
+    Parameters
+    ----------
+    sides : sequence of str, optional
+        Alignment of each column: `<` or `>`; all are aligned to the left otherwise.
+    """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
-        cells = (text.ljust(width) for text, width in zip(row, widths, strict=True))
-        yield "  ".join(cells).rstrip()
+        placed = zip(row, sides or "<" * len(row), widths, strict=True)
+        yield "  ".join(f"{text:{side}{width}}" for text, side, width in placed).rstrip()
 
 
 def finite(value: Any) -> Any:

@@ -17,8 +17,7 @@ from solver.building.roof import absolute_accelerations, building_of_periods, ro
 from solver.model import Floats
 from solver.records.record import Record
 from solver.verification.building import FloorRecords
-from solver.verification.checks import ROUNDING, check
-from solver.verification.evidence import CheckRow, RoofComparison
+from solver.verification.evidence import ROUNDING, Check, RoofComparison
 
 STORIES, PERIOD_S, DAMPING, ALPHA0 = 24, 1.2, 0.04, 6.0
 """The model building."""
@@ -27,7 +26,7 @@ _BENDING = ((1.875104069, 0.734095514), (4.694091133, 1.018467319), (7.854757438
 """gamma and sigma of a clamped-free beam: Blevins, Formulas for Natural Frequency (1979), 8-1."""
 
 
-def building_checks(made: FloorRecords, comparison: RoofComparison) -> Iterator[CheckRow]:
+def building_checks(made: FloorRecords, comparison: RoofComparison) -> Iterator[Check]:
     """Run the checks, including those of the model building's comparison."""
     yield from _steps()
     yield from _steady_waves()
@@ -103,7 +102,7 @@ def _exponential(matrix: Floats) -> Floats:
     return total
 
 
-def _steps() -> Iterator[CheckRow]:
+def _steps() -> Iterator[Check]:
     source = "Oscillator of period T: 1 - exp(-D t) (cos(W t) - D / W sin(W t)) at t = 1.37 s; "
     source += "D = zeta omega, W = damped frequency"
     for period_s, zeta in ((0.9, 0.03), (0.05, 0.2), (6.0, 0.005)):
@@ -113,10 +112,10 @@ def _steps() -> Iterator[CheckRow]:
         expected = 1.0 - math.exp(-zeta * w * t) * wave
         found = float(absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0])
         name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
-        yield check("RM-1", source, "Acceleration", "m/s2", name, expected, found)
+        yield Check("RM-1", source, "Acceleration", "m/s2", name, expected, found)
 
 
-def _steady_waves() -> Iterator[CheckRow]:
+def _steady_waves() -> Iterator[Check]:
     dt, period_s, zeta = 0.001, 0.5, 0.1
     source = "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2; one story, "
     source += "damping ratio 0.1, step 0.001 s"
@@ -129,10 +128,10 @@ def _steady_waves() -> Iterator[CheckRow]:
         expected = math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped))
         found = float(np.abs(roof[-round(1.0 / dt) :]).max())
         name = f"Harmonic, frequency ratio r = {ratio:g}"
-        yield check("RM-2", source, "Roof / ground", "1", name, expected, found, 1e-4)
+        yield Check("RM-2", source, "Roof / ground", "1", name, expected, found, 1e-4)
 
 
-def _limits() -> Iterator[CheckRow]:
+def _limits() -> Iterator[Check]:
     table = "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma"
     closed = "Shear beam: 2 n - 1, and 4 / ((2 n - 1) pi) with alternating sign"
     bending, shear = beam_modes(0.0, 3), beam_modes(math.inf, 3)
@@ -145,7 +144,7 @@ def _limits() -> Iterator[CheckRow]:
         yield from _mode("RM-4", closed, "Cantilever in shear", shear, n, odd, factor, ROUNDING)
 
 
-def _coupled() -> Iterator[CheckRow]:
+def _coupled() -> Iterator[Check]:
     source = "64 cubic finite elements with consistent mass"
     for alpha0 in (2.0, 12.0):
         name, modes = f"Cantilever, stiffness ratio {alpha0:g}", beam_modes(alpha0, 3)
@@ -163,14 +162,14 @@ def _mode(
     ratio: float,
     factor: float,
     tolerance: float,
-) -> Iterator[CheckRow]:
+) -> Iterator[Check]:
     """Yield the rows of a mode: period ratio, 1 by definition for the first, and factor."""
     name = f"{problem}, mode {n}"
     if n > 1:
         found = float(1.0 / modes.period_ratios[n - 1])
-        yield check(id, source, "Period ratio T1 / Tn", "1", name, ratio, found, tolerance)
+        yield Check(id, source, "Period ratio T1 / Tn", "1", name, ratio, found, tolerance)
     found = float(modes.factors[n - 1, 0])
-    yield check(id, source, "Roof factor", "1", name, factor, found, tolerance)
+    yield Check(id, source, "Roof factor", "1", name, factor, found, tolerance)
 
 
 def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[float]]:
@@ -196,7 +195,7 @@ def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[
     return np.sqrt(squares / squares[0]).tolist(), (rigid @ shapes * shapes[-2]).tolist()
 
 
-def _sums() -> Iterator[CheckRow]:
+def _sums() -> Iterator[Check]:
     source = "1, the limit of a rigid building; mean of the sums of 399 and 400 modes"
     for alpha0, kind in (
         (0.0, " in bending"),
@@ -205,10 +204,10 @@ def _sums() -> Iterator[CheckRow]:
     ):
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
         found, name = float(0.5 * (sums[-1] + sums[-2])), f"Cantilever{kind}, all modes"
-        yield check("RM-6", source, "Sum of roof factors", "1", name, 1.0, found, 1e-4)
+        yield Check("RM-6", source, "Sum of roof factors", "1", name, 1.0, found, 1e-4)
 
 
-def _stories() -> Iterator[CheckRow]:
+def _stories() -> Iterator[Check]:
     source = "Mode shape sin((2 n - 1) pi k / (2 N + 1)) at floor k"
     for stories in (1, 2, 5):
         angle = math.pi / (2.0 * stories + 1.0)
@@ -216,20 +215,20 @@ def _stories() -> Iterator[CheckRow]:
         expected = float(shape.sum() * shape[-1] / (shape**2).sum())
         found = float(story_modes(math.inf, stories).factors[0, 0])
         name = f"Shear building, stories: {stories}, first mode"
-        yield check("RM-7", source, "Roof factor", "1", name, expected, found, 1e-9)
+        yield Check("RM-7", source, "Roof factor", "1", name, expected, found, 1e-9)
 
 
-def _whole_building(made: FloorRecords) -> CheckRow:
+def _whole_building(made: FloorRecords) -> Check:
     building = building_of_periods([PERIOD_S], damping=[DAMPING], alpha0=ALPHA0, stories=STORIES)
     roof = roof_motion(made.ground_mps2, made.dt_s, building, share=0.0)
     stepped = made.floors_mps2[:, -1]
     off = float(np.abs(roof[: stepped.size] - stepped).max() / np.abs(stepped).max())
     name = "Model building, all modes"
     source = "Direct integration of all floors by one matrix exponential"
-    return check("RM-8", source, "Largest difference / peak", "1", name, 0.0, off, 1e-7)
+    return Check("RM-8", source, "Largest difference / peak", "1", name, 0.0, off, 1e-7)
 
 
-def _identified(comparison: RoofComparison) -> Iterator[CheckRow]:
+def _identified(comparison: RoofComparison) -> Iterator[Check]:
     best, name = comparison.predictions[0], "Model building, fitted"
     source = "Properties of the model building, as a beam half a story taller; fitted to two floors"
     ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
@@ -239,4 +238,4 @@ def _identified(comparison: RoofComparison) -> Iterator[CheckRow]:
         ("Lateral stiffness ratio", "1", ratio, best.alpha0, 0.025),
         ("Unexplained fraction", "1", 0.0, best.unexplained, 0.01),
     ):
-        yield check("RM-9", source, quantity, unit, name, expected, found, tolerance)
+        yield Check("RM-9", source, quantity, unit, name, expected, found, tolerance)

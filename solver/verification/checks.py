@@ -16,61 +16,18 @@ from solver.model import EventKind, Floats, SlideResult
 from solver.records.record import Record
 from solver.sliding.checked import slide, slide_history
 from solver.verification import problems
-from solver.verification.evidence import CheckRow
-from solver.verification.reference import DIGITS, Reference
+from solver.verification.evidence import ROUNDING, Check
+from solver.verification.reference import Reference
 from solver.verification.scenes import Case
 from solver.verification.study import run
 
 G = 9.81
 """Gravity in the closed forms [m/s2], as in their printed values."""
 
-ROUNDING = 1e-12
-"""Tolerance where the expected and computed values differ by rounding error only."""
-
 PIECEWISE = "Closed-form integration of the piecewise-linear pulse; 0.01 s ramps"
 """Source of the checks with pulses."""
 
 _DOWNSLOPE = "Downslope slip, horizontal", "m"
-
-SECTIONS = {
-    "CF": "Closed forms",
-    "PH": "Physical checks of the paper",
-    "DA": f"Decimal arithmetic, {DIGITS} digits",
-    "SY": "Symmetries",
-    "ME": "Methods",
-    "RM": "Roof motion computed from ground motion",
-    "TA": "Two axes and the choice of model",
-    "DV": "Code rules, spectra, filters, uplift and tipping",
-}
-"""Sections of checks by the letters with which their ids begin."""
-
-
-def check(
-    id: str,
-    source: str,
-    quantity: str,
-    unit: str,
-    problem: str,
-    expected: float,
-    computed: float,
-    tolerance: float = ROUNDING,
-    of: float = 0.0,
-) -> CheckRow:
-    """Return the row; the error is relative to `of`, else to `expected`; absolute if both are 0."""
-    error = abs(computed - expected) / (abs(of) or abs(expected) or 1.0)
-    return CheckRow(
-        id=id,
-        section=SECTIONS[id.partition("-")[0]],
-        problem=problem,
-        source=source,
-        quantity=quantity,
-        unit=unit,
-        expected=expected,
-        computed=computed,
-        error=error,
-        tolerance=tolerance,
-        passed=bool(error <= tolerance),
-    )
 
 
 def slip_checks(
@@ -80,7 +37,7 @@ def slip_checks(
     expected: SlideResult | Reference,
     result: SlideResult,
     tolerance: float = ROUNDING,
-) -> Iterator[CheckRow]:
+) -> Iterator[Check]:
     """Yield the rows of PRD and residual.
 
     A residual may nearly cancel after meters of travel, so both errors are relative to the PRD.
@@ -89,7 +46,7 @@ def slip_checks(
         ("PRD", expected.prd_m, result.prd_m),
         ("Residual (error relative to the PRD)", expected.residual_m, result.residual_m),
     ):
-        yield check(id, source, quantity, "m", problem, known, value, tolerance, expected.prd_m)
+        yield Check(id, source, quantity, "m", problem, known, value, tolerance, expected.prd_m)
 
 
 def trapezoid(peak: float, plateau: int, rest: int, ramp: int = 1) -> Floats:
@@ -98,7 +55,7 @@ def trapezoid(peak: float, plateau: int, rest: int, ramp: int = 1) -> Floats:
     return np.concatenate([rise, np.full(plateau, peak), rise[-2::-1], np.zeros(rest)])
 
 
-def closed_forms() -> Iterator[CheckRow]:
+def closed_forms() -> Iterator[Check]:
     """Check against `solver.verification.problems`, all with g = 9.81 m/s2."""
     yield from _pulses_on_a_flat_roof()
     yield from _pulses_on_a_slope()
@@ -109,7 +66,7 @@ def closed_forms() -> Iterator[CheckRow]:
     yield _self_locking()
 
 
-def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
+def _pulses_on_a_flat_roof() -> Iterator[Check]:
     dt, ramps = 0.01, 3000
     newmark = f"Newmark, Geotechnique 15 (1965); each ramp is 1/{ramps} of the pulse"
     for a, mu, lasts in ((0.4, 0.1, 0.2), (0.5, 0.2, 0.3), (1.0, 0.4, 0.1)):
@@ -118,19 +75,19 @@ def _pulses_on_a_flat_roof() -> Iterator[CheckRow]:
         expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
         result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
         pulse = f"Trapezoidal pulse {name}"
-        yield check("CF-1", PIECEWISE, "PRD", "m", pulse, expected, result.prd_m)
+        yield Check("CF-1", PIECEWISE, "PRD", "m", pulse, expected, result.prd_m)
         expected = (a * G * lasts) ** 2 / (2.0 * G * mu) * (1.0 - mu / a)
         ax = trapezoid(-a * G, ramps - 1, 10 * ramps)
         result = slide(ax, lasts / ramps, slope_rad=0.0, mu=mu, g_mps2=G)
         # A ramp shortens the slip by mu / A of its length; the factor 1.5 is a margin on that.
         tolerance = 1.5 * mu / a / ramps
         pulse = f"Rectangular pulse {name}"
-        yield check("CF-2", newmark, "PRD", "m", pulse, expected, result.prd_m, tolerance)
+        yield Check("CF-2", newmark, "PRD", "m", pulse, expected, result.prd_m, tolerance)
 
 
-def _pulses_on_a_slope() -> Iterator[CheckRow]:
+def _pulses_on_a_slope() -> Iterator[Check]:
     dt = 0.01
-    row = partial(check, "CF-3", PIECEWISE, *_DOWNSLOPE)
+    row = partial(Check, "CF-3", PIECEWISE, *_DOWNSLOPE)
     for degrees, mu, a, lasts in ((5, 0.4, 0.6, 0.3), (10, 0.5, 0.8, 0.15)):
         slope, plateau = math.radians(degrees), round(lasts / dt)
         for b in (0.0, -0.3, 0.3):
@@ -142,7 +99,7 @@ def _pulses_on_a_slope() -> Iterator[CheckRow]:
             yield row(f"{name}mu = {mu:g}, slope {degrees} deg", expected, result.down_m)
 
 
-def _half_sines() -> Iterator[CheckRow]:
+def _half_sines() -> Iterator[Check]:
     chords = "Closed-form integration of the sine; record sampled at 400 points"
     second = "Errors with 200 and 400 samples: linear interpolation is second order"
     for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
@@ -156,17 +113,17 @@ def _half_sines() -> Iterator[CheckRow]:
             travels_m.append(slide(ax, dt, slope_rad=0.0, mu=mu, g_mps2=G).prd_m)
         # Straight chords of a sine lose the share (step in radians)^2 / 12 of its area.
         tolerance = 2.0 * a / mu * (math.pi / 400) ** 2 / 12.0
-        yield check("CF-4", chords, "PRD", "m", name, expected, travels_m[-1], tolerance)
+        yield Check("CF-4", chords, "PRD", "m", name, expected, travels_m[-1], tolerance)
         order = math.log2(abs(travels_m[1] - expected) / abs(travels_m[2] - expected))
-        yield check("CF-5", second, "Order of convergence", "1", name, 2.0, order, 0.025)
+        yield Check("CF-5", second, "Order of convergence", "1", name, 2.0, order, 0.025)
 
 
-def _harmonic() -> CheckRow:
+def _harmonic() -> Check:
     dt = 1.0 / 2000
     ax = 0.5 * G * np.sin(2.0 * np.pi * np.arange(80 * 2000 + 1) * dt)
     history = slide_history(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G)
     stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
-    return check(
+    return Check(
         "CF-6",
         "(2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A; sampled at 0.0005 s",
         "Travel per half cycle",
@@ -178,19 +135,19 @@ def _harmonic() -> CheckRow:
     )
 
 
-def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> CheckRow:
+def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> Check:
     slope = math.radians(degrees)
     steps = round(time_s / 0.01)
     result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
     expected = problems.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
     name = f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s"
     source = "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2"
-    return check(id, source, *_DOWNSLOPE, name, expected, result.down_m)
+    return Check(id, source, *_DOWNSLOPE, name, expected, result.down_m)
 
 
-def _yield_accelerations() -> Iterator[CheckRow]:
+def _yield_accelerations() -> Iterator[Check]:
     source = "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); computed by bisection"
-    row = partial(check, "CF-8", source, "Yield acceleration", "m/s2", tolerance=1e-9)
+    row = partial(Check, "CF-8", source, "Yield acceleration", "m/s2", tolerance=1e-9)
     for degrees, mu in ((0.0, 0.4), (4.0, 0.4), (-7.0, 0.2), (30.0, 1.0)):
         slope = math.radians(degrees)
         limits = problems.yield_accelerations(slope, mu, G)
@@ -210,18 +167,18 @@ def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
     return 0.5 * (least + most)
 
 
-def _self_locking() -> CheckRow:
+def _self_locking() -> Check:
     ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
     prd_m = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G).prd_m
     name = "Self-locking: slope 60 deg, mu = 3, horizontal acceleration 50 m/s2"
     source = "mu sin(theta) >= cos(theta): no horizontal acceleration causes slip"
-    return check("CF-9", source, "PRD", "m", name, 0.0, prd_m, 0.0)
+    return Check("CF-9", source, "PRD", "m", name, 0.0, prd_m, 0.0)
 
 
-def physical_checks(record: Record) -> Iterator[CheckRow]:
+def physical_checks(record: Record) -> Iterator[Check]:
     """Run the four physical checks of the paper."""
     slope, dt = math.radians(30), 0.01
-    row = partial(check, "PH-1", "Paper, Physical Checks (1): slope 30 deg, mu = 1", "PRD", "m")
+    row = partial(Check, "PH-1", "Paper, Physical Checks (1): slope 30 deg, mu = 1", "PRD", "m")
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
     yield row("No shaking: no slip", 0.0, still.prd_m, 0.0)
     drive, resist = problems.slope_pulse(slope, 1.0, 0.6, 0.0, G)
@@ -230,7 +187,7 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
     yield row("A pulse of 0.6 g for 0.3 s causes slip", expected, loose.prd_m)
     yield _free_slide("PH-2", 7.0, 0.1, 5.0)
     down, up = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
-    yield check(
+    yield Check(
         "PH-3",
         "Paper, Physical Checks (3): the deflections differ",
         "PRDs differ by more than 1 % (1 = yes)",
@@ -243,7 +200,7 @@ def physical_checks(record: Record) -> Iterator[CheckRow]:
     yield from _critical_friction()
 
 
-def _critical_friction() -> Iterator[CheckRow]:
+def _critical_friction() -> Iterator[Check]:
     slope, time_s = math.radians(0.5), 5.0
     source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
     less, just = 0.999 * math.tan(slope), math.tan(slope)
@@ -255,4 +212,4 @@ def _critical_friction() -> Iterator[CheckRow]:
     ):
         result = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
         name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
-        yield check("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)
+        yield Check("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)

@@ -16,8 +16,8 @@ from solver.records.record import Record
 from solver.rivals.methods import METHODS, Method, link_frequency
 from solver.sliding.checked import slide, slide_history
 from solver.verification import problems, reference
-from solver.verification.checks import PIECEWISE, G, check, slip_checks, trapezoid
-from solver.verification.evidence import CheckRow
+from solver.verification.checks import PIECEWISE, G, slip_checks, trapezoid
+from solver.verification.evidence import Check
 from solver.verification.scenes import Case, is_runnable, scale_to
 
 CASES = (
@@ -31,7 +31,7 @@ CASES = (
 """Compared with 50 digits; the second and the fourth also with vertical shaking."""
 
 
-def fifty_digits(record: Record) -> Iterator[CheckRow]:
+def fifty_digits(record: Record) -> Iterator[Check]:
     """Compare PRD and residual with `reference`."""
     source = "Decimal arithmetic, Eqs. 12-18 of the paper; shares no code with the solver"
     ax, dt = record.a_mps2, record.dt_s
@@ -52,7 +52,7 @@ def fifty_digits(record: Record) -> Iterator[CheckRow]:
             yield from slip_checks("DA-1", source, f"{record.name}, {case}{more}", exact, result)
 
 
-def symmetries(record: Record) -> Iterator[CheckRow]:
+def symmetries(record: Record) -> Iterator[Check]:
     """Run scenes whose results follow from those of others."""
     case = Case(3.0, 0.25, 1.0)
     ax, dt, scale = record.a_mps2, record.dt_s, scale_to(record, case.ppa_g)
@@ -65,13 +65,13 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
     slow = slide(ax, 2 * dt, slope_rad=slope, mu=mu, scale=scale)
     prd_m, name = plain.prd_m, f"{record.name}, {case}"
 
-    def row(id: str, problem: str, source: str, times: float, found: SlideResult) -> CheckRow:
+    def row(id: str, problem: str, source: str, times: float, found: SlideResult) -> Check:
         expected = times * prd_m
-        return check(id, source, "PRD", "m", f"{problem}: {name}", expected, found.prd_m)
+        return Check(id, source, "PRD", "m", f"{problem}: {name}", expected, found.prd_m)
 
     mirror, same = "Slope and record mirrored", "identical to the last bit"
-    yield check("SY-1", f"PRD {same}", "PRD", "m", f"{mirror}: {name}", prd_m, mirrored.prd_m, 0.0)
-    yield check(
+    yield Check("SY-1", f"PRD {same}", "PRD", "m", f"{mirror}: {name}", prd_m, mirrored.prd_m, 0.0)
+    yield Check(
         "SY-1",
         f"Residual of opposite sign, {same}",
         "Residual",
@@ -88,7 +88,7 @@ def symmetries(record: Record) -> Iterator[CheckRow]:
     yield _energy(record, case)
 
 
-def _energy(record: Record, case: Case) -> CheckRow:
+def _energy(record: Record, case: Case) -> Check:
     """Compare the work of friction with that of gravity and shaking, summed over the history."""
     parts = 32
     n = record.a_mps2.size
@@ -101,7 +101,7 @@ def _energy(record: Record, case: Case) -> CheckRow:
     g = STANDARD_GRAVITY_MPS2
     friction = case.mu * (g * cosine + ax * sine) * np.abs(v)
     drive = (g * sine - ax * cosine) * v
-    return check(
+    return Check(
         "SY-5",
         "Work of gravity and shaking less kinetic energy; summed at 32 points per interval",
         "Work of friction per unit mass",
@@ -113,7 +113,7 @@ def _energy(record: Record, case: Case) -> CheckRow:
     )
 
 
-def rivals() -> Iterator[CheckRow]:
+def rivals() -> Iterator[Check]:
     """Compare every method with one closed form, each within its own tolerance."""
     dt, plateau, a, mu = 0.01, 20, 0.4, 0.1
     expected = problems.pulse_travel(a * G, mu * G, plateau * dt, dt)
@@ -125,7 +125,7 @@ def rivals() -> Iterator[CheckRow]:
             ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=method.name, **_fine(method, dt)
         )
         name = f"{method.title}: pulse A = {a:g} g for 0.2 s, mu = {mu:g}, flat roof"
-        yield check("ME-1", PIECEWISE, "PRD", "m", name, expected, result.prd_m, method.ceiling)
+        yield Check("ME-1", PIECEWISE, "PRD", "m", name, expected, result.prd_m, method.ceiling)
 
 
 def _fine(method: Method, dt_s: float) -> Mapping[str, float]:

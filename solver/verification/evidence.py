@@ -1,4 +1,4 @@
-"""Results of a verification as frozen records: checks, accuracy against run time, maps, figures.
+"""Results of a verification: frozen records, and data frames where every row is a run.
 
 Computes only values read from the curves. See `solver.verification.run` for what fills them.
 """
@@ -6,18 +6,36 @@ Computes only values read from the curves. See `solver.verification.run` for wha
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+import pandas as pd
 
-from solver.model import Floats, Status
+from solver.model import Floats
 from solver.studies.curves import minimum_friction
 from solver.verification.model_evidence import ModelEvidence
+from solver.verification.reference import DIGITS
 from solver.verification.shake_table import ShakeTable
 
 FLOOR_M = 1e-3
 """Errors in percent are relative to the exact displacement, or to 1 mm if that is larger [m]."""
+
+
+ROUNDING = 1e-12
+"""Tolerance where the expected and computed values differ by rounding error only."""
+
+SECTIONS = {
+    "CF": "Closed forms",
+    "PH": "Physical checks of the paper",
+    "DA": f"Decimal arithmetic, {DIGITS} digits",
+    "SY": "Symmetries",
+    "ME": "Methods",
+    "RM": "Roof motion computed from ground motion",
+    "TA": "Two axes and the choice of model",
+    "DV": "Code rules, spectra, filters, uplift and tipping",
+}
+"""Sections of checks by the letters with which their ids begin."""
 
 
 def percent_of(off_m: Floats, exact_m: Floats | float) -> Floats:
@@ -30,52 +48,36 @@ def percent_off(computed_m: Floats | float, exact_m: Floats | float) -> Floats:
     return percent_of(np.abs(np.asarray(computed_m) - np.asarray(exact_m)), exact_m)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CheckRow:
+@dataclass(frozen=True, slots=True)
+class Check:
     """One expected value and the computed value."""
 
     # of the group of checks to which it belongs, such as ``CF-1``; the manual prints it, and
     # `solver.verification.features` refers to it
     id: str
-    section: str
-    problem: str
     source: str
     quantity: str
     unit: str
+    problem: str
     expected: float
     computed: float
-    # relative to `expected`, or to what `quantity` says; absolute where `expected` is 0
-    error: float
-    tolerance: float
-    passed: bool  # whether error <= tolerance; a NaN does not pass
+    tolerance: float = ROUNDING
+    of: float = 0.0  # what the error is relative to; 0: `expected`
 
+    @property
+    def section(self) -> str:
+        """Section of the checks to which it belongs."""
+        return SECTIONS[self.id.partition("-")[0]]
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorkPoint:
-    """One run of one method: its run time and its error relative to the exact method."""
+    @property
+    def error(self) -> float:
+        """Relative to `of` or `expected`; absolute if both are 0."""
+        return abs(self.computed - self.expected) / (abs(self.of) or abs(self.expected) or 1.0)
 
-    method: str  # key of `solver.METHODS`
-    setting: float  # value of the method's accuracy setting; NaN for a method without one
-    parameters: Mapping[str, float]  # all parameters of the run
-    record: str
-    scene: str
-    # least time of several repeats, warm, without input checks [s]; NaN for a failed run
-    seconds: float
-    # NaN for a failed run; see `percent_off`
-    prd_error_m: float
-    prd_error_percent: float
-    residual_error_m: float
-    residual_error_percent: float
-    status: Status
-
-
-def by_setting(points: Iterable[WorkPoint]) -> Mapping[str, list[list[WorkPoint]]]:
-    """Return the runs of each method, those of one setting together."""
-    groups: dict[str, dict[float, list[WorkPoint]]] = {}
-    for point in points:
-        setting = 0.0 if math.isnan(point.setting) else point.setting
-        groups.setdefault(point.method, {}).setdefault(setting, []).append(point)
-    return {method: list(of_method.values()) for method, of_method in groups.items()}
+    @property
+    def passed(self) -> bool:
+        """Whether the error is within the tolerance; a NaN does not pass."""
+        return bool(self.error <= self.tolerance)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,42 +102,17 @@ class StabilityMap:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Convergence:
-    """Fig. 5 of the paper: the paper's method with increasing sub-steps, in 60 scenarios."""
-
-    record: str
-    scenarios: int
-    substeps: tuple[int, ...]
-    # shape (len(substeps),): of the residual, largest over the scenarios, see `percent_off`:
-    # against the exact method, and against the last number of sub-steps as in the paper (0 there)
-    largest_error_exact_percent: Floats
-    largest_error_p256_percent: Floats
-    # shape (len(substeps),): the same errors against the exact method, in percent of the PRD: where
-    # a block returns to within a millimeter of its start, an error in percent of the residual is
-    # not meaningful
-    largest_error_of_prd_percent: Floats
-    worst_cases: tuple[str, ...]  # the scenario of each `largest_error_exact_percent`
-    longest_seconds: Floats  # shape (len(substeps),): longest time of one run [s]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class LinkComparison:
     """Figs. 6 to 9 of the paper: the exact method against a link with a friction cap."""
 
     record: str
     slope_deg: float
     ppa_g: float
-    mus: Floats  # shape (n,)
-    # shape (n,): magnitudes of peak and residual relative displacement [m]; NaN where the link
-    # diverged
-    prd_exact_m: Floats
-    prd_link_m: Floats
-    rrd_exact_m: Floats
-    rrd_link_m: Floats
+    # by friction coefficient: magnitudes of peak and residual relative displacement [m], columns
+    # `PRD, exact`, `PRD, link`, `RRD, exact` and `RRD, link`; NaN where the link diverged
+    runs_m: pd.DataFrame
     history_mu: float  # the friction coefficient with the largest difference in RRD
-    history_t_s: Floats  # shape (m,)
-    history_exact_m: Floats  # shape (m,)
-    history_link_m: Floats  # shape (m,)
+    history_m: pd.DataFrame  # by time [s]: displacement, with columns `exact` and `link`
     # difference in RRD relative to the link's, as in the paper, see `percent_off`
     worst_percent: float
     mean_percent: float
@@ -240,10 +217,11 @@ class RoofComparison:
 class Verification:
     """The complete result of `verify`."""
 
-    checks: tuple[CheckRow, ...]
-    work: tuple[WorkPoint, ...]
+    checks: tuple[Check, ...]
+    work: pd.DataFrame  # see `solver.verification.workprecision.work_points`
     maps: tuple[StabilityMap, ...]
-    convergence: tuple[Convergence, ...]  # one for each record, the project's first
+    # by record, the project's first: see `solver.verification.paper_studies.convergence`
+    convergence: Mapping[str, pd.DataFrame]
     links: tuple[LinkComparison, ...]  # slopes 0 and 4 degrees for each record, the project's first
     curves: tuple[DesignCurves, ...]  # one for each record, the project's first
     conditioning: tuple[Conditioning, ...]

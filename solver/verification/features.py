@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from solver.verification.evidence import CheckRow
+from solver.verification.evidence import Check
 from solver.verification.shake_table import ShakeTable
 from solver.verification.table_tests import TableTest
 
@@ -130,12 +130,12 @@ class FeatureStatus:
         return bool(self.ids) and not self.missing and self.n_passed == self.n_checks
 
 
-def statuses(checks: Sequence[CheckRow], tables: Sequence[ShakeTable]) -> tuple[FeatureStatus, ...]:
+def statuses(checks: Sequence[Check], tables: Sequence[ShakeTable]) -> tuple[FeatureStatus, ...]:
     """Return the status of every feature.
 
     Parameters
     ----------
-    checks : sequence of CheckRow
+    checks : sequence of Check
         Those that ran.
     tables : sequence of ShakeTable
         Empty if no tests were given.
@@ -144,7 +144,7 @@ def statuses(checks: Sequence[CheckRow], tables: Sequence[ShakeTable]) -> tuple[
 
 
 def _status(
-    feature: Feature, checks: Sequence[CheckRow], tables: Sequence[ShakeTable]
+    feature: Feature, checks: Sequence[Check], tables: Sequence[ShakeTable]
 ) -> FeatureStatus:
     ran = {row.id for row in checks}
     wanted = (*feature.checks, *(id for id in feature.extra if id in ran))

@@ -19,8 +19,8 @@ from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
 from solver.verification import plane_scipy
-from solver.verification.checks import check, slip_checks
-from solver.verification.evidence import CheckRow
+from solver.verification.checks import slip_checks
+from solver.verification.evidence import Check
 from solver.verification.random_pairs import bound_ratios
 from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
 from solver.verification.triples import Triple
@@ -32,7 +32,7 @@ REFERENCE_SAMPLES = (61, 101)
 """Samples of the part of a motion that the SciPy reference integrates, quick and full."""
 
 
-def model_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[CheckRow]:
+def model_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[Check]:
     """Run the checks; the first motion, a generated one, is used where one motion is enough.
 
     Motions whose vertical component lifts the block in one of `MODEL_CASES` are excluded.
@@ -62,7 +62,7 @@ def stays(triple: Triple) -> bool:
     return all(run.status is not Status.UPLIFT for run in runs)
 
 
-def _one_axis(triple: Triple) -> Iterator[CheckRow]:
+def _one_axis(triple: Triple) -> Iterator[Check]:
     source = "Exact method, one axis with vertical"
     for case in MODEL_CASES:
         scene = triple.scene(case, coulomb(case.mu), second=False)
@@ -71,8 +71,8 @@ def _one_axis(triple: Triple) -> Iterator[CheckRow]:
         yield from slip_checks("TA-1", source, name, exact, plane, AGREES)
 
 
-def _turned(triple: Triple) -> Iterator[CheckRow]:
-    row = partial(check, "TA-2", "Flat roof: the displacement rotates with the motion")
+def _turned(triple: Triple) -> Iterator[Check]:
+    row = partial(Check, "TA-2", "Flat roof: the displacement rotates with the motion")
     case = MODEL_CASES[0]
     flat = triple.scene(case, coulomb(case.mu))
     plain = two_axes.run(flat, TIGHT)
@@ -85,13 +85,13 @@ def _turned(triple: Triple) -> Iterator[CheckRow]:
         yield row("Residual, rotated back: difference / PRD", "1", name, 0.0, off, AGREES)
 
 
-def _in_proportion(triple: Triple) -> CheckRow:
+def _in_proportion(triple: Triple) -> Check:
     case = MODEL_CASES[0]
     scene = triple.scene(case, coulomb(case.mu), second=False)
     exact, line = one_axis.run(scene), two_axes.run(_turned_by(scene, 53.0), TIGHT)
     name = f"One component rotated by 53 degrees: {triple.name}, {case}"
     source = "Proportional components cause slip along one line: exact method, one axis"
-    return check("TA-3", source, "PRD", "m", name, exact.prd_m, line.prd_m, AGREES)
+    return Check("TA-3", source, "PRD", "m", name, exact.prd_m, line.prd_m, AGREES)
 
 
 def _turned_by(scene: Scene, degrees: float) -> Scene:
@@ -105,7 +105,7 @@ def _turn(pair: Floats, degrees: float) -> Floats:
     return np.array([[cs, -sn], [sn, cs]]) @ pair
 
 
-def _circle() -> Iterator[CheckRow]:
+def _circle() -> Iterator[Check]:
     """In the rotating frame v is constant: A^2 = (mu g)^2 + (w v)^2."""
     a, omega, mu, count, turns = 6.0, 2.0 * math.pi, 0.3, 2000, 12
     dt = 1.0 / count
@@ -126,8 +126,8 @@ def _circle() -> Iterator[CheckRow]:
         "Steady state: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples per cycle"
     )
     final = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
-    yield check("TA-4", source, "Speed", "m/s", name, speed, final, AGREES)
-    yield check("TA-4", source, "Diameter", "m", name, 2.0 * speed / omega, across, AGREES)
+    yield Check("TA-4", source, "Speed", "m/s", name, speed, final, AGREES)
+    yield Check("TA-4", source, "Diameter", "m", name, 2.0 * speed / omega, across, AGREES)
 
 
 def stopped_scene() -> Scene:
@@ -137,7 +137,7 @@ def stopped_scene() -> Scene:
     return flat_scene(ax, ay, 0.01, coulomb(0.4))
 
 
-def _stop() -> Iterator[CheckRow]:
+def _stop() -> Iterator[Check]:
     scene = stopped_scene()
     history = two_axes.run_history(scene, TIGHT)
     at, push, c = 6, 2.0, 0.4 * STANDARD_GRAVITY_MPS2
@@ -160,10 +160,10 @@ def _stop() -> Iterator[CheckRow]:
         ("Transverse displacement", "m", ahead, across_m),
         ("Longitudinal displacement", "m", -aside, along_m),
     ):
-        yield check("TA-5", source, quantity, unit, name, known, computed, AGREES)
+        yield Check("TA-5", source, quantity, unit, name, known, computed, AGREES)
 
 
-def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
+def _friction_by_speed(triple: Triple) -> Iterator[Check]:
     source = "Converges to two axes with one coefficient: within 50 times the difference"
     case = MODEL_CASES[1]
     plain = two_axes.run(triple.scene(case, coulomb(case.mu)), TIGHT)
@@ -172,10 +172,10 @@ def _friction_by_speed(triple: Triple) -> Iterator[CheckRow]:
         law = Friction(mu_slow=slow, mu_fast=case.mu, rate_s_per_m=30.0, mu_static=slow)
         found = two_axes.run(triple.scene(case, law), TIGHT)
         name = f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.name}, {case}"
-        yield check("TA-6", source, "PRD", "m", name, plain.prd_m, found.prd_m, 50.0 * drop)
+        yield Check("TA-6", source, "PRD", "m", name, plain.prd_m, found.prd_m, 50.0 * drop)
 
 
-def _static_friction(triple: Triple) -> Iterator[CheckRow]:
+def _static_friction(triple: Triple) -> Iterator[Check]:
     """A delay of the onset of slip changes the velocity by its square."""
     case = MODEL_CASES[1]
     both = triple.scene(case, coulomb(case.mu))
@@ -191,13 +191,13 @@ def _static_friction(triple: Triple) -> Iterator[CheckRow]:
             name = f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, "
             found_m = two_axes.run(replace(scene, friction=law), TIGHT).prd_m
             tolerance = 50.0 * excess**2
-            yield check(id, source, "PRD", "m", f"{name}{case}", kinetic_m, found_m, tolerance)
+            yield Check(id, source, "PRD", "m", f"{name}{case}", kinetic_m, found_m, tolerance)
 
 
-def _one_block(triple: Triple) -> Iterator[CheckRow]:
+def _one_block(triple: Triple) -> Iterator[Check]:
     """Rows that move as one block: one block, and three identical ones with unloaded links."""
     source = "Exact method, one axis with vertical: the links carry no force"
-    row = partial(check, "TA-9", source, "PRD, largest of the blocks", "m")
+    row = partial(Check, "TA-9", source, "PRD, largest of the blocks", "m")
     case = MODEL_CASES[1]
     scene = triple.scene(case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
@@ -207,7 +207,7 @@ def _one_block(triple: Triple) -> Iterator[CheckRow]:
         yield row(name, exact.prd_m, max(blocks.prd_m), AGREES)
 
 
-def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
+def _left_out(triple: Triple, *, quick: bool) -> Check:
     """Count scenes in which the neglected component matters more than the stated estimate."""
     over = count = 0
     for share in (0.3, 0.1, 0.03, 0.01, 0.003):
@@ -222,19 +222,19 @@ def _left_out(triple: Triple, *, quick: bool) -> CheckRow:
     name = f"Effect of the neglected component: {triple.name}, {count} cases"
     source = "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003"
     exceeding = "Cases that exceed the stated effect"
-    return check("TA-10", source, exceeding, "1", name, 0.0, float(over), 0.0)
+    return Check("TA-10", source, exceeding, "1", name, 0.0, float(over), 0.0)
 
 
-def _random_pairs(*, quick: bool) -> Iterator[CheckRow]:
+def _random_pairs(*, quick: bool) -> Iterator[Check]:
     """Count the random pairs of every kind that have no result or exceed their bounds."""
     source = "Both runs of a pair have a result, and they agree within the sum of their error "
-    row = partial(check, "TA-11", f"{source}bounds", "Failed pairs", "1")
+    row = partial(Check, "TA-11", f"{source}bounds", "Failed pairs", "1")
     for ratios in bound_ratios(quick=quick):
         failed = float(ratios.n_over + ratios.n_unanswered)
         yield row(f"{ratios.n_pairs} random pairs, {ratios.kind}", 0.0, failed, 0.0)
 
 
-def _choices(triple: Triple) -> Iterator[CheckRow]:
+def _choices(triple: Triple) -> Iterator[Check]:
     source = "Number of the simplest sufficient model (section 12)"
     case = MODEL_CASES[1]
     full = triple.scene(case, coulomb(case.mu))
@@ -251,12 +251,12 @@ def _choices(triple: Triple) -> Iterator[CheckRow]:
     ):
         name = f"{what}: {triple.name}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
         found = float(least_model.solve(scene, Settings()).model)
-        yield check("TA-12", source, "Model chosen", "1", name, float(model), found, 0.0)
+        yield Check("TA-12", source, "Model chosen", "1", name, float(model), found, 0.0)
 
 
-def _against_scipy(triple: Triple, samples: int) -> Iterator[CheckRow]:
+def _against_scipy(triple: Triple, samples: int) -> Iterator[Check]:
     source = "SciPy DOP853, relative tolerance 10⁻¹², restarted at every sample and event"
-    row = partial(check, "TA-13", source, "Position error / PRD", "1")
+    row = partial(Check, "TA-13", source, "Position error / PRD", "1")
     case, part = MODEL_CASES[1], triple.cut(samples)
     scene = part.scene(case, coulomb(case.mu))
     x, y = plane_scipy.reference(scene)

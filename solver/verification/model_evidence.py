@@ -1,13 +1,15 @@
-"""Results of the comparison of models as frozen records: ratios, accuracy, run times.
+"""Results of the comparison of models: frozen records, and data frames where every row is a run.
 
 Computes only ratios. See `solver.verification.model_study` for what fills them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 
 from solver.model import Floats
 
@@ -72,47 +74,19 @@ class ModelStudy:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StaticDifference:
-    """Effect of static friction above kinetic as the difference decreases."""
-
-    excess: float  # static over kinetic friction, less 1
-    # shape (n,): change of the PRD of each scene relative to kinetic friction alone, ascending
-    one_axis: Floats
-    two_axes: Floats
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FadingAxis:
-    """Difference between two axes and one as the second component decreases."""
-
-    share: float  # factor of the second component
-    # shape (n,): change of the PRD of each scene relative to one axis with the same friction,
-    # ascending
-    one_coefficient: Floats  # kinetic friction alone
-    static_above: Floats  # static friction above it
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PushedPoint:
-    """A block driven back by a force between kinetic and static friction."""
-
-    across_mps2: float  # transverse acceleration [m/s2]
-    end_m: float  # final distance from the start [m]
-    error_m: float  # error reported by the run [m]
-    # final distance where friction falls from static to kinetic gradually with velocity [m]
-    falling_end_m: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class StaticEvidence:
     """Results for static friction above kinetic friction."""
 
     # scenes of `differences` and `fading`: those whose PRD in one axis is `LEAST_M` or more
     n_scenes: int
     ratio: float  # static over kinetic friction in `fading`
-    differences: tuple[StaticDifference, ...]
-    fading: tuple[FadingAxis, ...]
-    pushed: tuple[PushedPoint, ...]
+    # by static over kinetic friction, less 1: change of the PRD of each scene relative to kinetic
+    # friction alone, with columns `one_axis` and `two_axes`
+    differences: Mapping[float, pd.DataFrame]
+    # by factor of the second component: change of the PRD of each scene relative to one axis with
+    # the same friction, kinetic alone (`one_coefficient`) and static above it (`static_above`)
+    fading: Mapping[float, pd.DataFrame]
+    pushed: pd.DataFrame  # see `solver.verification.static_study.pushed`
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -131,37 +105,15 @@ class BoundRatios:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlaneRun:
-    """One run of a method in two axes; a failed run has no time and no errors, which are NaN."""
-
-    method: str
-    setting: str
-    seconds: float  # time per run [s]
-    steps: int  # steps; for SciPy, evaluations of the right-hand side
-    # error relative to the PRD: of the position, largest at samples, or of the PRD
-    error_percent: float
-    end_error_m: float  # error in final position [m]
-    end_speed_mps: float  # final speed [m/s]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ModelTime:
-    """Run time of a model relative to the others."""
-
-    title: str
-    seconds: float  # median over the scenes, warm, without the choice of model [s]
-    ratio: float  # relative to one axis
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class ModelEvidence:
     """The complete comparison of models."""
 
     study: ModelStudy
     static: StaticEvidence
     bounds: tuple[BoundRatios, ...]
-    work_scene: str
-    work: tuple[PlaneRun, ...]
-    stops: tuple[PlaneRun, ...]
+    # runs of one scene, and of a block that stops, see `solver.verification.plane_work`
+    work: pd.DataFrame
+    stops: pd.DataFrame
     times_motion: str  # name, length and time step of the motion used for `times`
-    times: tuple[ModelTime, ...]
+    # of each model, one axis first: median over the scenes, warm, without the choice of model [s]
+    times: Mapping[str, float]

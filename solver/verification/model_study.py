@@ -33,7 +33,6 @@ from solver.verification.model_evidence import (
     ModelChange,
     ModelEvidence,
     ModelStudy,
-    ModelTime,
     StaticEvidence,
 )
 from solver.verification.random_pairs import bound_ratios
@@ -73,15 +72,13 @@ ORIENTATIONS = tuple(
 
 def model_evidence(triples: Sequence[Triple], *, quick: bool) -> ModelEvidence:
     """Run all comparisons; accuracy and run times use the first motion."""
-    scene, work = plane_work.work(triples[0], quick=quick)
     first = triples[0]
     length = (first.x_mps2.size - 1) * first.dt_s
     return ModelEvidence(
         study=study(triples, quick=quick),
         static=static(triples, quick=quick),
         bounds=bound_ratios(quick=quick),
-        work_scene=scene,
-        work=work,
+        work=plane_work.work(first, quick=quick),
         stops=plane_work.stops(),
         times_motion=f"{first.name}, {length:.0f} s in steps of {first.dt_s:g} s",
         times=times(first),
@@ -199,20 +196,16 @@ def by_speed(mu_slow: float) -> Friction:
     )
 
 
-def times(triple: Triple) -> tuple[ModelTime, ...]:
+def times(triple: Triple) -> dict[str, float]:
     """Time every model on the scenes `MODEL_CASES`; the first two share one solver."""
-    medians = []
+    medians = {}
     for title, run, law, second, vertical in _MODELS:
         scenes = [
             triple.scene(case, law(case.mu), second=second, vertical=vertical)
             for case in MODEL_CASES
         ]
-        each = [minimum_seconds(partial(run, scene)) for scene in scenes]
-        medians.append((title, statistics.median(each)))
-    return tuple(
-        ModelTime(title=title, seconds=seconds, ratio=seconds / medians[0][1])
-        for title, seconds in medians
-    )
+        medians[title] = statistics.median(minimum_seconds(partial(run, scene)) for scene in scenes)
+    return medians
 
 
 _MODELS: tuple[tuple[str, Callable[[Scene], object], Callable[[float], Friction], bool, bool], ...]

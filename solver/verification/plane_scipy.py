@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -27,15 +26,13 @@ EVALUATIONS = 40_000
 """Evaluations of the right-hand side after which a run counts as stalled."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Integrated:
-    """Result of a general-purpose solver."""
+class Integrated(NamedTuple):
+    """Result of a solver; of a run that was not completed, all lengths are NaN."""
 
-    followed: bool  # whether the run was completed; otherwise all lengths are NaN
     prd_m: float  # largest distance in plan at its steps [m]
     end_m: tuple[float, float]  # final position, x and y [m]
     end_speed_mps: float
-    evaluations: int  # evaluations of the right-hand side
+    steps: int  # of a general-purpose solver, evaluations of the right-hand side
 
 
 def is_installed() -> bool:
@@ -195,27 +192,20 @@ def regularized(scene: Scene, solver: Solver, velocity_mps: float, tolerance: fl
 
     rate = _Rate(scene, velocity_mps)
     end = (scene.ax_mps2.size - 1) * scene.dt_s
+    lost = math.nan, (math.nan, math.nan), math.nan
     try:
         with np.errstate(over="ignore"):  # from Radau's finite differences for the Jacobian
             solution = solve_ivp(
                 rate, (0.0, end), np.zeros(4), method=solver, rtol=tolerance, atol=1e-3 * tolerance
             )
     except _StalledError:
-        return _lost(rate.asked)
+        return Integrated(*lost, rate.asked)
     if not (solution.success and np.isfinite(solution.y).all()):
-        return _lost(rate.asked)
+        return Integrated(*lost, rate.asked)
     x, y = solution.y[0] * math.cos(scene.slope_rad), solution.y[1]
     return Integrated(
-        followed=True,
         prd_m=float(np.hypot(x, y).max()),
         end_m=(float(x[-1]), float(y[-1])),
         end_speed_mps=math.hypot(*solution.y[2:, -1].tolist()),
-        evaluations=rate.asked,
-    )
-
-
-def _lost(evaluations: int) -> Integrated:
-    nan = math.nan
-    return Integrated(
-        followed=False, prd_m=nan, end_m=(nan, nan), end_speed_mps=nan, evaluations=evaluations
+        steps=rate.asked,
     )

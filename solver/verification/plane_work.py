@@ -8,16 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from functools import partial
+
+import pandas as pd
 
 from solver.kernels import fixed_steps
 from solver.model import Floats, Scene, coulomb
 from solver.sliding import two_axes
 from solver.verification import plane_scipy
 from solver.verification.model_checks import stopped_scene
-from solver.verification.model_evidence import PlaneRun
-from solver.verification.plane_scipy import Solver, samples_of
+from solver.verification.plane_scipy import Integrated, Solver, samples_of
 from solver.verification.study import MODEL_CASES, TIGHT, clocked, minimum_seconds
 from solver.verification.triples import Triple
 
@@ -51,52 +51,62 @@ STOPS_BY_SCIPY: _BySciPy = (
     ("DOP853", 0.0, (1e-6,)),
 )
 
-_Outcome = tuple[float, tuple[float, float], float, int]
-"""PRD, position and speed at the end, steps."""
-
-_Run = tuple[str, str, Callable[[], _Outcome]]
+_Run = tuple[str, str, Callable[[], Integrated]]
 
 
-def work(triple: Triple, *, quick: bool) -> tuple[str, tuple[PlaneRun, ...]]:
-    """Return the scene in words, and every method with each of its settings on it."""
+def work(triple: Triple, *, quick: bool) -> pd.DataFrame:
+    """Run every method with each of its settings on the strongest part of a motion.
+
+    Returns
+    -------
+    DataFrame
+        A row for each run, with columns as in verification.csv, the `steps` (for SciPy, evaluations
+        of the right-hand side), and position error and velocity at the end. The PRD error of the
+        power series is its largest at a sample. A failed run has no time and no errors: NaN.
+    """
     part = triple.cut(SAMPLES[not quick])
     scene = part.scene(CASE, coulomb(CASE.mu))
     solvers = [(solver, v0, given[:2]) for solver, v0, given in SCIPY[:3]] if quick else SCIPY
     steps = {f"P = {count}": count for count in SUBSTEPS}
-    found = list(_measured(scene, _runs(scene, TOLERANCES, steps, solvers)))
-    for at, tolerance in enumerate(TOLERANCES):  # their errors of the PRD may be zero by chance
-        found[at] = replace(found[at], error_percent=_largest_percent(scene, tolerance))
-    return f"{part.name}, {CASE}", tuple(found)
+    found = _measured(scene, _runs(scene, TOLERANCES, steps, solvers))
+    # Their errors of the PRD may be zero by chance.
+    largest = [_largest_percent(scene, tolerance) for tolerance in TOLERANCES]
+    found.loc[found["method"] == OURS, "PRD error [%]"] = largest
+    return found.assign(case=f"{part.name}, {CASE}")
 
 
-def stops() -> tuple[PlaneRun, ...]:
+def stops() -> pd.DataFrame:
     """Run the block that stops under a transverse acceleration and rests for 1.8 s, every method.
 
     Its position is known in closed form, see `model_checks.stopped_scene` and its checks.
     """
     scene = stopped_scene()
     steps = {f"{1e3 * scene.dt_s / count:g} ms": count for count in (10, 100, 1000)}
-    return tuple(_measured(scene, _runs(scene, (1e-4, 1e-6), steps, STOPS_BY_SCIPY)))
+    return _measured(scene, _runs(scene, (1e-4, 1e-6), steps, STOPS_BY_SCIPY))
 
 
-def _measured(scene: Scene, runs: Iterable[_Run]) -> Iterator[PlaneRun]:
+def _measured(scene: Scene, runs: Iterable[_Run]) -> pd.DataFrame:
     truth = two_axes.run(scene, TIGHT)
     place = truth.residual_m, truth.residual_across_m
+    rows = []
     for method, setting, run in runs:
         (prd_m, end_m, speed_mps, steps), seconds = clocked(run)
         if math.isnan(prd_m):
             seconds = math.nan
         elif not method.startswith("SciPy"):  # the first call compiles
             seconds = minimum_seconds(run)
-        yield PlaneRun(
-            method=method,
-            setting=setting,
-            seconds=seconds,
-            steps=steps,
-            error_percent=100.0 * abs(prd_m - truth.prd_m) / truth.prd_m,
-            end_error_m=math.dist(end_m, place),
-            end_speed_mps=speed_mps,
+        rows.append(
+            {
+                "method": method,
+                "parameters": setting,
+                "time per run [s]": seconds,
+                "PRD error [%]": 100.0 * abs(prd_m - truth.prd_m) / truth.prd_m,
+                "steps": steps,
+                "position error [m]": math.dist(end_m, place),
+                "final velocity [m/s]": speed_mps,
+            }
         )
+    return pd.DataFrame(rows)
 
 
 def _largest_percent(scene: Scene, tolerance: float) -> float:
@@ -125,20 +135,16 @@ def _runs(
     for solver, v0_mps, its_tolerances in solvers:
         friction = f"v0 = {1e3 * v0_mps:g} mm/s" if v0_mps else "Coulomb, no events"
         for tolerance in its_tolerances:
-            run = partial(_scipy, scene, solver, v0_mps, tolerance)
+            run = partial(plane_scipy.regularized, scene, solver, v0_mps, tolerance)
             yield f"SciPy {solver}, {friction}", f"tol. {tolerance:g}", run
 
 
-def _series(scene: Scene, tolerance: float) -> _Outcome:
+def _series(scene: Scene, tolerance: float) -> Integrated:
     outcome = two_axes.follow(scene, tolerance)
-    return outcome.prd_m, outcome.end_m, math.hypot(*outcome.end_mps), outcome.n_steps
+    speed_mps = math.hypot(*outcome.end_mps)
+    return Integrated(outcome.prd_m, outcome.end_m, speed_mps, outcome.n_steps)
 
 
-def _fixed(rows: Floats, dt_s: float, cosine: float, substeps: int, holds: bool) -> _Outcome:
+def _fixed(rows: Floats, dt_s: float, cosine: float, substeps: int, holds: bool) -> Integrated:
     prd_m, x, y, speed = fixed_steps.slide_fixed(rows, dt_s, cosine, substeps, holds)
-    return prd_m, (x, y), speed, substeps * (len(rows) - 1)
-
-
-def _scipy(scene: Scene, solver: Solver, v0_mps: float, tolerance: float) -> _Outcome:
-    outcome = plane_scipy.regularized(scene, solver, v0_mps, tolerance)
-    return outcome.prd_m, outcome.end_m, outcome.end_speed_mps, outcome.evaluations
+    return Integrated(prd_m, (x, y), speed, substeps * (len(rows) - 1))

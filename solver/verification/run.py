@@ -23,7 +23,7 @@ from solver.verification import (
     workprecision,
 )
 from solver.verification.building import FloorRecords
-from solver.verification.evidence import CheckRow, Verification
+from solver.verification.evidence import Check, Verification
 from solver.verification.scenes import own_records
 from solver.verification.shake_table import SHIPPED, compare
 from solver.verification.table_tests import TableTest
@@ -74,13 +74,13 @@ def verify(
     rows += model_checks.model_checks(triples, quick=quick)
     models = model_study.model_evidence(triples, quick=quick)
     progress(f"Accuracy against run time: every method on {len(records)} records")
-    work = tuple(workprecision.work_points(records, quick=quick))
+    work = workprecision.work_points(records, quick=quick)
     progress("Stability: maps of error over two parameters")
     maps = tuple(stability.maps(records[0], quick=quick))
     progress("Sensitivity to small changes of friction")
     conditioning = tuple(stability.conditioning(records[0], quick=quick))
     progress("The paper's convergence study (Fig. 5)")
-    convergence = tuple(paper_studies.convergence(record) for record in records)
+    convergence = {record.name: paper_studies.convergence(record) for record in records}
     progress("The paper's comparison with a link model (Figs. 6 to 9)")
     links = tuple(
         paper_studies.link_comparison(record, slope_deg)
@@ -109,7 +109,7 @@ def verify(
     )
 
 
-def _rows(records: Sequence[Record]) -> Iterator[CheckRow]:
+def _rows(records: Sequence[Record]) -> Iterator[Check]:
     yield from checks.closed_forms()
     yield from checks.physical_checks(records[0])
     for record in records:

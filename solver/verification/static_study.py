@@ -11,16 +11,11 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+import pandas as pd
 
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, coulomb
 from solver.sliding import one_axis, two_axes
-from solver.verification.model_evidence import (
-    LEAST_M,
-    FadingAxis,
-    PushedPoint,
-    StaticDifference,
-    StaticEvidence,
-)
+from solver.verification.model_evidence import LEAST_M, StaticEvidence
 from solver.verification.study import TIGHT, faded, flat_scene, plane_prds
 
 EXCESSES = (0.3, 0.1, 1e-2, 1e-3, 1e-4)
@@ -67,38 +62,32 @@ def static_evidence(scenes: Sequence[Scene], ratio: float) -> StaticEvidence:
     return StaticEvidence(
         n_scenes=len(slid),
         ratio=ratio,
-        differences=tuple(_differences(slid, exact_m)),
-        fading=tuple(_fading(slid, exact_m, ratio)),
-        pushed=tuple(_pushed()),
+        differences=dict(_differences(slid, exact_m)),
+        fading=dict(_fading(slid, exact_m, ratio)),
+        pushed=pushed(),
     )
 
 
-def _differences(slid: Sequence[Scene], exact_m: Floats) -> Iterator[StaticDifference]:
+def _differences(slid: Sequence[Scene], exact_m: Floats) -> Iterator[tuple[float, pd.DataFrame]]:
     alone = [faded(scene, 0.0) for scene in slid]
     plain_m = plane_prds(slid, coulomb, TIGHT)
     for excess in EXCESSES:
         law = partial(held, ratio=1.0 + excess)
-        yield StaticDifference(
-            excess=excess,
-            one_axis=_changes(plane_prds(alone, law, TIGHT), exact_m),
-            two_axes=_changes(plane_prds(slid, law, TIGHT), plain_m),
-        )
+        one_axis_m, two_axes_m = (plane_prds(each, law, TIGHT) for each in (alone, slid))
+        changes = {"one_axis": one_axis_m / exact_m, "two_axes": two_axes_m / plain_m}
+        yield excess, (pd.DataFrame(changes) - 1.0).abs()
 
 
-def _fading(slid: Sequence[Scene], exact_m: Floats, ratio: float) -> Iterator[FadingAxis]:
+def _fading(
+    slid: Sequence[Scene], exact_m: Floats, ratio: float
+) -> Iterator[tuple[float, pd.DataFrame]]:
     law = partial(held, ratio=ratio)
     base_m = plane_prds([faded(scene, 0.0) for scene in slid], law, TIGHT)
     for share in FADING:
         part = [faded(scene, share) for scene in slid]
-        yield FadingAxis(
-            share=share,
-            one_coefficient=_changes(plane_prds(part, coulomb, TIGHT), exact_m),
-            static_above=_changes(plane_prds(part, law, TIGHT), base_m),
-        )
-
-
-def _changes(prd_m: Floats, base_m: Floats) -> Floats:
-    return np.sort(np.abs(prd_m / base_m - 1.0))
+        one_m, static_m = (plane_prds(part, each, TIGHT) for each in (coulomb, law))
+        changes = {"one_coefficient": one_m / exact_m, "static_above": static_m / base_m}
+        yield share, (pd.DataFrame(changes) - 1.0).abs()
 
 
 def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
@@ -108,13 +97,22 @@ def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
     return flat_scene(back, np.full(201, -across_mps2), 0.01, friction)
 
 
-def _pushed() -> Iterator[PushedPoint]:
+def pushed() -> pd.DataFrame:
+    """Return where a block ends that is driven back by a force between kinetic and static friction.
+
+    Returns
+    -------
+    DataFrame
+        A row for each transverse acceleration [m/s2], its index: the final distance from the start
+        [m], the error of it that the run reports [m], and the final distance where friction falls
+        from static to kinetic gradually with velocity [m].
+    """
+    rows = []
     for across_mps2 in ACROSS_MPS2:
         jumped = two_axes.run(pushed_scene(across_mps2, JUMPING), PUSHED_TOLERANCE)
         fell = two_axes.run(pushed_scene(across_mps2, FALLING), PUSHED_TOLERANCE)
-        yield PushedPoint(
-            across_mps2=across_mps2,
-            end_m=math.hypot(jumped.residual_m, jumped.residual_across_m),
-            error_m=jumped.error_m,
-            falling_end_m=math.hypot(fell.residual_m, fell.residual_across_m),
+        end_m, falling_end_m = (
+            math.hypot(result.residual_m, result.residual_across_m) for result in (jumped, fell)
         )
+        rows.append({"end_m": end_m, "error_m": jumped.error_m, "falling_end_m": falling_end_m})
+    return pd.DataFrame(rows, index=ACROSS_MPS2)

@@ -9,13 +9,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from solver.model import STANDARD_GRAVITY_MPS2, SlideResult, Status
 from solver.records.record import Record
 from solver.rivals.methods import METHODS, AxisScene, Method
-from solver.verification.evidence import WorkPoint, percent_off
+from solver.verification.evidence import percent_off
 from solver.verification.scenes import CASES, Case, is_runnable
 from solver.verification.study import clocked, minimum_seconds, prepared, run
 
@@ -25,9 +27,22 @@ SLOW_CASES = 2
 NO_SAMPLES = np.empty((2, 0))
 
 
-def work_points(records: Sequence[Record], *, quick: bool) -> Iterator[WorkPoint]:
-    """Run every method with each setting on every record and case, see `settings`."""
-    cases = CASES[:3] if quick else CASES
+def work_points(records: Sequence[Record], *, quick: bool) -> pd.DataFrame:
+    """Run every method with each setting on every record and case, see `settings`.
+
+    Returns
+    -------
+    DataFrame
+        A row for each run, with columns as in verification.csv and `setting`, NaN for a method
+        without one. Errors are against the exact method, see `percent_off`; a failed run has no
+        time and no errors, which are NaN.
+    """
+    return pd.DataFrame(list(_runs(records, CASES[:3] if quick else CASES, quick=quick)))
+
+
+def _runs(
+    records: Sequence[Record], cases: Sequence[Case], *, quick: bool
+) -> Iterator[dict[str, Any]]:
     methods = [method for method in METHODS.values() if is_runnable(method.name)]
     for record in records:
         for k, case in enumerate(cases):
@@ -36,7 +51,14 @@ def work_points(records: Sequence[Record], *, quick: bool) -> Iterator[WorkPoint
                 if is_slow(method) and k >= SLOW_CASES:
                     continue
                 for value, parameters in settings(method, record, quick=quick):
-                    yield _point(record, case, method, value, parameters, exact)
+                    yield {
+                        "method": method.name,
+                        "setting": value,
+                        "parameters": " ".join(f"{k}={v:g}" for k, v in parameters.items()),
+                        "record": record.name,
+                        "case": str(case),
+                        **_measured(record, case, method, parameters, exact),
+                    }
 
 
 def is_slow(method: Method) -> bool:
@@ -63,29 +85,23 @@ def timed(method: Method, scene: AxisScene, parameters: Mapping[str, float]) -> 
     return minimum_seconds(lambda: method.follow(scene, parameters, NO_SAMPLES))
 
 
-def _point(
+def _measured(
     record: Record,
     case: Case,
     method: Method,
-    value: float,
     parameters: Mapping[str, float],
     exact: SlideResult,
-) -> WorkPoint:
+) -> dict[str, Any]:
     result, seconds = clocked(partial(run, record, case, method.name, **parameters))
     if result.status in (Status.DIVERGED, Status.UPLIFT):
         seconds = math.nan
     elif not is_slow(method):
         seconds = timed(method, prepared(record, case), parameters)
-    return WorkPoint(
-        method=method.name,
-        setting=value,
-        parameters=parameters,
-        record=record.name,
-        scene=str(case),
-        seconds=seconds,
-        prd_error_m=abs(result.prd_m - exact.prd_m),
-        prd_error_percent=float(percent_off(result.prd_m, exact.prd_m)),
-        residual_error_m=abs(result.residual_m - exact.residual_m),
-        residual_error_percent=float(percent_off(result.residual_m, exact.residual_m)),
-        status=result.status,
-    )
+    return {
+        "time per run [s]": seconds,
+        "PRD error [m]": abs(result.prd_m - exact.prd_m),
+        "PRD error [%]": float(percent_off(result.prd_m, exact.prd_m)),
+        "residual error [m]": abs(result.residual_m - exact.residual_m),
+        "residual error [%]": float(percent_off(result.residual_m, exact.residual_m)),
+        "status": result.status,
+    }

@@ -6,35 +6,28 @@ are relative to the exact method, which `solver_accuracy` compares with 40-digit
 
 from __future__ import annotations
 
-import statistics
-from collections import defaultdict
-
 from measure import SMOKE, figure
 
 from solver.rivals.methods import METHODS
-from solver.verification.evidence import WorkPoint
 from solver.verification.scenes import own_records
 from solver.verification.workprecision import work_points
 
 
 def main() -> None:
     """Print time and error of each method."""
-    by_method: dict[str, list[WorkPoint]] = defaultdict(list)
-    for point in work_points(own_records(quick=SMOKE), quick=SMOKE):
-        method = METHODS[point.method]
-        if not method.knob or point.setting == method.parameters[method.knob]:
-            by_method[point.method].append(point)
-    for name, points in by_method.items():
-        method = METHODS[name]
-        errors = [point.prd_error_percent for point in points]
+    found = work_points(own_records(quick=SMOKE), quick=SMOKE)
+    is_default = [
+        not METHODS[name].knob or value == METHODS[name].parameters[METHODS[name].knob]
+        for name, value in zip(found["method"], found["setting"], strict=True)
+    ]
+    for name, runs in found[is_default].groupby("method", sort=False):
+        method, errors = METHODS[name], runs["PRD error [%]"]
         at = f", {method.knob} = {method.parameters[method.knob]:g}" if method.knob else ""
-        said = (
-            f"; error of the PRD {statistics.median(errors):.2g} % in the median, "
-            f"{max(errors):.3g} % at most"
-        )
+        said = f"; error of the PRD {errors.median():.2g} % in the median, "
+        said += f"{errors.max():.3g} % at most"
         figure(
-            f"{method.label}{at}; {len(points)} runs",
-            statistics.median(point.seconds for point in points) * 1e3,
+            f"{method.label}{at}; {len(runs)} runs",
+            runs["time per run [s]"].median() * 1e3,
             "ms" + said * (name != "exact"),
         )
 

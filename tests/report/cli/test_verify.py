@@ -97,21 +97,17 @@ def verifying(verify):
         yield patch
 
 
-ERRORS = ("prd_error_m", "prd_error_percent", "residual_error_m", "residual_error_percent")
+MEASURED = ["time per run [s]", *verified.NO_RUNS.filter(like="error")]
 
 
 @pytest.fixture(scope="module")
 def broken(verification):
     """The same verification with its second check failed, some runs lost, and other programs."""
     first, second, *others = verification.checks
-    wrong = replace(second, computed=1.5, error=0.25, passed=False)
-    nothing = dict.fromkeys(("seconds", *ERRORS), math.nan) | {"status": Status.DIVERGED}
-    work = tuple(
-        replace(point, **nothing)
-        if (point.method, point.setting) == ("penalty-explicit", 1e2)
-        else point
-        for point in verification.work
-    )
+    wrong = replace(second, expected=2.0, computed=1.5)
+    work = verification.work.copy()
+    lost = (work["method"] == "penalty-explicit") & (work["setting"] == 1e2)
+    work.loc[lost, MEASURED], work.loc[lost, "status"] = math.nan, Status.DIVERGED
     peer = PeerPoint(
         peer="Other",
         version="1.2",
@@ -214,9 +210,8 @@ def test_all_and_only_the_checks_and_runs_are_in_the_table(made, verification):
     assert checks["computed"].tolist() == [row.computed for row in verification.checks]
     assert checks["error [-]"].tolist() == [row.error for row in verification.checks]
     assert set(checks["passed"]) == {"yes"}
-    assert runs["time per run [s]"].tolist() == [point.seconds for point in verification.work]
-    errors = [point.prd_error_percent for point in verification.work]
-    assert runs["PRD error [%]"].tolist() == errors
+    for column in MEASURED:
+        assert runs[column].tolist() == verification.work[column].tolist()
     assert "substeps=64" in set(runs["parameters"])
     for column in ("time per run [s]", "PRD error [m]", "residual error [%]", "tolerance [-]"):
         assert column in table
@@ -236,30 +231,30 @@ def test_each_chart_is_a_file_too_with_text_in_the_shipped_font_only(made):
 
 def curve_of(method, points, floor=0.0):
     """The curve of a method in the chart of its errors over time."""
-    curves = work.curves(points, "prd_error_percent", floor)
-    return next(curve for curve in curves if curve.method == method)
+    return work.curve(work.drawn(points, "PRD error [%]", floor)[method])
 
 
 def test_the_exact_method_is_drawn_at_its_floor_and_said_to_be(made, verification):
     assert ">exact: rounding error<" in made["charts/work-percent.svg"].decode()
-    assert curve_of("exact", verification.work, 1e-12).median.tolist() == [1e-12]
+    assert curve_of("exact", verification.work, 1e-12)["middle"].tolist() == [1e-12]
 
 
 def test_curves_are_medians_with_the_envelope_over_the_scenes(verification):
-    points = [p for p in verification.work if p.method == "linear" and p.setting == 16]
-    curve = curve_of("linear", verification.work)
-    at = [1, 4, 16, 64, 256].index(16)
-    errors = [p.prd_error_percent for p in points]
-    assert curve.median[at] == np.median(errors)
-    assert (curve.low[at], curve.high[at]) == (min(errors), max(errors))
-    assert curve.seconds[at] == np.median([p.seconds for p in points])
+    found = verification.work
+    runs = found[(found["method"] == "linear") & (found["setting"] == 16)]
+    curve = curve_of("linear", found)
+    assert curve.index.tolist() == [1, 4, 16, 64, 256]
+    at, errors = curve.loc[16], runs["PRD error [%]"].tolist()
+    assert at["middle"] == np.median(errors)
+    assert (at["low"], at["high"]) == (min(errors), max(errors))
+    assert at["seconds"] == np.median(runs["time per run [s]"])
 
 
 def test_failed_runs_are_counted_in_the_caption_and_not_drawn(broken, words_of_broken):
-    lost = sum(math.isnan(point.seconds) for point in broken.work)
+    lost = broken.work["time per run [s]"].isna().sum()
     assert f"{lost} of {len(broken.work)} runs failed and are not drawn" in words_of_broken
     assert f"(penalty-explicit: {lost})" in words_of_broken
-    assert np.isfinite(curve_of("penalty-explicit", broken.work).median).all()
+    assert np.isfinite(curve_of("penalty-explicit", broken.work)).all(axis=None)
 
 
 def test_failed_cells_are_hatched_and_counted(made, verification, words):

@@ -5,6 +5,7 @@ import math
 
 import matplotlib.figure
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
@@ -19,13 +20,12 @@ from report.study import figures as study
 from report.study.results import LimitState
 from report.suite.info import PERIODS_S, spectra_g
 from report.words.units import Quantity
-from solver.model import Status
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import fragility
 from solver.studies.uncertainty import Bar
-from solver.verification.evidence import StabilityMap, WorkPoint
+from solver.verification.evidence import StabilityMap
 
 DPI = 400  # extents are rounded to pixels
 TOUCH_IN = 0.01
@@ -144,17 +144,10 @@ def limit_state(name, words, capacity):
 
 
 def test_in_the_accuracy_of_every_method_against_run_time(drawn):
-    errors = {
-        f"{name}_error_{unit}": 0.5 for name in ("prd", "residual") for unit in ("m", "percent")
-    }
-    points = [
-        WorkPoint(
-            method=name, setting=1.0, parameters={}, record="RM1", scene="a", seconds=1e-5,
-            status=Status.OK, **errors,
-        )
-        for name in METHODS
-    ]  # fmt: skip
-    work.overview(points, "percent", 1e-12)
+    runs = pd.DataFrame({"method": [*METHODS], "setting": 1.0, "time per run [s]": 1e-5})
+    for error in ("PRD error [%]", "residual error [%]"):
+        runs[error] = 0.5
+    work.overview(runs, "%", 1e-12)
     assert not list(faults(drawn))
 
 

@@ -7,7 +7,7 @@ import pytest
 from solver.records.record import read_only
 from solver.sliding import two_axes
 from solver.verification import model_checks
-from solver.verification.checks import SECTIONS
+from solver.verification.evidence import SECTIONS
 from solver.verification.triples import own_triples
 
 

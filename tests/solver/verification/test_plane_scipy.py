@@ -42,13 +42,11 @@ def test_regularized_friction_creeps_as_its_closed_form_says():
     scene, v0 = stopped_scene(), 1e-3
     outcome = plane_scipy.regularized(scene, "Radau", v0, 1e-6)
     share = 2.0 / (0.4 * scene.g_mps2)
-    assert outcome.followed
     assert outcome.end_speed_mps == pytest.approx(v0 * math.atanh(share), rel=1e-4)
 
 
 def test_a_general_solver_does_not_get_past_the_jump_of_friction(monkeypatch):
     monkeypatch.setattr(plane_scipy, "EVALUATIONS", 5000)
     outcome = plane_scipy.regularized(stopped_scene(), "DOP853", 0.0, 1e-6)
-    assert not outcome.followed
-    assert outcome.evaluations > 5000
+    assert outcome.steps > 5000
     assert np.isnan([outcome.prd_m, outcome.end_m[0]]).all()

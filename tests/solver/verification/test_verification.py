@@ -4,6 +4,7 @@ import dataclasses
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import oracle
@@ -11,7 +12,7 @@ import verified
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
 from solver.verification import checks, crosschecks, paper_studies, plane_scipy, reference, study
-from solver.verification.evidence import DesignCurves, percent_off
+from solver.verification.evidence import ROUNDING, Check, DesignCurves, percent_off
 from solver.verification.features import FEATURES, statuses
 from solver.verification.scenes import Case, near_fault_pulse, own_records, scale_to, shortened
 
@@ -82,7 +83,7 @@ def test_a_solver_that_is_a_millionth_off_fails_the_checks_that_see_it(monkeypat
 
     for module in (checks, crosschecks):
         monkeypatch.setattr(module, "slide", wrong)
-    closed = [row for row in checks.closed_forms() if row.tolerance == checks.ROUNDING]
+    closed = [row for row in checks.closed_forms() if row.tolerance == ROUNDING]
     assert closed
     assert not any(row.passed for row in closed)
     assert not any(row.passed for row in crosschecks.fifty_digits(pulse) if row.expected != 0.0)
@@ -99,9 +100,9 @@ def test_a_method_without_a_number_fails_its_check(monkeypatch):
 
 
 def test_an_error_is_absolute_where_nothing_is_expected():
-    row = checks.check("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
+    row = Check("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
     assert (row.error, row.passed) == (3e-4, True)
-    assert checks.check("CF-1", "c", "d", "m", "b", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
+    assert Check("CF-1", "c", "d", "m", "b", 2.0, 2.1, 0.04).error == pytest.approx(0.05)
 
 
 @pytest.mark.parametrize("with_vertical", [False, True])
@@ -134,32 +135,30 @@ def test_errors_in_percent_have_a_floor_of_a_millimetre():
 
 @pytest.mark.nightly("solver/verification/")
 def test_the_papers_method_converges_at_first_order_under_an_envelope(verification):
-    for found in verification.convergence:
-        assert found.scenarios == 60
-        assert found.substeps == (1, 2, 4, 8, 16, 32, 64, 128, 256)
-        error = found.largest_error_exact_percent
+    assert len(paper_studies.CONVERGENCE_CASES) == 60
+    for found in verification.convergence.values():
+        assert found.index.tolist() == [1, 2, 4, 8, 16, 32, 64, 128, 256]
+        error, by_finest = (found[f"{name}_percent"].to_numpy() for name in ("exact", "finest"))
         # Not smoothly: an event falls differently on each grid.
         assert (error[3:] < 0.5 * error[:-3]).all()
         assert 16 < error[0] / error[6] < 1000
-        assert found.largest_error_p256_percent[-1] == 0.0
-        assert found.largest_error_p256_percent[:4] == pytest.approx(error[:4], rel=0.1)
-        assert (found.largest_error_of_prd_percent <= error * (1.0 + 1e-12)).all()
-        assert len(found.worst_cases) == len(found.substeps)
-        assert (found.longest_seconds > 0.0).all()
-    of_a_pulse = verification.convergence[1].largest_error_exact_percent
-    assert 0.01 < of_a_pulse[6] < 1.0  # 0.48 % in the paper
+        assert by_finest[-1] == 0.0
+        assert by_finest[:4] == pytest.approx(error[:4], rel=0.1)
+        assert (found["prd_percent"] <= error * (1.0 + 1e-12)).all()
+        assert found["worst_case"].str.contains("PPA").all()
+        assert (found["seconds"] > 0.0).all()
+    assert 0.01 < found.loc[64, "exact_percent"] < 1.0  # of a pulse; 0.48 % in the paper
 
 
 @pytest.mark.nightly("solver/verification/")
 def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
     for link in verification.links:
-        assert len(link.mus) == (10 if link.slope_deg == 0.0 else 6)
+        assert len(link.runs_m) == (10 if link.slope_deg == 0.0 else 6)
         assert link.mean_percent < link.worst_percent < 15.0  # 6.78 and 1.69 % in the paper
-        assert link.history_mu in link.mus
-        i = list(link.mus).index(link.history_mu)
-        assert abs(link.history_exact_m[-1]) == link.rrd_exact_m[i]
-        assert abs(link.history_link_m[-1]) == link.rrd_link_m[i]
-        assert (link.prd_exact_m >= link.rrd_exact_m - 1e-15).all()
+        run_m, end_m = link.runs_m.loc[link.history_mu], link.history_m.iloc[-1].abs()
+        assert end_m["exact"] == run_m["RRD, exact"]
+        assert end_m["link"] == run_m["RRD, link"]
+        assert (link.runs_m["PRD, exact"] >= link.runs_m["RRD, exact"] - 1e-15).all()
 
 
 @pytest.mark.nightly("solver/verification/")
@@ -188,7 +187,7 @@ def test_the_least_friction_is_read_off_between_the_runs():
 
 def test_studies_of_the_paper_give_the_same_every_time(pulse):
     link, other = (paper_studies.link_comparison(pulse, 4.0) for _ in range(2))
-    np.testing.assert_array_equal(link.history_link_m, other.history_link_m)
+    pd.testing.assert_frame_equal(link.history_m, other.history_m, check_exact=True)
     assert link.worst_percent == other.worst_percent
     first, second = (paper_studies.design_curves(pulse) for _ in range(2))
     np.testing.assert_array_equal(first.prd_m, second.prd_m)
@@ -197,4 +196,4 @@ def test_studies_of_the_paper_give_the_same_every_time(pulse):
 def test_a_link_that_never_comes_through_leaves_holes_and_no_error(pulse, monkeypatch):
     monkeypatch.setattr(paper_studies, "LINK_PER_M", 1e9)
     link = paper_studies.link_comparison(pulse, 4.0)
-    assert np.isnan([*link.prd_link_m, link.worst_percent, link.mean_percent]).all()
+    assert np.isnan([*link.runs_m["PRD, link"], link.worst_percent, link.mean_percent]).all()
