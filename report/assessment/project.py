@@ -38,7 +38,6 @@ from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, neighbors
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits, rule_set_of
-from report.assessment.rough import decided_at_coarse_tolerance, run_roughly
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
@@ -76,9 +75,7 @@ class Assessment:
     acceptance: Acceptance  # limits on the motions as run, at the roof
     # requirements beside the numeric limits, of the project, its motions and its arrays
     rows: tuple[Requirement, ...]
-    # the same with less friction, from runs that tell whether clearances are satisfied
-    # (`report.assessment.rough`); None in that one itself
-    at_reduced_friction: Assessment | None
+    at_reduced_friction: Assessment | None  # the same with less friction; None in that one itself
     # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
     # what `reassess` and `anticipate` give
     low_velocity: LowVelocityAssessment
@@ -204,23 +201,13 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
         # The runs with less friction follow without a pause, while motions and arrays are checked.
         reduced = with_friction(data, 1.0 - SHIFT)
         known = former.at_reduced_friction.arrays if former and former.at_reduced_friction else ()
-        rough = begin(run_roughly, reduced, check_models=False, former=known)
+        less = begin(run_motion, reduced, check_models=False, former=known)
         known = former.low_velocity.arrays if former else ()
         slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
-
-        def reduced_friction() -> Assessment:
-            found = whole(reduced, begun=rough)
-            decided = decided_at_coarse_tolerance(
-                reduced, found.rules, found.arrays, found.clearances
-            )
-            if len(decided) == len(found.arrays):
-                return found
-            exact = begin(run_motion, reduced, check_models=False, former=decided)
-            return whole(reduced, begun=exact)
-
-        return whole(data, begun=begun, slow=slow, reduced_friction=reduced_friction)
+        at_reduced_friction = partial(whole, reduced, begun=less)
+        return whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
 
 
 def reassess(given: Assessment, project: ProjectInput) -> Assessment:

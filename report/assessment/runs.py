@@ -15,7 +15,7 @@ from report.sheet.schema import Array, Direction, ModelChoice
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
-from solver.sliding.least_model import DEFAULT, Model, Settings, Solution
+from solver.sliding.least_model import Model, Settings, Solution
 
 REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
     ModelChoice.ONE_AXIS: Model.ONE_AXIS,
@@ -102,7 +102,6 @@ def run_motion(
     array: Array,
     motion: Motion,
     model: ModelChoice | None = None,
-    tolerance: float = DEFAULT.tolerance,
 ) -> MotionRun:
     """Run one array under one motion in all of its runs.
 
@@ -110,13 +109,8 @@ def run_motion(
     ----------
     model : Model, optional
         Replaces the model of the array.
-    tolerance : float
-        Of the solver, relative to the PRD.
     """
-    orientations = motion.orientations
-    return motion_run(
-        motion, [run_oriented(array, motion, h, model, tolerance) for h in orientations]
-    )
+    return motion_run(motion, [run_oriented(array, motion, h, model) for h in motion.orientations])
 
 
 def run_along(array: Array, motion: Motion, orientations: Sequence[Orientation]) -> MotionRun:
@@ -148,13 +142,12 @@ def run_oriented(
     motion: Motion,
     orientation: Orientation,
     model: ModelChoice | None = None,
-    tolerance: float = DEFAULT.tolerance,
 ) -> OrientedRun:
     """Run one array under one motion at one orientation; the rest as in `run_motion`."""
     forced = REQUESTED_MODELS.get(array.model if model is None else model)
-    settings = Settings(forced=forced, tolerance=tolerance)
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    return OrientedRun(orientation=orientation, scene=scene, solution=_solved(scene, settings))
+    solution = _solved(scene, Settings(forced=forced))
+    return OrientedRun(orientation=orientation, scene=scene, solution=solution)
 
 
 @memoized

@@ -116,7 +116,8 @@ def accuracy(given: Assessment) -> Accuracy:
     """Run the governing motion by every method, and all arrays with changed friction."""
     return Accuracy(
         rivals=rivals(given.governing),
-        at_reduced_friction=reassess(given, with_friction(given.project, 1.0 - SHIFT)),
+        at_reduced_friction=given.at_reduced_friction
+        or reassess(given, with_friction(given.project, 1.0 - SHIFT)),
         given=given,
         at_increased_friction=reassess(given, with_friction(given.project, 1.0 + SHIFT)),
     )

@@ -96,10 +96,6 @@ class Solution:
         Largest change of the PRD or of any excursion by the more complete models [m], from runs of
         them and including their errors; inf if such a run gives no displacement, NaN if the input
         has no data for a more complete model.
-    margin_m : float
-        Distance of the effects that decided between models from `Settings.bound_m` [m], less what
-        they may change by for the errors of the runs compared: where it is positive, runs without
-        error choose the same model. inf where no runs were compared.
     friction_demand : float
         Largest ratio of shear to normal force with no slip. The block slips if this exceeds the
         friction coefficient. inf if the normal force is zero or negative at a sample.
@@ -113,7 +109,6 @@ class Solution:
     next_model: Model
     next_effect_m: float
     friction_demand: float
-    margin_m: float = math.inf
     seconds: float = math.nan
 
     def __getattr__(self, name: str) -> Any:
@@ -183,23 +178,18 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
         why = "the motion has no other component"
         if scene.az_mps2.size or scene.ay_mps2.size:
             why = f"no other component changes a displacement by more than {_mm(bound)}"
-        solution = _along(scene, Model.ONE_AXIS, level, lesser, why, demand)
-    elif less <= bound:
+        return _along(scene, Model.ONE_AXIS, level, lesser, why, demand)
+    if less <= bound:
         why = (
             f"neglecting the vertical component changes a displacement by {_mm(lesser)}, more than "
             f"{_mm(bound)}"
         )
-        solution = _along(scene, Model.ONE_AXIS_VERTICAL, vertical, less, why, demand)
-    else:
-        why = (
-            f"neglecting the second horizontal component changes a displacement by {_mm(less)}, "
-            f"more than {_mm(bound)}"
-        )
-        solution = _followed(scene, Model.TWO_AXES, both, why, demand)
-    decisive = (lesser,) if lesser <= bound else (lesser, less)
-    # An effect is a difference from a run, with the error of that run: both change with it.
-    margin = min(abs(effect - bound) for effect in decisive) - 2.0 * both.error_m
-    return replace(solution, margin_m=margin)
+        return _along(scene, Model.ONE_AXIS_VERTICAL, vertical, less, why, demand)
+    why = (
+        f"neglecting the second horizontal component changes a displacement by {_mm(less)}, "
+        f"more than {_mm(bound)}"
+    )
+    return _followed(scene, Model.TWO_AXES, both, why, demand)
 
 
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:

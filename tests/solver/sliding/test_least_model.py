@@ -102,27 +102,6 @@ def test_what_is_left_out_changes_less_than_is_said_and_than_may_be(share, mu, s
         assert off(true, solution.result) <= solution.next_effect_m <= allowed
 
 
-@pytest.mark.parametrize("seed", range(12))
-def test_where_the_margin_is_positive_a_finer_tolerance_chooses_the_same_model(seed):
-    """The faint component is tuned to the criterion itself, where coarse runs may choose wrong."""
-    ax, ay = (shaking(number, 0.9 * G, 8.0) for number in (seed, seed + 100))
-    coarse, fine = Settings(tolerance=1e-3), Settings(tolerance=1e-8)
-    low, high = 0.0, 1.0
-    for _ in range(30):
-        middle = (low + high) / 2.0
-        chosen = solve(scene(ax, middle * ay), fine).model
-        low, high = (low, middle) if chosen is Model.TWO_AXES else (middle, high)
-    told = []
-    for share in (low, low * (1.0 - 1e-5), low * (1.0 - 1e-2), low * 0.5, low * 2.0, 1.0):
-        case = scene(ax, share * ay)
-        rough = solve(case, coarse)
-        told.append(rough.margin_m > 0.0)
-        if told[-1]:
-            assert rough.model is solve(case, fine).model
-    assert not told[0]
-    assert told[-1]
-
-
 def test_a_faint_push_that_stays_is_carried_along_the_path_and_is_not_left_out():
     """0.02 g across 0.8 g that repeats: 14 mm in one axis, 111 mm in two."""
     t = np.arange(round(20.0 / DT) + 1) * DT
