@@ -25,20 +25,18 @@ ALIKE = 1e-6
 """Relative difference up to which two results count as the same: rounding on another machine."""
 
 NOT_THERE = "—"
-_NO_TABLE: tuple[str, ...] = ()
-"""Key of what a section holds that is no table."""
 
-_Row = TypeVar("_Row", bound=Entity)
-_Pair = tuple[Entity | None, Entity | None]
-"""A row before and now; None where it is new, or gone."""
+_Row = TypeVar("_Row")
+_Pair = tuple[_Row | None, _Row | None]
+"""A row of either revision; None where it has none."""
 
 
 def changes(former: Compared, assessment: Assessment) -> Changes:
     """Return what changed from a former revision to this assessment."""
     now = compared(assessment)
     us_first = assessment.project.project.units_first.is_us
-    arrays, gone = _pairs(former.arrays, now.arrays, lambda row: (row.id,))
-    gaps, _ = _pairs(former.clearances, now.clearances, _gap_key)
+    arrays = _paired(now.arrays, former.arrays, lambda row: (row.id,)).values()
+    gaps = _paired(now.clearances, former.clearances, _gap_key).values()
     items = [
         *_one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set),
         *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
@@ -46,18 +44,24 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
         *_records(former, now),
         *_requirements(former, now),
         *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
-        *_results((*arrays, *gaps, *gone), UnitFormat(us_first=us_first)),
+        *_results((*arrays, *gaps), UnitFormat(us_first=us_first)),
     ]
     return Changes(
         revision=former.input.project.revision,
         date=former.input.project.date.isoformat(),
         items=tuple(sorted(items, key=lambda item: list(ChangeKind).index(item.kind))),
         arrays=frozenset(
-            row.id for old, row in arrays if any(_differing(old, row)) or any(_numbers(old, row))
+            row.id
+            for row, old in arrays
+            if row and (any(_differing(row, old)) or any(_numbers(row, old)))
         ),
-        values=frozenset((row.id, name) for old, row in arrays for name in _numbers(old, row)),
+        values=frozenset(
+            (row.id, name) for row, old in arrays if row for name in _numbers(row, old)
+        ),
         clearances=frozenset(
-            number for number, (old, gap) in enumerate(gaps, start=1) if any(_differing(old, gap))
+            number
+            for number, (gap, old) in enumerate(gaps, start=1)
+            if gap and any(_differing(gap, old))
         ),
     )
 
@@ -67,8 +71,17 @@ def _one(kind: ChangeKind, title: str, before: str, now: str, cell: str = "") ->
         yield Change(kind=kind, title=title, before=before, now=now, cell=cell)
 
 
-def _keyed(rows: Sequence[Any], key: Any) -> dict[tuple[str, ...], Any]:
-    """Return rows by key; equal keys are numbered."""
+def _paired(
+    rows: Iterable[_Row], others: Iterable[_Row], key: Callable[[_Row], tuple[str, ...]]
+) -> Mapping[tuple[str, ...], _Pair[_Row]]:
+    """Return the rows of two revisions by key; equal keys are numbered."""
+    one, other = (_keyed(each, key) for each in (rows, others))
+    return {name: (one.get(name), other.get(name)) for name in one | other}
+
+
+def _keyed(
+    rows: Iterable[_Row], key: Callable[[_Row], tuple[str, ...]]
+) -> dict[tuple[str, ...], _Row]:
     seen: Counter[tuple[str, ...]] = Counter()
     keyed = {}
     for row in rows:
@@ -84,21 +97,16 @@ def _gap_key(row: Any) -> tuple[str, ...]:
 
 def _inputs(former: Compared, assessment: Assessment, us_first: bool) -> Iterator[Change]:
     for section in SECTIONS:
-        data = (getattr(one, section.key) for one in (former.input, assessment.project))
-        if section.is_table:
-            olds, news = (_keyed(rows, _row_key) for rows in data)
-        else:
-            olds, news = ({_NO_TABLE: row} for row in data)
-        for index, (key, row) in enumerate(news.items()):
-            cells = _cells(section, index, assessment)
-            if key in olds:
-                yield from _fields(_name(section, key), olds[key], row, cells, us_first)
+        now, before = (getattr(data, section.key) for data in (assessment.project, former.input))
+        rows = _paired(now, before, _row_key) if section.is_table else {(): (now, before)}
+        for index, (key, (row, old)) in enumerate(rows.items()):
+            name, cells = _name(section, key), _cells(section, index, assessment)
+            if row is None:
+                yield _input(name, "given", "removed", "")
+            elif old is None:
+                yield _input(name, NOT_THERE, "added", next(filter(None, cells.values()), ""))
             else:
-                first = next(filter(None, cells.values()), "")
-                yield _input(_name(section, key), NOT_THERE, "added", first)
-        for key in olds:
-            if key not in news:
-                yield _input(_name(section, key), "given", "removed", "")
+                yield from _fields(name, old, row, cells, us_first)
 
 
 def _input(title: str, before: str, now: str, cell: str) -> Change:
@@ -165,43 +173,21 @@ def _shown(entry: Entry, value: Any, us_first: bool) -> str:
 
 
 def _records(former: Compared, now: Compared) -> Iterator[Change]:
-    olds, news = (
-        {(row.motion, row.component): f"{row.name}, SHA-256 {row.sha256}" for row in one.records}
-        for one in (former, now)
-    )
-    for key in dict.fromkeys((*olds, *news)):
-        shown = (rows.get(key, NOT_THERE) for rows in (olds, news))
-        yield from _one(ChangeKind.RECORD, " ".join(key), *shown)
-
-
-def _pairs(
-    olds: Sequence[_Row], news: Sequence[_Row], key: Callable[[_Row], tuple[str, ...]]
-) -> tuple[Sequence[tuple[_Row | None, _Row]], Sequence[tuple[_Row, None]]]:
-    """Return the rows of now, each with that before, and those that are gone."""
-    before, now = _keyed(olds, key), _keyed(news, key)
-    return (
-        [(before.get(name), row) for name, row in now.items()],
-        [(row, None) for name, row in before.items() if name not in now],
-    )
+    pairs = _paired(former.records, now.records, lambda row: (row.motion, row.component))
+    for (motion, component, _), pair in pairs.items():
+        shown = (f"{row.name}, SHA-256 {row.sha256}" if row else NOT_THERE for row in pair)
+        yield from _one(ChangeKind.RECORD, f"{motion} {component}", *shown)
 
 
 def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
     """Yield the rows whose verdict changed; a row that is not there any more is satisfied."""
-
-    def key(row: Any) -> tuple[str, ...]:
-        return (row.subject, row.title)
-
-    olds, news = (_keyed(one.requirements, key) for one in (former, now))
-    for name in dict.fromkeys((*olds, *news)):
-        shown = (
-            f"{rows[name].found}: {rows[name].verdict.word}" if name in rows else NOT_THERE
-            for rows in (olds, news)
-        )
-        title = ", ".join(part for part in name[:2] if part)
-        yield from _one(ChangeKind.REQUIREMENT, title, *shown)
+    pairs = _paired(former.requirements, now.requirements, lambda row: (row.subject, row.title))
+    for (subject, title, _), pair in pairs.items():
+        shown = (f"{row.found}: {row.verdict.word}" if row else NOT_THERE for row in pair)
+        yield from _one(ChangeKind.REQUIREMENT, f"{subject}, {title}".removeprefix(", "), *shown)
 
 
-def _differing(old: Entity | None, row: Entity | None) -> Iterator[tuple[str, Told]]:
+def _differing(row: Entity | None, old: Entity | None) -> Iterator[tuple[str, Told]]:
     """Yield the fields of a row, or of one that is new or gone, that changed."""
     either = row or old
     for name, told in marks_of(type(either), Told) if either else ():
@@ -218,9 +204,9 @@ def _alike(before: Any, now: Any) -> bool:
     return math.isclose(before, now, rel_tol=ALIKE)
 
 
-def _numbers(old: ArrayResult | None, row: ArrayResult) -> Iterator[str]:
+def _numbers(row: ArrayResult, old: ArrayResult | None) -> Iterator[str]:
     """Yield the key, or the motion, of each number of an array that changed."""
-    for name, _ in _differing(old, row):
+    for name, _ in _differing(row, old):
         if isinstance(getattr(row, name), float):
             yield name
     peaks = {peak.motion: peak.any_m for peak in old.peaks} if old else {}
@@ -229,10 +215,10 @@ def _numbers(old: ArrayResult | None, row: ArrayResult) -> Iterator[str]:
             yield peak.motion
 
 
-def _results(pairs: Iterable[_Pair], fmt: UnitFormat) -> Iterator[Change]:
-    """Yield the changes that are listed of rows."""
-    for old, row in pairs:
-        for name, told in _differing(old, row):
+def _results(pairs: Iterable[_Pair[Entity]], fmt: UnitFormat) -> Iterator[Change]:
+    """Yield the changes that are listed of rows; those that are gone come last."""
+    for row, old in sorted(pairs, key=lambda pair: pair[0] is None):
+        for name, told in _differing(row, old):
             if told.kind and (old or told.of_new) and (row or told.of_gone):
                 title = told.title.format(row=row or old)
                 yield from _one(told.kind, title, *_texts(old, row, name, fmt))
