@@ -19,7 +19,7 @@ from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.entities.cells import Column, Told
 from report.entities.marks import Marked
-from report.entities.requirement import LimitResult, limit_result
+from report.entities.requirement import LimitResult
 from report.entities.run import PeakResult, RunResult, peak_result, run_result
 from report.entities.shown import (
     Entity,
@@ -270,10 +270,6 @@ def array_result(
         friction_as_run=mu_words(item.array.friction),
         directions={direction: direction_result(item, direction) for direction in item.directions},
         peaks=tuple(map(peak_result, item.motions)),
-        uplift=UpliftResult.of(item.uplift),
-        checks=tuple(map(limit_result, item.checks)),
-        analysis_checks=tuple(map(limit_result, item.analysis_checks)),
-        prescriptive_checks=tuple(map(limit_result, item.prescriptive_checks)),
         runs=tuple(run_result(motion, run) for motion in item.motions for run in motion.runs),
     )
 

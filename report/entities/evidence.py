@@ -6,16 +6,22 @@ Computes nothing: see `report.assessment.evidence`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator
 
 from report.assessment.cumulative import Cumulative
-from report.assessment.neighbors import NearbyKind, PlanNeighbor
+from report.assessment.neighbors import NearbyKind
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
 from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, at
 from solver.model import Status
 
 _UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m", RemedyKind.S_DS: "_g"}
+
+
+def _cells(rows: Any) -> tuple[str, ...]:
+    return tuple(getattr(row, "cell", row) for row in rows)
 
 
 class RemedyResult(Entity):
@@ -59,7 +65,7 @@ class NeighborResult(Entity):
     is_missing: bool
     add_to: Annotated[str, at("to_add")]
     given: tuple[GivenResult, ...]
-    contradictions: tuple[str, ...]
+    contradictions: Annotated[tuple[str, ...], BeforeValidator(_cells)]
 
 
 class SurfaceResult(Entity):
@@ -148,11 +154,6 @@ def uncertainty_result(item: Uncertainty) -> UncertaintyResult:
         ),
         angles=AnglesResult.of(item),
     )
-
-
-def neighbor_result(item: PlanNeighbor) -> NeighborResult:
-    """Return a neighbor."""
-    return NeighborResult.of(item, contradictions=tuple(row.cell for row in item.contradictions))
 
 
 def cumulative_result(item: Cumulative) -> CumulativeResult:

@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any
 
+from pydantic import BeforeValidator, model_validator
+
 from report.assessment.verdict import Requirement, Verdict
 from report.entities.cells import Column
-from report.entities.shown import Entity, OfUnit, centered, words
+from report.entities.shown import LEFT_OUT, Beside, Entity, OfUnit, at, centered, words
 from report.sheet.checking.findings import located
 from report.sheet.schema.fields import Finding, Level, Place
 from solver.rules.limit import Consequence, Limit
@@ -52,14 +54,23 @@ class _FoundAndLimit(Entity):
     limit_m: OfUnit
     limit_s: OfUnit
 
+    @model_validator(mode="before")
+    @classmethod
+    def _with_units(cls, row: Any) -> Any:
+        if not isinstance(row, Limit):
+            return row
+        unit = f"_{row.measure.unit}".rstrip("_")
+        plain = {"found": LEFT_OUT, "limit": LEFT_OUT}
+        return Beside(row, plain | {f"found{unit}": row.found, f"limit{unit}": row.limit})
+
 
 class LimitResult(_FoundAndLimit):
     """A limit of the rule set, with the value found."""
 
-    clause: str
-    is_overridden: bool
+    clause: Annotated[str, at("provision.clause")]
+    is_overridden: Annotated[bool, at("provision.reason"), BeforeValidator(bool)]
     ok: bool
-    by_exception: bool
+    by_exception: Annotated[bool, at("passes_by_exception")]
 
 
 class AcceptanceResult(_FoundAndLimit):
@@ -67,7 +78,7 @@ class AcceptanceResult(_FoundAndLimit):
 
     is_at_least: bool
     worst: str
-    is_in_no_code: bool
+    is_in_no_code: Annotated[bool, at("is_program_limit")]
     ok: bool
     consequence: Consequence
 
@@ -85,32 +96,3 @@ def requirement_rows(requirements: Iterable[Requirement]) -> Iterator[Requiremen
     """Yield requirements as rows of a table."""
     for row in requirements:
         yield RequirementRow.of(row, subject=row.subject or "Project")
-
-
-def limit_result(row: Limit) -> LimitResult:
-    """Return a limit of the rule set."""
-    return LimitResult(
-        **_compared(row),
-        clause=row.provision.clause,
-        is_overridden=bool(row.provision.reason),
-        ok=row.ok,
-        by_exception=row.passes_by_exception,
-    )
-
-
-def acceptance_result(row: Limit) -> AcceptanceResult:
-    """Return a limit on the motions."""
-    return AcceptanceResult(
-        **_compared(row),
-        is_at_least=row.is_at_least,
-        worst=row.worst,
-        is_in_no_code=row.is_program_limit,
-        ok=row.ok,
-        consequence=row.consequence,
-    )
-
-
-def _compared(row: Limit) -> dict[str, Any]:
-    """Return the value found and the limit, with the unit in the keys."""
-    unit = f"_{row.measure.unit}".rstrip("_")
-    return {"title": row.title, f"found{unit}": row.found, f"limit{unit}": row.limit}

@@ -5,8 +5,11 @@ Computes nothing. Read `Results`; `report.results.json` writes it, `report.resul
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib.metadata import version
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
+
+from pydantic import BeforeValidator
 
 from report.assessment.evidence import Evidence
 from report.assessment.precheck import findings
@@ -20,7 +23,6 @@ from report.entities.evidence import (
     RemedyResult,
     UncertaintyResult,
     cumulative_result,
-    neighbor_result,
     remedy_result,
     uncertainty_result,
 )
@@ -30,11 +32,9 @@ from report.entities.requirement import (
     AcceptanceResult,
     FindingResult,
     LimitResult,
-    acceptance_result,
     finding_results,
-    limit_result,
 )
-from report.entities.shown import Entity, WrittenSchema
+from report.entities.shown import Entity, WrittenSchema, at
 from report.sheet.schema import ProjectInput
 
 SCHEMA_VERSION = 2
@@ -44,26 +44,30 @@ SCHEMA_VERSION = 2
 class WorkbookResult(Entity):
     """The workbook that was assessed."""
 
-    name: str
+    name: Annotated[str, at("path.name")]
     sha256: str
+
+
+def _in_order(gaps: Any) -> Any:
+    return tuple(gaps.values()) if isinstance(gaps, Mapping) else gaps
 
 
 class LowVelocity(Entity):
     """Arrays with their low-velocity friction coefficients alone, and clearances beside them."""
 
     arrays: tuple[LowVelocityResult, ...]
-    clearances: tuple[ClearanceResult, ...]
+    clearances: Annotated[tuple[ClearanceResult, ...], BeforeValidator(_in_order)]
 
 
 class Compared(Entity):
     """What a later revision is compared with."""
 
     roofslip_version: str
-    records: tuple[RecordResult, ...]
-    input: ProjectInput
-    rule_set: str
+    records: Annotated[tuple[RecordResult, ...], at("shaking.records")]
+    input: Annotated[ProjectInput, at("project")]
+    rule_set: Annotated[str, at("rules.name")]
     verdict: Verdict
-    requirements: tuple[Requirement, ...]
+    requirements: Annotated[tuple[Requirement, ...], at("rows")]
     arrays: tuple[ArrayResult, ...]
     clearances: tuple[ClearanceResult, ...]
 
@@ -77,16 +81,16 @@ class Results(Compared):
     )  # fmt: skip
 
     schema_version: int
-    workbook: WorkbookResult
+    workbook: Annotated[WorkbookResult, at("sheet")]
     motions: tuple[MotionResult, ...]
-    s_ds_g: float
+    s_ds_g: Annotated[float, at("project.site.s_ds")]
     sdc_is_confirmed: bool
     warnings: tuple[str, ...]
     findings: tuple[FindingResult, ...]
     building_checks: tuple[LimitResult, ...]
     low_velocity: LowVelocity
     linked: tuple[LinkedResult, ...]
-    acceptance: tuple[AcceptanceResult, ...]
+    acceptance: Annotated[tuple[AcceptanceResult, ...], at("acceptance.rows")]
     neighbors: tuple[NeighborResult, ...]
     remedies: tuple[RemedyResult, ...]
     certainty: UncertaintyResult
@@ -106,35 +110,21 @@ def compared(assessment: Assessment) -> Compared:
 def _compared(assessment: Assessment) -> dict[str, Any]:
     return {
         "roofslip_version": version("roofslip"),
-        "records": assessment.shaking.records,
-        "input": assessment.project,
-        "rule_set": assessment.rules.name,
-        "requirements": assessment.rows,
         "arrays": tuple(array_result(assessment, item) for item in assessment.arrays),
     }
 
 
 def results(assessment: Assessment, evidence: Evidence) -> Results:
     """Return an assessment and its evidence as one document."""
-    sheet, shaking, site = assessment.sheet, assessment.shaking, assessment.project.site
-    slow = assessment.low_velocity
+    sheet, shaking = assessment.sheet, assessment.shaking
     return Results.of(
         assessment,
         **_compared(assessment),
         schema_version=SCHEMA_VERSION,
-        workbook=WorkbookResult(name=sheet.path.name, sha256=sheet.sha256),
         motions=tuple(map(motion_result, shaking.motions, shaking.prepared)),
-        s_ds_g=site.s_ds,
-        sdc_is_confirmed=not site.sdc_lacks,
+        sdc_is_confirmed=not assessment.project.site.sdc_lacks,
         findings=tuple(finding_results(findings(sheet, shaking), sheet.addresses)),
-        building_checks=tuple(map(limit_result, assessment.building_checks)),
-        low_velocity=LowVelocity(
-            arrays=tuple(map(LowVelocityResult.of, slow.arrays)),
-            clearances=tuple(map(ClearanceResult.of, slow.clearances.values())),
-        ),
         linked=tuple(map(linked_result, assessment.linked)),
-        acceptance=tuple(map(acceptance_result, assessment.acceptance.rows)),
-        neighbors=tuple(map(neighbor_result, assessment.neighbors)),
         remedies=tuple(map(remedy_result, evidence.remedies)),
         certainty=uncertainty_result(evidence.uncertainty),
         cumulative=tuple(map(cumulative_result, evidence.cumulative)),

@@ -45,8 +45,8 @@ class OrientedResult(Entity):
 class RunResult(OrientedResult):
     """An array under a motion with one component along the slope, in one polarity."""
 
-    scale: Annotated[float, Column("Scale")]
-    dt_s: float
+    scale: Annotated[float, at("scene.scale"), Column("Scale")]
+    dt_s: Annotated[float, at("scene.dt_s")]
     status: Annotated[Status, at("result.status"), Column("Outcome", value=attrgetter("sentence"))]
     prd_m: Annotated[Number, at("result.prd_m"), Column("PRD [in]"), Column("PRD [mm]")]
     residual_m: Annotated[
@@ -85,5 +85,4 @@ def peak_result(motion: MotionRun) -> PeakResult:
 
 def run_result(motion: MotionRun, run: OrientedRun) -> RunResult:
     """Return a run of a motion."""
-    about = motion.motion
-    return RunResult.of(run, motion=about.id, scale=about.scale, dt_s=about.dt_s)
+    return RunResult.of(run, motion=motion.motion.id)

@@ -163,7 +163,7 @@ class Entity(BaseModel):
 
         A field takes the attribute with its name, or what is on the path that `at` gives.
         """
-        return cls.model_validate(_Beside(item, more))
+        return cls.model_validate(Beside(item, more))
 
     def styled(self, style: str) -> Self:
         """Return the entity as a row of a style."""
@@ -206,14 +206,21 @@ class WrittenSchema(GenerateJsonSchema):
         return not field.get("serialization_exclude")
 
 
-class _Beside:
-    """The attributes of an item, and others beside them."""
+LEFT_OUT = object()
+"""Hides an attribute of an item: its field keeps the default."""
+
+
+class Beside:
+    """The attributes of an item, and others beside them or in place of them."""
 
     def __init__(self, item: object, more: Mapping[str, Any]) -> None:
         self._item, self._more = item, more
 
     def __getattr__(self, name: str) -> Any:
-        return self._more[name] if name in self._more else getattr(self._item, name)
+        found = self._more[name] if name in self._more else getattr(self._item, name)
+        if found is LEFT_OUT:
+            raise AttributeError(name)
+        return found
 
 
 @cache
