@@ -42,7 +42,29 @@ class Route(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ArrayAssessment:
+class RouteLimits:
+    """The limits of an array, which follow from the input alone, and the route that they leave."""
+
+    checks: tuple[Limit, ...]  # limits that apply to both routes
+    # limits of each route
+    analysis_checks: tuple[Limit, ...]
+    prescriptive_checks: tuple[Limit, ...]
+    route: Route  # by which the design displacement is obtained
+
+    @property
+    def of_route(self) -> tuple[Limit, ...]:
+        """The limits of the route taken alone."""
+        is_analysis = self.route is Route.ANALYSIS
+        return self.analysis_checks if is_analysis else self.prescriptive_checks
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Every limit that must be satisfied on the route taken."""
+        return (*self.checks, *self.of_route)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrayAssessment(RouteLimits):
     """One array: its runs, the value from analysis, the prescriptive value, the design value."""
 
     array: Array
@@ -55,7 +77,6 @@ class ArrayAssessment:
     needed: tuple[MotionRun, ...]  # the runs for `chosen`, in the order of `motions`
     prescriptive: Prescriptive
     floor_m: float  # minimum design displacement without peer review [m]; 0 with peer review
-    route: Route  # by which the design displacement is obtained
     # whether the route is permitted: its limits are satisfied, and by analysis those on the motions
     is_permitted: bool
     # design displacement [m]. By analysis: the larger of the value from analysis and the floor. By
@@ -66,10 +87,6 @@ class ArrayAssessment:
     by_direction: bool
     tipping: Tipping  # of the run nearest to tipping
     uplift: Uplift  # of the run with the smallest normal force
-    checks: tuple[Limit, ...]  # limits that apply to both routes
-    # limits of each route
-    analysis_checks: tuple[Limit, ...]
-    prescriptive_checks: tuple[Limit, ...]
     interconnection_n: float  # required strength between the parts of the array [N]
     # the same under the rule set as adopted, where the workbook overrides it or departs from it
     adopted: ArrayAssessment | None
@@ -112,15 +129,6 @@ class ArrayAssessment:
     def permitted_toward_m(self, direction: Direction) -> float:
         """Return the same for a clearance in a direction [m]."""
         return self.design_toward_m(direction) if self.is_permitted else math.nan
-
-    @property
-    def limits(self) -> tuple[Limit, ...]:
-        """Every limit that must be satisfied on the route taken."""
-        of_route = {
-            Route.ANALYSIS: self.analysis_checks,
-            Route.PRESCRIPTIVE: self.prescriptive_checks,
-        }
-        return (*self.checks, *of_route[self.route])
 
     def design_toward_m(self, direction: Direction) -> float:
         """Return the design displacement for a clearance in a direction [m].
@@ -204,27 +212,6 @@ class ArrayAssessment:
         return max(self.motions, key=lambda run: nan_is_worst(run.governing.prd_m))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RouteLimits:
-    """The limits of an array that follow from the input alone, and the route that they leave."""
-
-    # limits of both routes, and of each
-    both: tuple[Limit, ...]
-    analysis: tuple[Limit, ...]
-    prescriptive: tuple[Limit, ...]
-    route: Route
-
-    @property
-    def of_route(self) -> tuple[Limit, ...]:
-        """The limits of the route taken."""
-        return self.analysis if self.route is Route.ANALYSIS else self.prescriptive
-
-    @property
-    def on_route(self) -> tuple[Limit, ...]:
-        """Every limit that must be satisfied on the route taken."""
-        return (*self.both, *self.of_route)
-
-
 def limits_of(
     data: ProjectInput, rules: RuleSet, array: Array, *, n_motions: int, has_value: bool
 ) -> RouteLimits:
@@ -247,15 +234,15 @@ def limits_of(
         rules, slope_rad=array.slope_rad, mu=array.minimum_mu
     )
     return RouteLimits(
-        both=provisions.array_checks(
+        checks=provisions.array_checks(
             rules,
             cg_height_m=array.cg_height_m,
             support_spacing_m=array.support_spacing_m,
             base_m=array.base_dimension_m,
             slope_rad=array.slope_rad,
         ),
-        analysis=analysis,
-        prescriptive=prescriptive,
+        analysis_checks=analysis,
+        prescriptive_checks=prescriptive,
         route=_route(has_value, analysis, prescriptive),
     )
 
@@ -321,9 +308,9 @@ def assess_array(
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),
         uplift=uplift(min((run.scene for run in each), key=minimum_normal_mps2)),
-        checks=limits.both,
-        analysis_checks=limits.analysis,
-        prescriptive_checks=limits.prescriptive,
+        checks=limits.checks,
+        analysis_checks=limits.analysis_checks,
+        prescriptive_checks=limits.prescriptive_checks,
         interconnection_n=interconnection_n(data, rules, array),
         # The input itself, if it has no override and no departure.
         adopted=None

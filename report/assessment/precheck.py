@@ -55,14 +55,6 @@ def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     )
 
 
-def limits_before_runs(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
-    """Return the limits and requirements that no run is needed for, each at its cell.
-
-    What depends on a displacement, such as a clearance, is not among them.
-    """
-    return tuple(_limits_before_runs(sheet.project, shaking))
-
-
 def rule_set_of(data: ProjectInput) -> RuleSet:
     """Return the rule set of a project with its overrides.
 
@@ -107,7 +99,11 @@ def limit_words(check: Limit, us_first: bool) -> str:
     return f"{lowered(check.title)}: {value}; {wanted} ({check.provision.clause})"
 
 
-def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
+def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
+    """Yield the limits and requirements that no run is needed for, each at its cell.
+
+    What depends on a displacement, such as a clearance, is not among them.
+    """
     rules, us_first = rule_set_of(data), data.project.units_first.is_us
     for check in building_limits(data, rules):
         yield from _limit(check, "site", 0, us_first)
@@ -127,10 +123,12 @@ def _limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Findin
         for array in data.arrays
     ]
     for index, limits in enumerate(routes):
-        for check in limits.on_route:
+        for check in limits.limits:
             yield from _limit(check, "arrays", index, us_first)
         if limits.route is Route.PRESCRIPTIVE:
-            failed = [limit_words(check, us_first) for check in limits.analysis if not check.ok]
+            failed = [
+                limit_words(check, us_first) for check in limits.analysis_checks if not check.ok
+            ]
             why = "; ".join(failed) or lacking or "the motions do not qualify"
             text = f"array {data.arrays[index].id} takes the prescriptive displacement: {why}"
             yield note(Place("arrays", index, "slope_value"), text)

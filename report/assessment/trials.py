@@ -98,7 +98,7 @@ class Trials:
         self._pool = pool
         self._runs = runs
         self._was_permitted = _is_permitted(array)
-        self._done: dict[tuple[str, int, int], ArrayAssessment] = {}
+        self._done: dict[tuple[int, int, bool], ArrayAssessment] = {}
 
     def satisfies(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
         """Whether all runs have final values and satisfy a clearance, if any.
@@ -109,48 +109,31 @@ class Trials:
             Friction coefficient and S_DS in hundredths; 0 for those given.
         """
         # The governing orientations alone refute a value at a quarter of the runs.
-        return self._passes(self.governing(mu, s_ds), row, s_ds) and self._passes(
-            self.complete(mu, s_ds), row, s_ds
-        )
+        return self.may_satisfy(row, mu=mu, s_ds=s_ds) and self._passes(row, mu, s_ds, every=True)
 
-    def may_satisfy(self, row: Clearance, *, mu: int) -> bool:
+    def may_satisfy(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
         """Whether the governing orientation of each motion alone satisfies a clearance."""
-        return self._passes(self.governing(mu, 0), row, 0)
+        return self._passes(row, mu, s_ds, every=False)
 
     def required_m(self, row: Clearance, *, mu: int) -> float:
         """Return the separation that the array requires with all runs [m]."""
-        return single_array_check(
-            self.given, self.given.project, self.complete(mu, 0), row
-        ).required_m
+        trial = self._tried(mu, 0, every=True)
+        return single_array_check(self.given, self.given.project, trial, row).required_m
 
-    def governing(self, mu: int, s_ds: int) -> ArrayAssessment:
-        """Return the array with the governing orientation of each motion only."""
-        given = self.array.array
-        array = with_mu(given, mu / 100) if mu else given
-        share = s_ds / 100 / self.given.project.site.s_ds if s_ds else 1.0
-        first = partial(_first_run, array, share)
-        return self._assessed(("governing", mu, s_ds), array, first, self.array.motions)
+    def _passes(self, row: Clearance | None, mu: int, s_ds: int, *, every: bool) -> bool:
+        trial = self._tried(mu, s_ds, every=every)
+        if not is_final(trial) or (self._was_permitted and not _is_permitted(trial)):
+            return False
+        return row is None or single_array_check(self.given, self._data(s_ds), trial, row).ok
 
-    def complete(self, mu: int, s_ds: int) -> ArrayAssessment:
-        """Return the array with all runs."""
-        first = self.governing(mu, s_ds)
-        others = partial(_other_runs, first.array)
-        which = ("all", mu, s_ds)
-        return self._assessed(which, first.array, others, self.array.motions, first.motions)
-
-    def _assessed(
-        self,
-        which: tuple[str, int, int],
-        array: Array,
-        run: Callable[..., MotionRun],
-        *of: Sequence[MotionRun],
-    ) -> ArrayAssessment:
-        """Return an array with runs of all motions, which one with the same as given may have."""
-        *_, s_ds = which
+    def _tried(self, mu: int, s_ds: int, *, every: bool) -> ArrayAssessment:
+        """Return the array with all runs, or with the governing orientation of each motion only."""
+        which = (mu, s_ds, every)
         if which not in self._done:
-            key = which, scene_key(self.array.array)
+            given = self.array.array
+            array, key = with_mu(given, mu / 100) if mu else given, (which, scene_key(given))
             if key not in self._runs:
-                self._runs[key] = tuple(self._pool.map(run, *of))
+                self._runs[key] = self._run(array, *which)
             self._done[which] = assess_array(
                 self._data(s_ds),
                 self.given.rules,
@@ -161,10 +144,12 @@ class Trials:
             )
         return self._done[which]
 
-    def _passes(self, trial: ArrayAssessment, row: Clearance | None, s_ds: int) -> bool:
-        if not is_final(trial) or (self._was_permitted and not _is_permitted(trial)):
-            return False
-        return row is None or single_array_check(self.given, self._data(s_ds), trial, row).ok
+    def _run(self, array: Array, mu: int, s_ds: int, every: bool) -> tuple[MotionRun, ...]:
+        if every:
+            first = self._tried(mu, s_ds, every=False)
+            return tuple(self._pool.map(partial(_other_runs, array), first.motions))
+        share = s_ds / 100 / self.given.project.site.s_ds if s_ds else 1.0
+        return tuple(self._pool.map(partial(_first_run, array, share), self.array.motions))
 
     def _data(self, s_ds: int) -> ProjectInput:
         return with_s_ds(self.given.project, s_ds / 100) if s_ds else self.given.project
@@ -181,11 +166,10 @@ def _first_run(array: Array, share: float, run: MotionRun) -> MotionRun:
     return motion_run(motion, [run_oriented(array, motion, run.governing.orientation)])
 
 
-def _other_runs(array: Array, given: MotionRun, first: MotionRun) -> MotionRun:
-    done = first.governing.orientation
-    others = (orientation for orientation in given.motion.orientations if orientation != done)
-    runs = (run_oriented(array, first.motion, orientation) for orientation in others)
-    return motion_run(first.motion, [first.governing, *runs])
+def _other_runs(array: Array, first: MotionRun) -> MotionRun:
+    motion, done = first.motion, first.governing
+    others = (each for each in motion.orientations if each != done.orientation)
+    return motion_run(motion, [done, *(run_oriented(array, motion, each) for each in others)])
 
 
 def with_s_ds(data: ProjectInput, s_ds_g: float) -> ProjectInput:

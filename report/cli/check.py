@@ -96,7 +96,7 @@ def checked(
             [
                 *what_is_new(sheet.book),
                 *typed_over,
-                *limits_before_runs(sheet, shaking),
+                *limits_before_runs(sheet.project, shaking),
                 *findings(sheet, shaking),
                 *_in_future(sheet, dt.date.today()),
             ]

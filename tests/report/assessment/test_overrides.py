@@ -95,7 +95,7 @@ def test_check_names_an_override_at_its_cell():
     made = stand_in.book(data, scenes.motions(7))
     places = [
         f.place
-        for f in limits_before_runs(made.sheet, made.shaking)
+        for f in limits_before_runs(made.sheet.project, made.shaking)
         if f.text.startswith("override")
     ]
     assert places == [Place("overrides", 0, "value"), Place("overrides", 2, "value")]

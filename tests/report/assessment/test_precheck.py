@@ -43,7 +43,7 @@ def test_check_and_report_name_the_same_limits_and_requirements(case):
     limits = [check for check in checks if not check.ok]
     rows = [row for row in assessment.conditions if row.id not in NEED_RUNS]
     slack = [a for a in assessment.arrays if a.array.slack_m is None]
-    listed = limits_before_runs(book.sheet, book.shaking)
+    listed = list(limits_before_runs(book.sheet.project, book.shaking))
     found = [f for f in listed if f.level is Level.WARNING]
     assert len(found) == len(limits) + len(rows) + len(slack)
     words = [finding.text for finding in found]
@@ -55,7 +55,7 @@ def test_check_and_report_name_the_same_limits_and_requirements(case):
 
 def findings(*given):
     book = stand_in.book(*given)
-    return limits_before_runs(book.sheet, book.shaking)
+    return list(limits_before_runs(book.sheet.project, book.shaking))
 
 
 def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledged():
