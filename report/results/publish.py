@@ -50,7 +50,7 @@ def publish(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) ->
         If the folder or a file in it cannot be written; then no file has changed.
     """
     files = {**files, STAMP: stamp(files)}
-    with _errors_of(folder):
+    try:
         folder.mkdir(parents=True, exist_ok=True)
         with locked(folder, wait_s):
             finish(folder)
@@ -60,6 +60,11 @@ def publish(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) ->
                 _forward(folder, staging)
             finally:
                 finish(folder)  # also what Ctrl+C cut off
+    except OSError as error:
+        raise InputError(
+            f"{folder}: cannot be written ({error.strerror}); free disk space, or choose another"
+            " folder with --out"
+        ) from error
 
 
 def stamp(files: Mapping[str, bytes]) -> bytes:
@@ -103,17 +108,6 @@ def check_writable(folder: Path) -> None:
 
 
 @contextmanager
-def _errors_of(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except OSError as error:
-        raise InputError(
-            f"{folder}: cannot be written ({error.strerror}); free disk space, or choose another"
-            " folder with --out"
-        ) from error
-
-
-@contextmanager
 def locked(folder: Path, wait_s: float = WAIT_S) -> Iterator[None]:
     """Hold the lock of a folder, which ends with its process.
 
@@ -143,22 +137,15 @@ def _try_lock(path: Path) -> int:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         # The process that had it may have removed the file since it was opened here.
-        if _is_at(lock, path):
+        if os.path.samestat(os.fstat(lock), path.stat()):
             return lock
-    except BlockingIOError:
+    except (BlockingIOError, FileNotFoundError):
         pass
     except OSError:
         os.close(lock)
         raise
     os.close(lock)
     return -1
-
-
-def _is_at(lock: int, path: Path) -> bool:
-    try:
-        return os.path.samestat(os.fstat(lock), path.stat())
-    except FileNotFoundError:
-        return False
 
 
 def _stage(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
@@ -185,7 +172,10 @@ def finish(folder: Path) -> None:
             _forward(folder, staging)
         elif (staging / _BACK).exists():
             _put_back(folder, staging)
-        _discard(staging)
+        # The journal first: without it what is left has no meaning.
+        for journal in (_FORWARD, _BACK):
+            (staging / journal).unlink(missing_ok=True)
+        shutil.rmtree(staging, ignore_errors=True)
 
 
 def _is_own(staging: Path) -> bool:
@@ -219,10 +209,3 @@ def _put_back(folder: Path, staging: Path) -> None:
             os.replace(staging / _OLD / name, folder / name)
         elif not had:
             (folder / name).unlink(missing_ok=True)
-
-
-def _discard(staging: Path) -> None:
-    # The journal first: without it what is left has no meaning.
-    for journal in (_FORWARD, _BACK):
-        (staging / journal).unlink(missing_ok=True)
-    shutil.rmtree(staging, ignore_errors=True)
