@@ -277,52 +277,40 @@ def _covered(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[float, floa
             yield min(found), max(found)
 
 
-Rows = Mapping[frozenset[str], tuple[GivenGap, ...]]
-"""Clearances of the workbook by the two ids that they are between."""
-
-
 def _pairs(
     data: ProjectInput, arrays: Sequence[ArrayAssessment], addresses: Mapping[Place, str]
 ) -> Iterator[PlanNeighbor]:
     rows = _rows(data, addresses)
-    clearances = addresses.get(Place("clearances"), "Clearances")
-    objects = addresses.get(Place("objects"), "Objects")
-    placed = [(item.id, item.placed) for item in data.objects if item.placed is not None]
+    for array, other, kind, far, reach_m in _candidates(data, arrays):
+        is_bare = kind is NearbyKind.BARE_EDGE
+        table = "objects" if is_bare else "clearances"
+        near = array.array.shape
+        yield PlanNeighbor(
+            array=array.id,
+            other=other,
+            kind=kind,
+            near=near,
+            far=far,
+            gap_m=gap_m(near, far),
+            reach_m=reach_m,
+            given=() if is_bare else rows.get(frozenset((array.id, other)), ()),
+            to_add=addresses.get(Place(table), table.capitalize()),
+        )
+
+
+def _candidates(
+    data: ProjectInput, arrays: Sequence[ArrayAssessment]
+) -> Iterator[tuple[ArrayAssessment, str, NearbyKind, Shape, float]]:
+    """Yield each array with what may be near it: its name, kind, shape and reach [m]."""
     edges = bare_edges(data)
     for a, b in combinations(arrays, 2):
-        reach_m, given = max(_reach_m(a), _reach_m(b)), rows.get(frozenset((a.id, b.id)), ())
-        yield _pair(a, b.id, NearbyKind.ARRAY, b.array.shape, reach_m, given, clearances)
+        yield a, b.id, NearbyKind.ARRAY, b.array.shape, max(_reach_m(a), _reach_m(b))
     for a in arrays:
-        reach_m = _reach_m(a)
-        for other, far in placed:
-            given = rows.get(frozenset((a.id, other)), ())
-            yield _pair(a, other, NearbyKind.OBJECT, far, reach_m, given, clearances)
+        for item in data.objects:
+            if item.placed is not None:
+                yield a, item.id, NearbyKind.OBJECT, item.placed, _reach_m(a)
         for edge in edges:
-            name = f"the {edge.name}"
-            yield _pair(a, name, NearbyKind.BARE_EDGE, edge.line, reach_m, (), objects)
-
-
-def _pair(
-    array: ArrayAssessment,
-    other: str,
-    kind: NearbyKind,
-    far: Shape,
-    reach_m: float,
-    given: tuple[GivenGap, ...],
-    to_add: str,
-) -> PlanNeighbor:
-    near = array.array.shape
-    return PlanNeighbor(
-        array=array.id,
-        other=other,
-        kind=kind,
-        near=near,
-        far=far,
-        gap_m=gap_m(near, far),
-        reach_m=reach_m,
-        given=given,
-        to_add=to_add,
-    )
+            yield a, f"the {edge.name}", NearbyKind.BARE_EDGE, edge.line, _reach_m(a)
 
 
 def _reach_m(array: ArrayAssessment) -> float:
@@ -330,7 +318,10 @@ def _reach_m(array: ArrayAssessment) -> float:
     return REACH_FACTOR * (array.prescriptive.value_m if math.isnan(design_m) else design_m)
 
 
-def _rows(data: ProjectInput, addresses: Mapping[Place, str]) -> Rows:
+def _rows(
+    data: ProjectInput, addresses: Mapping[Place, str]
+) -> Mapping[frozenset[str], tuple[GivenGap, ...]]:
+    """Return the clearances of the workbook by the two ids that they are between."""
     rows: dict[frozenset[str], tuple[GivenGap, ...]] = {}
     for index, row in enumerate(data.clearances):
         cell = addresses.get(Place("clearances", index, "provided_m"), "Clearances")

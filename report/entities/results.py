@@ -48,8 +48,8 @@ class WorkbookResult(Entity):
     sha256: str
 
 
-def _in_order(gaps: Any) -> Any:
-    return tuple(gaps.values()) if isinstance(gaps, Mapping) else gaps
+def _in_order(gaps: Any) -> tuple[Any, ...]:
+    return tuple(gaps.values() if isinstance(gaps, Mapping) else gaps)
 
 
 class LowVelocity(Entity):

@@ -16,7 +16,7 @@ from report.entities.array import DirectionResult, direction_result
 from report.entities.cells import Column
 from report.entities.run import PeakResult, peak_result
 from report.entities.shown import Number
-from report.results.runs import RunRow
+from report.results.lists import RunRow
 from report.results.sheets import TOP, Cells, Pages, SheetRow, write_live
 from report.sheet.schema import Direction
 

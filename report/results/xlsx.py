@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import datetime as dt
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from xlsxwriter.workbook import Workbook
 
@@ -20,8 +20,14 @@ from report.results.directions import write_directions, write_peaks
 from report.results.gaps import result_cells, write_clearances
 from report.results.inputs import write_inputs
 from report.results.links import LinkRunRow, link_cells, link_run_rows, write_links
-from report.results.requirements import write_requirements
-from report.results.runs import MotionRow, RunRow, motion_rows, run_rows
+from report.results.lists import (
+    MotionRow,
+    RunRow,
+    motion_rows,
+    run_rows,
+    spectra_table,
+    write_requirements,
+)
 from report.results.sheets import TOP, Cells, Pages, write_list, write_table
 
 _LIVE = ("Design", "Inputs", "Directions", "Clearances", "Requirements", "Peaks")
@@ -41,7 +47,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
         write_list(pages, RunRow.sheet, list(run_rows(assessment)))
         write_list(pages, MotionRow.sheet, list(motion_rows(shaking)))
         write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
-        write_table(pages, "Spectra", _spectra_table(spectra))
+        write_table(pages, "Spectra", spectra_table(spectra))
         _write_live(pages, assessment)
         workbook.set_calc_mode("auto")
         # Two runs give the same bytes: the date is that of the project, not the current date.
@@ -65,13 +71,3 @@ def _write_live(pages: Pages, assessment: Assessment) -> None:
         write_links(pages, assessment, designs)
     write_directions(pages, assessment, peaks, designs)
     write_clearances(pages, assessment, inputs)
-
-
-def _spectra_table(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
-    """Return one row for each period; targets and motions in columns, by component."""
-    columns = {"Period [s]": spectra[0].periods_s.tolist()}
-    for part in spectra:
-        columns[f"{part.title}, target [g]"] = part.target_g.tolist()
-        for name, row in zip(part.ids, part.sa_g, strict=True):
-            columns[f"{part.title}, {name} [g]"] = row.tolist()
-    return columns

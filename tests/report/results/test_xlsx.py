@@ -17,7 +17,7 @@ from cells import address, cell
 from report.assessment.spectra import spectra
 from report.entities.cells import Column
 from report.results.directions import PeakRow
-from report.results.runs import RunRow
+from report.results.lists import RunRow
 from report.results.sheets import Cells, Pages, write_live
 from report.results.xlsx import results_xlsx
 from report.sheet.schema import Direction

@@ -1,4 +1,4 @@
-"""The sheets Runs, Motions and Records of results.xlsx: one row for each.
+"""The sheets of results.xlsx without formulas: Runs, Motions, Requirements and Spectra.
 
 Computes nothing. Read `report.results.xlsx`.
 """
@@ -6,19 +6,23 @@ Computes nothing. Read `report.results.xlsx`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Annotated, ClassVar
 
+from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
+from report.assessment.spectra import Spectra
 from report.entities.cells import Column
 from report.entities.motion import MotionResult, motion_result
+from report.entities.requirement import RequirementRow, requirement_rows
 from report.entities.run import RunResult, run_result
 from report.entities.shown import Number
 from report.motions.prepare import Shaking
-from report.results.sheets import SheetRow
+from report.results.sheets import Pages, SheetRow, write_live
 from report.sheet.schema import Direction
 from report.words.units import G_MPS2
+from solver.rules.limit import Limit
 
 
 class RunRow(SheetRow, RunResult):
@@ -81,3 +85,55 @@ def motion_rows(shaking: Shaking) -> Iterator[MotionRow]:
                 pga_g=measures.pga_mps2 / G_MPS2,
                 **asdict(measures),
             )
+
+
+class RequirementLine(SheetRow, RequirementRow):
+    """A requirement or a limit as a row of the sheet."""
+
+    sheet: ClassVar[str] = "Requirements"
+
+
+def write_requirements(pages: Pages, assessment: Assessment) -> None:
+    """Write each requirement of the project and each limit of the rule set and on the motions."""
+    write_live(
+        pages,
+        RequirementLine,
+        list(map(RequirementLine.beside, _rows(assessment))),
+        "Requirements and limits",
+        "Satisfied or not. The verdict on the project and on each array is on the sheet Design.",
+    )
+
+
+def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
+    yield from requirement_rows(assessment.rows)
+    for check in assessment.building_checks:
+        yield _limit(assessment, "Building", check)
+    for item in assessment.arrays:
+        for check in item.limits:
+            yield _limit(assessment, item.id, check)
+    for check in assessment.acceptance.rows:
+        yield _limit(assessment, "Motions", check)
+
+
+def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:
+    found, limit = (f"{v:.6g} {row.measure.unit}".rstrip() for v in (row.found, row.limit))
+    is_excepted = row.passes_by_exception
+    return RequirementRow(
+        subject=item,
+        title=row.title,
+        found=found + (f" ({row.worst})" if row.worst else ""),
+        limit=f"{row.sign} {limit}{OVERRIDDEN if row.provision.reason else ''}",
+        basis=row.provision.clause,
+        verdict=assessment.limit_verdict(row),
+        remedy=f"over the limit, permitted: {row.provision.note}" if is_excepted else "",
+    )
+
+
+def spectra_table(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
+    """Return one row for each period; targets and motions in columns, by component."""
+    columns = {"Period [s]": spectra[0].periods_s.tolist()}
+    for part in spectra:
+        columns[f"{part.title}, target [g]"] = part.target_g.tolist()
+        for name, row in zip(part.ids, part.sa_g, strict=True):
+            columns[f"{part.title}, {name} [g]"] = row.tolist()
+    return columns
