@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
@@ -23,6 +24,9 @@ from report.words.counts import lowered
 from report.words.units import Quantity, compared, number, pair, rounding
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence, Limit
+
+if TYPE_CHECKING:
+    from report.assessment.project import Assessment
 
 DRIFT_M = 0.010
 """Final displacement of a record [m] above which it drifts."""
@@ -249,42 +253,41 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
     )
 
 
-def friction_row(given: ClearanceCheck, reduced: ClearanceCheck) -> Requirement:
-    """Return whether a clearance that is satisfied stays so with less friction."""
-    row = given.clearance
-    return _reduced_friction_row(
-        row.array,
-        f"Clearance {row.array} to {row.object}",
-        given.verdict,
-        reduced.verdict,
-        "this clearance is NG: confirm the friction coefficient, or provide more clearance",
-    )
-
-
-def route_row(given: ArrayAssessment, reduced: ArrayAssessment) -> Requirement:
-    """Return whether the route of an array that is permitted stays so with less friction."""
-    before, after = (Verdict.OK if item.is_permitted else Verdict.NG for item in (given, reduced))
-    return _reduced_friction_row(
-        given.id,
-        f"The {given.route} route",
-        before,
-        after,
-        "no route is permitted: confirm the friction coefficient",
-    )
-
-
-def _reduced_friction_row(
-    subject: str, title: str, given: Verdict, reduced: Verdict, effect: str
-) -> Requirement:
+def less_friction_rows(
+    arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], reduced: Assessment
+) -> Iterator[Requirement]:
+    """Yield the routes and clearances that are permitted as given, and not with less friction."""
     friction = f"{number(100.0 * SHIFT, 0)} % less friction"
-    return Requirement(
-        id="less_friction",
-        title=f"{title} with {friction}",
-        subject=subject,
-        found=reduced.value,
-        limit=given.value,
-        basis="sensitivity",
-        is_satisfied=not (given.is_permitted and not reduced.is_permitted),
-        consequence=Consequence.CONDITION,
-        remedy=f"With {friction} {effect}.",
+    routes = (
+        (
+            given.id,
+            f"The {given.route} route",
+            Verdict.OK if given.is_permitted else Verdict.NG,
+            Verdict.OK if less.is_permitted else Verdict.NG,
+            "no route is permitted: confirm the friction coefficient",
+        )
+        for given, less in zip(arrays, reduced.arrays, strict=True)
     )
+    gaps = (
+        (
+            given.clearance.array,
+            f"Clearance {given.clearance.array} to {given.clearance.object}",
+            given.verdict,
+            less.verdict,
+            "this clearance is NG: confirm the friction coefficient, or provide more clearance",
+        )
+        for given, less in zip(clearances, reduced.clearances, strict=True)
+    )
+    for subject, title, before, after, effect in (*routes, *gaps):
+        if before.is_permitted and not after.is_permitted:
+            yield Requirement(
+                id="less_friction",
+                title=f"{title} with {friction}",
+                subject=subject,
+                found=after.value,
+                limit=before.value,
+                basis="sensitivity",
+                is_satisfied=False,
+                consequence=Consequence.CONDITION,
+                remedy=f"With {friction} {effect}.",
+            )

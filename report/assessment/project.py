@@ -20,11 +20,10 @@ from report.assessment.clearances import ClearanceCheck, check_clearance, minimu
 from report.assessment.conditions import (
     MOTIONS_ID,
     array_rows,
-    friction_row,
+    less_friction_rows,
     motion_rows,
     plan_rows,
     project_rows,
-    route_row,
 )
 from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_velocity import (
@@ -307,25 +306,12 @@ def _assess(
             *(row for item in arrays for row in array_rows(data, item)),
             *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
             *plan_rows(data, nearby),
-            *(_friction_rows(arrays, clearances, reduced) if reduced else ()),
+            *(less_friction_rows(arrays, clearances, reduced) if reduced else ()),
         ),
         at_reduced_friction=reduced,
         low_velocity=slower,
         solver_seconds=seconds,
     )
-
-
-def _friction_rows(
-    arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], reduced: Assessment
-) -> Sequence[Requirement]:
-    """Return the routes and clearances whose verdict less friction changes."""
-    routes = zip(arrays, reduced.arrays, strict=True)
-    gaps = zip(clearances, reduced.clearances, strict=True)
-    rows = (
-        *(route_row(before, after) for before, after in routes),
-        *(friction_row(before, after) for before, after in gaps),
-    )
-    return [row for row in rows if not row.is_satisfied]
 
 
 def _verdict(is_ok: bool) -> Verdict:
