@@ -6,6 +6,7 @@ Practice, no requirement of the codes: no verdict depends on it. Read `cumulativ
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from report.assessment.arrays import ArrayAssessment
@@ -22,17 +23,17 @@ class Cumulative:
     """
 
     array: ArrayAssessment
-    sums_m: tuple[float, ...]  # for each motion [m]; NaN where a run has no final displacement
+    sums_m: Mapping[str, float]  # by motion [m]; NaN where a run has no final displacement
 
     @property
     def mean_m(self) -> float:
         """Mean of the sums [m]; NaN if a motion has none."""
-        return math.fsum(self.sums_m) / len(self.sums_m)
+        return math.fsum(self.sums_m.values()) / len(self.sums_m)
 
     @property
     def largest_m(self) -> float:
         """Largest of the sums [m]; NaN if a motion has none."""
-        return max(self.sums_m) if not math.isnan(self.mean_m) else math.nan
+        return max(self.sums_m.values()) if not math.isnan(self.mean_m) else math.nan
 
 
 def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
@@ -41,7 +42,10 @@ def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
     if not factors:
         return ()
     return tuple(
-        Cumulative(array=array, sums_m=tuple(_sum_m(array, run, factors) for run in array.motions))
+        Cumulative(
+            array=array,
+            sums_m={run.motion.id: _sum_m(array, run, factors) for run in array.motions},
+        )
         for array in given.arrays
     )
 

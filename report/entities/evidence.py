@@ -10,7 +10,6 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator
 
-from report.assessment.cumulative import Cumulative
 from report.assessment.neighbors import NearbyKind
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
@@ -82,7 +81,7 @@ class SurfaceResult(Entity):
 class MarginResult(Entity):
     """The margin of a clearance in friction."""
 
-    clearance: Annotated[str, at("number")]
+    clearance: Annotated[str, at("number"), BeforeValidator(str)]
     array: Annotated[str, at("array.id")]
     mu: Annotated[float, at("array.array.mu")]
     least_mu: Annotated[Number, at("minimum_mu")]
@@ -142,21 +141,13 @@ def remedy_result(item: Remedy) -> RemedyResult:
 def uncertainty_result(item: Uncertainty) -> UncertaintyResult:
     """Return the grid over friction and slope, the margins, and the directions not run."""
     surface = item.surface
-    return UncertaintyResult(
+    return UncertaintyResult.of(
+        item,
         surface=SurfaceResult.of(
             surface,
             mus=surface.mus.tolist(),
             slopes_rad=surface.slopes_rad.tolist(),
             mean_prd_m=surface.mean_m.tolist(),
         ),
-        margins=tuple(
-            MarginResult.of(margin, number=f"{margin.number}") for margin in item.margins
-        ),
         angles=AnglesResult.of(item),
     )
-
-
-def cumulative_result(item: Cumulative) -> CumulativeResult:
-    """Return the sums of an array."""
-    motions = [run.motion.id for run in item.array.motions]
-    return CumulativeResult.of(item, sums_m=dict(zip(motions, item.sums_m, strict=True)))

@@ -22,7 +22,6 @@ from report.entities.evidence import (
     NeighborResult,
     RemedyResult,
     UncertaintyResult,
-    cumulative_result,
     remedy_result,
     uncertainty_result,
 )
@@ -127,5 +126,5 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         linked=tuple(map(linked_result, assessment.linked)),
         remedies=tuple(map(remedy_result, evidence.remedies)),
         certainty=uncertainty_result(evidence.uncertainty),
-        cumulative=tuple(map(cumulative_result, evidence.cumulative)),
+        cumulative=evidence.cumulative,
     )
