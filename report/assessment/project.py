@@ -209,9 +209,24 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
         return whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
 
 
-def reassess(given: Assessment, project: ProjectInput) -> Assessment:
-    """Assess another input under the same motions, with its own models only."""
-    return _again(given, project, run_motion)
+def reassess(
+    given: Assessment,
+    project: ProjectInput,
+    run: RunMotion = run_motion,
+    key: Callable[[Array], Hashable] = scene_key,
+) -> Assessment:
+    """Assess another input under the same motions, with its own models only.
+
+    Parameters
+    ----------
+    run, key : callable, optional
+        As in `begin_runs`.
+    """
+    motions = given.shaking.motions
+    with ThreadPoolExecutor(THREADS) as pool:
+        begun = begin_runs(pool, run, project, motions, check_models=False, key=key)
+        return _assess(given.sheet, given.shaking, project, acceptance=given.acceptance,
+                       pool=pool, begun=begun)  # fmt: skip
 
 
 def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
@@ -231,20 +246,7 @@ def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
         return run_along(array, motion, orientations)
 
     # Arrays that are alike now may have had other orientations that govern.
-    return _again(given, project, along, lambda array: array.id)
-
-
-def _again(
-    given: Assessment,
-    project: ProjectInput,
-    run: RunMotion,
-    key: Callable[[Array], Hashable] = scene_key,
-) -> Assessment:
-    motions = given.shaking.motions
-    with ThreadPoolExecutor(THREADS) as pool:
-        begun = begin_runs(pool, run, project, motions, check_models=False, key=key)
-        return _assess(given.sheet, given.shaking, project, acceptance=given.acceptance,
-                       pool=pool, begun=begun)  # fmt: skip
+    return reassess(given, project, along, lambda array: array.id)
 
 
 def _assess(

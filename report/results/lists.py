@@ -1,4 +1,4 @@
-"""The sheets of results.xlsx without formulas: Runs, Motions, Requirements and Spectra.
+"""The sheets of results.xlsx without formulas: Runs, Motions, Records, Spectra and Requirements.
 
 Computes nothing. Read `report.results.xlsx`.
 """
@@ -14,12 +14,12 @@ from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.entities.cells import Column
-from report.entities.motion import MotionResult, motion_result
+from report.entities.motion import MotionResult, RecordResult, motion_result
 from report.entities.requirement import RequirementRow, requirement_rows
 from report.entities.run import RunResult, run_result
 from report.entities.shown import Number
 from report.motions.prepare import Shaking
-from report.results.sheets import Pages, SheetRow, write_live
+from report.results.sheets import Pages, SheetRow, write_list, write_live, write_table
 from report.sheet.schema import Direction
 from report.words.units import G_MPS2
 from solver.rules.limit import Limit
@@ -56,7 +56,16 @@ class MotionRow(SheetRow, MotionResult):
     final_displacement_m: Annotated[float, Column("Displacement at end [m]")]
 
 
-def run_rows(assessment: Assessment) -> Iterator[RunRow]:
+def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]) -> None:
+    """Write the runs, the components of the motions, the records and the spectra."""
+    shaking = assessment.shaking
+    write_list(pages, RunRow.sheet, list(_runs(assessment)))
+    write_list(pages, MotionRow.sheet, list(_motions(shaking)))
+    write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
+    write_table(pages, "Spectra", _spectra(spectra))
+
+
+def _runs(assessment: Assessment) -> Iterator[RunRow]:
     """Yield the runs of each motion, arrays together."""
     for item in assessment.arrays:
         mean_m = item.analysis.mean_m
@@ -74,8 +83,7 @@ def run_rows(assessment: Assessment) -> Iterator[RunRow]:
                 )
 
 
-def motion_rows(shaking: Shaking) -> Iterator[MotionRow]:
-    """Yield the components of each motion."""
+def _motions(shaking: Shaking) -> Iterator[MotionRow]:
     for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True):
         row = motion_result(motion, prepared)
         for name, measures in row.components.items():
@@ -129,7 +137,7 @@ def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:
     )
 
 
-def spectra_table(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
+def _spectra(spectra: Sequence[Spectra]) -> Mapping[str, Sequence[float]]:
     """Return one row for each period; targets and motions in columns, by component."""
     columns = {"Period [s]": spectra[0].periods_s.tolist()}
     for part in spectra:

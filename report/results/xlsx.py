@@ -14,21 +14,13 @@ from xlsxwriter.workbook import Workbook
 
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
-from report.entities.motion import RecordResult
 from report.results.design import DesignRow, write_design
 from report.results.directions import write_directions, write_peaks
 from report.results.gaps import result_cells, write_clearances
 from report.results.inputs import write_inputs
 from report.results.links import LinkRunRow, link_cells, link_run_rows, write_links
-from report.results.lists import (
-    MotionRow,
-    RunRow,
-    motion_rows,
-    run_rows,
-    spectra_table,
-    write_requirements,
-)
-from report.results.sheets import TOP, Cells, Pages, write_list, write_table
+from report.results.lists import write_lists, write_requirements
+from report.results.sheets import TOP, Cells, Pages, write_list
 
 _LIVE = ("Design", "Inputs", "Directions", "Clearances", "Requirements", "Peaks")
 
@@ -43,11 +35,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
         links = ("Links",) if assessment.linked else ()
         for name in (*_LIVE, *links):
             workbook.add_worksheet(name)
-        shaking = assessment.shaking
-        write_list(pages, RunRow.sheet, list(run_rows(assessment)))
-        write_list(pages, MotionRow.sheet, list(motion_rows(shaking)))
-        write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
-        write_table(pages, "Spectra", spectra_table(spectra))
+        write_lists(pages, assessment, spectra)
         _write_live(pages, assessment)
         workbook.set_calc_mode("auto")
         # Two runs give the same bytes: the date is that of the project, not the current date.
