@@ -5,37 +5,28 @@ Runs nothing and reads no records (`motions` does). Read `read_study`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from report.sheet.reading.archive import OpenBook, open_book
-from report.sheet.reading.calculated import not_calculated
+from report.sheet.checking.drafts import column, repeated
+from report.sheet.reading.archive import open_book
 from report.sheet.reading.locate import is_absent
-from report.sheet.reading.read import Gathered, gather, models, refuse
-from report.sheet.reading.unseen import Unseen, unseen, warnings
+from report.sheet.reading.read import SheetOf, read_as
 from report.sheet.schema import RecordedAt
-from report.sheet.schema.fields import Draft, Finding, Place
+from report.sheet.schema.fields import Draft, Finding, Place, Where, sections_of
 from report.study.schema import (
     MOST_CASES,
     MOST_VALUES,
-    SECTIONS,
-    STUDY,
     Intensity,
-    Mat,
     Sampling,
-    Study,
-    StudyArray,
-    StudyBuilding,
-    StudyMotion,
+    StudyInput,
+    tested,
     values,
 )
 from solver.model import InputError
-from solver.studies.uncertainty import Spread, spread_of_tests
 
 HOW = (
     f"give numbers that increase, at most {MOST_VALUES}, with a blank after each comma, such as"
@@ -43,93 +34,8 @@ HOW = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class StudyInput:
-    """The complete input of a study workbook."""
-
-    study: Study
-    mats: tuple[Mat, ...] = ()
-    study_arrays: tuple[StudyArray, ...] = ()
-    motions: tuple[StudyMotion, ...] = ()
-    buildings: tuple[StudyBuilding, ...] = ()
-
-    @cached_property
-    def slopes_deg(self) -> tuple[float, ...]:
-        """Slopes of the grid [deg]."""
-        return values(self.study.slopes_deg)
-
-    @cached_property
-    def intensities(self) -> tuple[float, ...]:
-        """Intensities of the grid."""
-        return values(self.study.intensities)
-
-    @cached_property
-    def mus(self) -> tuple[float, ...]:
-        """Friction coefficients of the grid: those listed, and those of the mats."""
-        listed = values(self.study.mus) if self.study.mus else ()
-        return tuple(sorted({*listed, *(self.friction(mat.id).center for mat in self.mats)}))
-
-    def friction(self, mat_id: str) -> Spread:
-        """Return the distribution of the friction coefficient of a mat."""
-        mat = self._mat(mat_id)
-        tests = tested(mat.tested)
-        if not tests:
-            return Spread(center=float(mat.mu or 0.0))
-        spread = spread_of_tests(tests)
-        return Spread(center=mat.mu or float(f"{spread.center:.6g}"), beta=spread.beta)
-
-    def tests(self, mat_id: str) -> tuple[float, ...]:
-        """Return the tested values of a mat, or its coefficient alone."""
-        mat = self._mat(mat_id)
-        return tested(mat.tested) or (float(mat.mu or 0.0),)
-
-    def _mat(self, mat_id: str) -> Mat:
-        return next(row for row in self.mats if row.id.casefold() == mat_id.casefold())
-
-
-def tested(text: str) -> tuple[float, ...]:
-    """Return tested values in any order; empty if they are none."""
-    parts = [part.strip() for part in text.replace(";", ", ").split(", ") if part.strip()]
-    try:
-        return tuple(float(part) for part in parts)
-    except ValueError:
-        return ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class StudySheet:
-    """A study workbook as read, without errors of its own.
-
-    Attributes
-    ----------
-    gathered : Gathered
-        For the addresses of the cells.
-    unseen : tuple of Unseen
-        What is read and kept from sight.
-    """
-
-    book: OpenBook
-    gathered: Gathered
-    unseen: tuple[Unseen, ...]
-
-    @cached_property
-    def input(self) -> StudyInput:
-        """The input, validated."""
-        return StudyInput(**models(self.gathered.draft, SECTIONS))
-
-    def warnings(self, others: Iterable[Unseen] = ()) -> Iterator[tuple[str, str]]:
-        """Yield cell and text of each warning, with those on what else is kept from sight."""
-        found = [
-            *warnings([*self.unseen, *others]),
-            *not_calculated(self.book, self.gathered.used, Place(STUDY.key)),
-        ]
-        for finding in found:
-            yield finding.cell or self.gathered.where(finding.place), finding.text
-
-    def refuse(self, faults: Iterable[Finding]) -> None:
-        """Raise the problems of single cells together with faults, if there are any."""
-        located = [(one.place, one.problem(self.gathered.where(one.place))) for one in faults]
-        refuse([*self.gathered.problems, *located], SECTIONS)
+StudySheet = SheetOf[StudyInput]
+"""A study workbook as data."""
 
 
 def read_study(path: Path) -> StudySheet:
@@ -141,18 +47,18 @@ def read_study(path: Path) -> StudySheet:
         If it is not a study workbook, or with every problem by its cell.
     """
     book = open_book(path)
-    if is_absent(book, STUDY):
+    study = sections_of(StudyInput)[0]
+    if is_absent(book, study):
         raise InputError(
-            f"{book.path}: has no sheet {STUDY.sheet}; write a study workbook with: "
+            f"{book.path}: has no sheet {study.sheet}; write a study workbook with: "
             "roofslip new DIR --study"
         )
-    gathered = gather(book, SECTIONS)
-    sheet = StudySheet(book=book, gathered=gathered, unseen=unseen(book, gathered.used))
-    sheet.refuse(_faults(gathered.draft))
+    sheet = read_as(StudyInput, book, _faults)
+    sheet.refuse(())
     return sheet
 
 
-def _faults(draft: Draft) -> Iterator[Finding]:
+def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield errors of the workbook that the cells alone do not show."""
     study = draft["study"][0] if draft["study"] else {}
     mats = draft["mats"]
@@ -171,7 +77,8 @@ def _faults(draft: Draft) -> Iterator[Finding]:
     yield from _about_dispersion(study)
     yield from _about_motions(study, draft)
     for section in ("mats", "study_arrays", "motions", "buildings"):
-        yield from _repeated(draft, section)
+        for place, name, _ in repeated(column(draft, (section,), "id"), str.casefold):
+            yield Finding.error(place, f"ID '{name}' appears twice", "rename one")
     for row, mat in enumerate(mats):
         yield from _about_mat(row, mat)
     yield from _about_arrays(study, draft)
@@ -240,17 +147,6 @@ def _about_motions(study: Any, draft: Draft) -> Iterator[Finding]:
         )
 
 
-def _repeated(draft: Draft, section: str) -> Iterator[Finding]:
-    seen: set[str] = set()
-    for row, fields in enumerate(draft[section]):
-        name = str(fields.get("id", "")).casefold()
-        if name and name in seen:
-            yield Finding.error(
-                Place(section, row, "id"), f"ID '{fields['id']}' appears twice", "rename one"
-            )
-        seen.add(name)
-
-
 def _about_mat(row: int, mat: Any) -> Iterator[Finding]:
     text = str(mat.get("tested") or "")
     found = tested(text)
@@ -269,13 +165,10 @@ def _about_mat(row: int, mat: Any) -> Iterator[Finding]:
 
 
 def _about_arrays(study: Any, draft: Draft) -> Iterator[Finding]:
-    names = {str(mat.get("id", "")).casefold() for mat in draft["mats"]}
-    for row, array in enumerate(draft["study_arrays"]):
-        mat = str(array.get("mat", ""))
-        if mat and mat.casefold() not in names:
-            yield Finding.error(
-                Place("study_arrays", row, "mat"), f"mat '{mat}' is not on the sheet Mats", "add it"
-            )
+    names = {name.casefold() for _, name in column(draft, ("mats",), "id")}
+    for place, mat in column(draft, ("study_arrays",), "mat"):
+        if mat.casefold() not in names:
+            yield Finding.error(place, f"mat '{mat}' is not on the sheet Mats", "add it")
     if study.get("site_intensity") and not draft["study_arrays"]:
         yield _at(
             "site_intensity", "is given, but no array is", "fill in a row of the sheet Arrays"
