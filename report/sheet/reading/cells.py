@@ -71,10 +71,14 @@ class Found:
         return blank and not self.formula
 
     @property
+    def shown(self) -> str:
+        """Its value as a user would type it; empty for none."""
+        return "" if self.value is None else plain(self.value)
+
+    @property
     def text(self) -> str:
         """What was typed, for the echo; for a formula, with its value."""
-        shown = "" if self.value is None else plain(self.value)
-        return f"{self.formula} → {shown}" if self.formula else shown
+        return f"{self.formula} → {self.shown}" if self.formula else self.shown
 
 
 def plain(value: object) -> str:

@@ -19,15 +19,14 @@ from report.sheet.reading.cells import (
     CellError,
     Found,
     as_used,
-    plain,
     read_cell,
     stated_unit,
     wish_for_missing,
 )
 from report.sheet.reading.duplicate_sheets import copies
-from report.sheet.reading.locate import added_later, find_cell, find_unit_cell, is_absent
+from report.sheet.reading.locate import added_later, cell_as_column, find_cell, is_absent
 from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
-from report.sheet.reading.positions import FRESH, CellPosition, check_uncovered, found_at, unit_size
+from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.reading.unseen import Unseen, by_cell, unseen
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.sheet.schema.fields import (
@@ -256,7 +255,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         try:
             position = find_cell(book, section, entry)
             gathered.addresses[place] = position.address
-            column = _block_column(book, section, entry, position)
+            column = cell_as_column(book, section, entry, position)
         except InputError as error:
             gathered.add(place, error.parts)
             continue
@@ -266,27 +265,13 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         _read_field(section, entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
 
 
-def _block_column(
-    book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
-) -> FieldColumn:
-    if entry.kind not in (int, float):
-        check_uncovered(book, position)
-        return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
-    at = find_unit_cell(book, section, entry, position)
-    check_uncovered(book, position, at)
-    unit = found_at(book, at)
-    text = "" if unit.value is None else plain(unit.value).strip()
-    symbol, si = unit_size(entry, text, unit.address)
-    return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
-
-
 def _read_table(
     book: OpenBook, section: SheetSection, table: TableFound, gathered: Gathered
 ) -> None:
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
     for other in table.others:
-        label = f"column '{plain(found_at(book, other).value)}'"
+        label = f"column '{found_at(book, other).shown}'"
         ignored = EchoRow(
             sheet=other.sheet, cell=other.cell, label=label, typed="", unit="", value=IGNORED
         )

@@ -16,13 +16,11 @@ from report.sheet.checking.checks import faults
 from report.sheet.reading.cells import CellError, Found, read_cell
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import Gathered, Sheet
-from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Entry, Place, SheetSection, entries
+from report.sheet.schema import SECTION
+from report.sheet.schema.fields import Place
 
 Typed = float | str | None
 """What is typed into a cell: a number in the unit of the cell, a text, or nothing."""
-
-_BY_KEY = {section.key: section for section in SECTIONS}
 
 
 def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
@@ -34,7 +32,7 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
     gathered = Gathered(draft=draft, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
     units = {row.address: row.unit for row in sheet.echo}
     for place, value in typed.items():
-        _, entry = _field(place)
+        entry = SECTION[place.section].entry(place.field)
         address = sheet.addresses[place]
         try:
             draft[place.section][place.row][place.field] = _read(place, value, units[address])
@@ -46,7 +44,7 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
 
 def size_of_unit(sheet: Sheet, place: Place) -> float:
     """Return the size in SI of the unit in which the number of a cell is typed."""
-    quantity = _field(place)[1].quantity
+    quantity = SECTION[place.section].entry(place.field).quantity
     address = sheet.addresses[place]
     unit = next(row.unit for row in sheet.echo if row.address == address)
     return quantity.accepted[unit] if quantity else 1.0
@@ -62,13 +60,9 @@ def cells(sheet: Sheet, typed: Mapping[Place, Typed]) -> dict[CellPosition, Type
 
 
 def _read(place: Place, value: Typed, unit: str) -> Any:
-    section, entry = _field(place)
+    section = SECTION[place.section]
+    entry = section.entry(place.field)
     if value is None:
         return entry.default
     si = entry.quantity.accepted[unit] if entry.quantity else 1.0
     return read_cell(Found(sheet="", cell="", value=value), entry, section.model, unit, si)
-
-
-def _field(place: Place) -> tuple[SheetSection, Entry]:
-    section = _BY_KEY[place.section]
-    return section, next(e for e in entries(section.model) if e.name == place.field)

@@ -7,6 +7,7 @@ than one cell are in `checks`. Read `report.sheet.reading.read` next.
 from __future__ import annotations
 
 import datetime as dt
+from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import AfterValidator, model_validator
@@ -32,7 +33,7 @@ from report.sheet.schema.choices import (
     UnitsFirst,
     decimals,
 )
-from report.sheet.schema.fields import Cell, Frozen, OnSheet, sections_of
+from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection, sections_of
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.legacy_labels import PROVISIONS
 from report.sheet.schema.links import Links, coefficients
@@ -55,6 +56,7 @@ from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 __all__ = [
     "PROVISION_KEYS",
     "ROOF",
+    "SECTION",
     "SECTIONS",
     "SIDES",
     "AccelUnit",
@@ -325,3 +327,6 @@ class ProjectInput(Frozen):
 
 SECTIONS = sections_of(ProjectInput)
 """Parts of the workbook, in its order."""
+
+SECTION: Mapping[str, SheetSection] = {section.key: section for section in SECTIONS}
+"""The same by key."""

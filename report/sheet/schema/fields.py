@@ -140,6 +140,10 @@ class SheetSection:
         """Name of its Excel table."""
         return f"{self.key}_table"
 
+    def entry(self, field: str) -> Entry:
+        """Return one of its fields."""
+        return next(one for one in entries(self.model) if one.name == field)
+
     def cell_name(self, field: str) -> str:
         """Return the defined name of a single cell."""
         return f"{self.key}_{field}"
