@@ -21,7 +21,6 @@ from report.sheet.reading.number_format import is_percentage, misleading
 from report.sheet.schema import legacy_labels
 from report.sheet.schema.fields import Entry, Frozen, YesNo, adapter
 from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
-from report.words.units import Quantity
 from solver.model import InputError, Problem
 
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
@@ -98,19 +97,10 @@ def plain(value: object) -> str:
             return str(value)
 
 
-SI_SYMBOLS = {
-    Quantity.SIZE: "m",
-    Quantity.PLAN: "m",
-    Quantity.WEIGHT: "N",
-    Quantity.STIFFNESS: "N/m",
-    Quantity.VELOCITY: "m/s",
-    Quantity.PRESSURE: "Pa",
-}
-
-
 def as_used(value: object, entry: Entry, unit: str) -> str:
     """Return a field's value for the echo, with its unit: that of SI where it can be chosen."""
-    unit = SI_SYMBOLS[entry.quantity] if entry.quantity else unit
+    if entry.quantity:
+        unit = next(symbol for symbol, si in entry.quantity.accepted.items() if si == 1.0)
     if isinstance(value, bool):
         return str(YesNo.YES if value else YesNo.NO)
     if isinstance(value, float):
