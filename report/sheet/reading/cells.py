@@ -19,7 +19,7 @@ from pydantic import ValidationError
 
 from report.sheet.reading.number_format import is_percentage, misleading
 from report.sheet.schema import legacy_labels
-from report.sheet.schema.fields import Entry, Frozen, YesNo, adapter
+from report.sheet.schema.fields import Entry, YesNo, adapter
 from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
 from solver.model import InputError, Problem
 
@@ -120,9 +120,7 @@ def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]
     return "" if text is None else unit_of(plain(text).strip())
 
 
-def read_cell(
-    cell: Found, entry: Entry, model: type[Frozen], unit: str, si: float, shown: str = ""
-) -> Any:
+def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") -> Any:
     """Return a field's value in SI from a cell that is not blank.
 
     Parameters
@@ -144,7 +142,7 @@ def read_cell(
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
         raise CellError(_is(cell, entry), f"{wanted}, below {LARGEST:g} in size")
     try:
-        return adapter(model, entry.name).validate_python(value)
+        return adapter(entry.model, entry.name).validate_python(value)
     except ValidationError as error:
         raise CellError(_is(cell, entry), wanted) from error
 

@@ -262,7 +262,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
-        _read_field(section, entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
+        _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
 
 
 def _read_table(
@@ -303,11 +303,10 @@ def _read_row(
             place, cell = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
             gathered.addresses[place] = cell.address
             column, stated = table.columns[entry.name], stated_unit(entry, row, cells)
-            _read_field(section, entry, place, cell, column, stated, row, gathered)
+            _read_field(entry, place, cell, column, stated, row, gathered)
 
 
 def _read_field(
-    section: SheetSection,
     entry: Entry,
     place: Place,
     cell: Found,
@@ -319,7 +318,7 @@ def _read_field(
     gathered.use(place, cell)
     try:
         if not cell.is_blank:
-            value = read_cell(cell, entry, section.model, column.unit, column.si, stated)
+            value = read_cell(cell, entry, column.unit, column.si, stated)
         elif entry.is_required:
             raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
         else:

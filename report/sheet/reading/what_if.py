@@ -60,9 +60,8 @@ def cells(sheet: Sheet, typed: Mapping[Place, Typed]) -> dict[CellPosition, Type
 
 
 def _read(place: Place, value: Typed, unit: str) -> Any:
-    section = SECTION[place.section]
-    entry = section.entry(place.field)
+    entry = SECTION[place.section].entry(place.field)
     if value is None:
         return entry.default
     si = entry.quantity.accepted[unit] if entry.quantity else 1.0
-    return read_cell(Found(sheet="", cell="", value=value), entry, section.model, unit, si)
+    return read_cell(Found(sheet="", cell="", value=value), entry, unit, si)

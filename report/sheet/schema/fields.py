@@ -11,7 +11,7 @@ import datetime as dt
 import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, asdict, dataclass
 from enum import StrEnum
 from functools import cache
 from itertools import pairwise
@@ -163,15 +163,7 @@ def _section(whole: type[Frozen], key: str, field: FieldInfo) -> SheetSection:
     (part,) = (item for item in field.metadata if isinstance(item, OnSheet))
     is_table = get_origin(field.annotation) is tuple
     model: Any = get_args(field.annotation)[0] if is_table else field.annotation
-    return SheetSection(
-        key=key,
-        sheet=part.sheet,
-        title=part.title,
-        model=model,
-        is_table=is_table,
-        may_be_absent=part.may_be_absent,
-        whole=whole,
-    )
+    return SheetSection(key=key, model=model, is_table=is_table, whole=whole, **asdict(part))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
