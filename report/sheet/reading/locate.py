@@ -16,9 +16,8 @@ from report.sheet.reading.positions import (
     area_named,
     check_uncovered,
     found_at,
-    label_key,
+    labels,
     labels_of,
-    scanned,
     sheet_titled,
     unit_size,
 )
@@ -101,7 +100,6 @@ def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
     if named or sheet is None:
         return named
     wanted = labels_of(section, entry)
-    for position in scanned(book, sheet):
-        if label_key(sheet.cell(position.row, position.column).value) in wanted:
-            return CellPosition(position.sheet, position.row, position.column + 1)
-    return None
+    found = (position for position, label in labels(book, sheet) if label in wanted)
+    at = next(found, None)
+    return replace(at, column=at.column + 1) if at else None

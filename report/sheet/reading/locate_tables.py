@@ -21,10 +21,9 @@ from report.sheet.reading.positions import (
     found_at,
     heading_parts,
     label_key,
+    labels,
     merged,
-    scanned,
     sheet_titled,
-    sheets_of,
     unit_size,
 )
 from report.sheet.schema.answers import ANSWER_HEADINGS, STATUS_HEADING
@@ -91,7 +90,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
 
 def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
     """Return sheet, left, heading row, right and rows of totals of a section's table."""
-    for sheet in sheets_of(book):
+    for sheet in book.book.worksheets:
         for table in sheet.tables.values():
             names = {str(table.displayName).casefold(), str(table.name).casefold()}
             bounds = bounds_of(table.ref)
@@ -106,13 +105,11 @@ def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
 def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
     own, fields = sheet_titled(book, section.sheet), fields_by_label(section)
-    for sheet in [own] if own else sheets_of(book):
+    for sheet in [own] if own else book.book.worksheets:
         rows: dict[int, list[int]] = {}
         taken = _rows_of_others(sheet, section)
-        for position in scanned(book, sheet):
-            if position.row in taken:
-                continue
-            if label_key(sheet.cell(position.row, position.column).value) in fields:
+        for position, label in labels(book, sheet):
+            if position.row not in taken and label in fields:
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
         if best and len(rows[best]) > len(entries(section.model)) / 2:
