@@ -196,7 +196,7 @@ def _cell(rng):
     )
     if found.is_blank:
         return ""  # is not read
-    read_value = read_cell(found, entry, section.model, "in", rng.choice((1.0, 0.0254, 4448.2)))
+    read_value = read_cell(found, entry, "in", rng.choice((1.0, 0.0254, 4448.2)))
     if isinstance(read_value, float) and not abs(read_value) <= LARGEST:
         return "a number beyond any project was read"
     return ""

@@ -155,6 +155,7 @@ def sheet(data):
         path=Path("input.xlsx"),
         sha256="5f" * 32,
         book=None,
+        whole=ProjectInput,
         draft={},
         echo=tuple(_echo(data)),
         problems=(),

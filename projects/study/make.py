@@ -9,8 +9,7 @@ import datetime as dt
 from pathlib import Path
 
 from report.sheet.schema import UnitsFirst
-from report.study.read import StudyInput
-from report.study.schema import Intensity, Mat, Study, StudyArray
+from report.study.schema import Intensity, Mat, Study, StudyArray, StudyInput
 from report.study.template import write_study
 from solver.records.record import write_record
 from solver.rules.hazard import EDITIONS

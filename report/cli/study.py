@@ -44,12 +44,12 @@ def study(
     workbook.
     """
     from report.results.publish import check_apart, check_writable
-    from report.study.extra import arrow
+    from report.study.extra import ARROW, extra
     from report.study.files import TABLE
     from report.study.run import estimate, planned
 
     with input_errors(source):
-        arrow()
+        extra(ARROW)
         plan, beside = planned(source)
         for cell, text in plan.warnings:
             click.echo(plain(f"warning: {cell}: {text}"), err=True)

@@ -11,18 +11,17 @@ from dataclasses import dataclass, field
 
 from report.drawing.plan_read import DrawnOutline, RoofPlan
 from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.cells import Found, plain
-from report.sheet.reading.locate import find_cell, find_unit_cell, is_absent
+from report.sheet.reading.cells import Found
+from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.locate_tables import MAX_ROWS, TableFound, find_table, table_area
 from report.sheet.reading.parts import Value
-from report.sheet.reading.positions import FRESH, CellPosition, found_at, unit_size
-from report.sheet.schema import ROOF, SECTIONS, SIDES, Polygon, Rectangle
-from report.sheet.schema.fields import Entry, SheetSection, entries
+from report.sheet.reading.positions import FRESH, CellPosition, found_at
+from report.sheet.schema import ROOF, SECTION, SIDES, Polygon, Rectangle
+from report.sheet.schema.fields import SheetSection
 from report.sheet.schema.shapes import Shape
 from report.sheet.writing.legacy_notes import MOVE
 from solver.model import InputError
 
-_BY_KEY = {section.key: section for section in SECTIONS}
 _DIGITS = 6
 
 
@@ -40,7 +39,7 @@ class _Table:
     @classmethod
     def of(cls, book: OpenBook, key: str) -> _Table:
         """Return a table as it is."""
-        section = _BY_KEY[key]
+        section = SECTION[key]
         table = cls(book, section, find_table(book, section))
         top = table.found.heading.row
         filled = [row for row in table.found.rows if not table.is_blank(row)]
@@ -60,7 +59,7 @@ class _Table:
         """Return where a field of a row is."""
         columns = self.found.columns
         if name not in columns:
-            label = next(e.cell.label for e in entries(self.section.model) if e.name == name)
+            label = self.section.entry(name).cell.label
             raise InputError(f"{self.found.heading.address}: heading '{label}' is missing; {FRESH}")
         return CellPosition(self.found.heading.sheet, row, columns[name].number)
 
@@ -73,7 +72,7 @@ class _Table:
         return [
             row
             for row in self.found.rows
-            if _text(self.cell(row, name)).casefold() == value.casefold()
+            if self.cell(row, name).shown.strip().casefold() == value.casefold()
         ]
 
     def added(self) -> int:
@@ -124,7 +123,7 @@ def changes(book: OpenBook, plan: RoofPlan, *, replace: bool) -> dict[CellPositi
         For each place that is filled already, unless it may be replaced.
     """
     fill = _Fill(book, replace)
-    outlines = None if is_absent(book, _BY_KEY["outlines"]) else _Table.of(book, "outlines")
+    outlines = None if is_absent(book, SECTION["outlines"]) else _Table.of(book, "outlines")
     _fill_rows(fill, "arrays", plan.arrays, outlines)
     _fill_rows(fill, "objects", plan.objects, outlines)
     for place in plan.roof:
@@ -168,26 +167,18 @@ def _sides(shape: Shape) -> tuple[float | None, ...]:
 
 
 def _fill_roof(fill: _Fill, place: DrawnOutline, outlines: _Table | None) -> None:
-    section = _BY_KEY["roof"]
-    by_name = {entry.name: entry for entry in entries(section.model)}
+    section = SECTION["roof"]
     _note_outline(fill, place, outlines)
     if isinstance(place.shape, Polygon) and is_absent(fill.book, section):
         return
     for side, value in zip(SIDES, _sides(place.shape), strict=True):
-        position, si = _block_cell(fill.book, section, by_name[side])
+        position = find_cell(fill.book, section, section.entry(side))
+        si = cell_as_column(fill.book, section, section.entry(side), position).si
         is_blank = found_at(fill.book, position).is_blank
         if not is_blank:
             fill.refuse(position, "the roof")
         if value is not None or not is_blank:
             fill.cells[position] = None if value is None else round(value / si, _DIGITS)
-
-
-def _block_cell(book: OpenBook, section: SheetSection, entry: Entry) -> tuple[CellPosition, float]:
-    """Return the cell of a field of a block, and the size of its unit."""
-    position = find_cell(book, section, entry)
-    unit = found_at(book, find_unit_cell(book, section, entry, position))
-    _, si = unit_size(entry, "" if unit.value is None else plain(unit.value).strip())
-    return position, si
 
 
 def _note_outline(fill: _Fill, place: DrawnOutline, outlines: _Table | None) -> None:
@@ -217,7 +208,3 @@ def _fill_outlines(fill: _Fill, outlines: _Table | None) -> None:
             fill.cells[outlines.position(row, "name")] = name
             fill.cells[outlines.position(row, "x_m")] = outlines.number("x_m", x)
             fill.cells[outlines.position(row, "y_m")] = outlines.number("y_m", y)
-
-
-def _text(cell: Found) -> str:
-    return "" if cell.value is None else plain(cell.value).strip()

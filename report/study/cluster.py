@@ -11,9 +11,9 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from report.study.extra import dask
-from report.study.manifest import program
-from report.study.parts import OnDone, keep, made_part
+from report.study.extra import DASK, extra
+from report.study.manifest import program, unlike
+from report.study.parts import OnDone, costliest_first, keep, made_part
 from solver.model import InputError
 from solver.studies.campaign import Campaign
 from solver.studies.runs import Runner
@@ -37,7 +37,7 @@ def connected(address: str, manifest: Mapping[str, Any]) -> Iterator[Any]:
     InputError
         If no scheduler answers, it has no worker, or a worker has other versions.
     """
-    distributed = dask()
+    distributed = extra(DASK)
     try:
         client = distributed.Client(address, timeout=TIMEOUT_S, set_as_default=False)
     except (OSError, ValueError, TypeError, RuntimeError) as error:
@@ -63,14 +63,8 @@ def _check_workers(client: Any, address: str, here: Mapping[str, str]) -> None:
     for worker, found in sorted(there.items()):
         if not isinstance(found, dict):
             problems.append(f"worker {worker}: cannot import this program ({found})")
-            continue
-        off = [
-            f"{name} {found.get(name, 'unknown')[:12]}, here {here[name][:12]}"
-            for name in here
-            if found.get(name) != here[name]
-        ]
-        if off:
-            problems.append(f"worker {worker}: has {'; '.join(off)}")
+        elif off := unlike(found, here):
+            problems.append(f"worker {worker}: has {off}")
     if problems:
         raise InputError([*problems, "install the same versions on every worker, then try again"])
 
@@ -117,8 +111,7 @@ def _sent(
     turn: int,
 ) -> Iterator[tuple[int, Any]]:
     """Yield each part with its outcome, or with the error that ended it."""
-    costs = [float(campaign.seconds[part].sum()) for part in campaign.parts]
-    waiting = iter(sorted(numbers, key=lambda number: -costs[number]))
+    waiting = iter(costliest_first(campaign, numbers))
     runner = client.scatter(Runner(campaign), broadcast=True, hash=False)
     sent: dict[Any, int] = {}
 
@@ -133,7 +126,8 @@ def _sent(
         return futures
 
     threads = sum(client.nthreads().values())
-    completed = dask().as_completed(send(_AHEAD * max(1, threads)), loop=client.loop)
+    ahead = send(_AHEAD * max(1, threads))
+    completed = extra(DASK).as_completed(ahead, loop=client.loop)
     for future in completed:
         number = sent.pop(future)
         try:

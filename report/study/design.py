@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from report.study.read import StudyInput
-from report.study.schema import Intensity
+from report.study.schema import Intensity, StudyInput
 from solver.model import Floats
 from solver.rules.provisions import (
     RULE_SETS,

@@ -6,14 +6,19 @@ from collections.abc import Mapping
 
 from markupsafe import Markup
 
-from report.document.sections import filled
+from report.document.sections import Section, filled
 from report.document.templates import rendered
 from report.figures.base import load_fonts
+from report.study.allowed import allowed
+from report.study.array_page import fragility
+from report.study.basis import basis, limits
+from report.study.curves import curves
 from report.study.exports import export_files
-from report.study.pages import sections
+from report.study.formula import formula
+from report.study.prescribed import compare, prescribed
 from report.study.results import StudyResults
 from report.study.tables import curves_csv, study_xlsx
-from report.study.words import context
+from report.study.words import context, headline
 from report.typeset.pdf import TEMPLATES, lay_out
 
 TABLE = "study.xlsx"
@@ -44,3 +49,23 @@ def study_html(results: StudyResults) -> str:
         "sections": list(filled(TEMPLATES, sections(results), given)),
     }
     return rendered(TEMPLATES, "study.html", given | cover)
+
+
+def sections(results: StudyResults) -> tuple[Section, ...]:
+    """Return all sections except the cover and the contents."""
+    allowed_m = results.plan.input.study.allowed_m
+    first = Section(
+        id="results",
+        title="Results",
+        template="study/results.html",
+        content={"headline": headline(results)},
+    )
+    found = [first, basis(results)]
+    for b in range(len(results.plan.motions.buildings)):
+        found.append(curves(results, b))
+        if allowed_m:
+            found.append(allowed(results, b, allowed_m))
+        found.append(formula(results, b))
+        found += [prescribed(results, b, one) for one in compare(results, b)]
+    found += [fragility(results, one) for one in results.arrays]
+    return (*found, limits(results))

@@ -42,6 +42,15 @@ def program() -> dict[str, str]:
     }
 
 
+def unlike(there: Mapping[str, str], here: Mapping[str, str]) -> str:
+    """Return in words the versions that differ from those here; empty for none."""
+    return "; ".join(
+        f"{name} {there.get(name, 'unknown')[:12]}, here {said[:12]}"
+        for name, said in here.items()
+        if there.get(name) != said
+    )
+
+
 def _version(name: str) -> str:
     try:
         return version(name)
@@ -131,14 +140,8 @@ def check_former(folder: Path, manifest: Mapping[str, Any]) -> None:
         raise InputError(
             f"{path}: has schema_version {schema}, this version has {SCHEMA_VERSION}; {away}"
         )
-    here = manifest["program"]
-    off = [
-        f"{name} {wrote.get(name, 'unknown')[:12]} there, {here[name][:12]} here"
-        for name in here
-        if wrote.get(name) != here[name]
-    ]
-    if off:
+    if off := unlike(wrote, manifest["program"]):
         raise InputError(
-            f"{path}: was written by another version ({'; '.join(off)}): its rows may differ; "
+            f"{path}: was written by another version ({off}): its rows may differ; "
             f"finish it with that version, or {away}"
         )

@@ -18,8 +18,8 @@ from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
 from report.sheet.schema import MotionInput
 from report.sheet.schema.fields import Finding, Place, entries
-from report.study.read import StudyInput, StudySheet
-from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding
+from report.study.read import StudySheet
+from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput
 from report.words.units import G_MPS2
 from solver.building.roof import building_of_periods, shaking_to_roof
 from solver.model import Floats, Motion
@@ -70,12 +70,12 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
             case Components() as components:
                 read.append((MotionInput(**row), components))
             case wrong:
-                if not sheet.input.motions:  # a file of the folder has no cell of its own
+                if not sheet.project.motions:  # a file of the folder has no cell of its own
                     wrong = [Finding.error(_FOLDER, one.text, one.remedy) for one in wrong]
                 faults += wrong
     sheet.refuse(faults)
-    sheet.refuse(_unlike(sheet.input, read))
-    buildings = sheet.input.buildings
+    sheet.refuse(_unlike(sheet.project, read))
+    buildings = sheet.project.buildings
     by_building = tuple(
         tuple(_motion(sheet, row, components, building) for row, components in read)
         for building in buildings or (None,)
@@ -88,16 +88,16 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
 
 
 def _rows(sheet: StudySheet) -> list[dict[str, Any]]:
-    study = sheet.input.study
+    study = sheet.project.study
     defaults = {e.name: e.default for e in entries(MotionInput) if not e.is_required}
     common = {**defaults, "units": study.units, "dt_s": study.dt_s, "polarity": study.polarity}
-    listed: Sequence[Mapping[str, Any]] = [row.model_dump() for row in sheet.input.motions]
+    listed: Sequence[Mapping[str, Any]] = [row.model_dump() for row in sheet.project.motions]
     return [{**common, **row} for row in listed or _of_files(sheet)]
 
 
 def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     """Return a row for each motion of the folder."""
-    name = sheet.input.study.folder.replace("\\", "/").strip("/")
+    name = sheet.project.study.folder.replace("\\", "/").strip("/")
     top = sheet.book.path.parent
     folder = (top / name).resolve()
     if not folder.is_relative_to(top.resolve()) or not folder.is_dir():
@@ -160,9 +160,9 @@ def _motion(
         a = {field: one.a_mps2 for field, one in zip(horizontal, roof, strict=True)}
         a |= {"vertical": shaking.vertical_mps2}
     at_roof = Record(name=row.id, dt_s=dt_s, a_mps2=a["record"])
-    unit = _intensity(sheet.input, components.records["record"], at_roof)
+    unit = _intensity(sheet.project, components.records["record"], at_roof)
     if not (unit > 0.0 and math.isfinite(unit)):
-        place = _FOLDER if not sheet.input.motions else Place("motions")
+        place = _FOLDER if not sheet.project.motions else Place("motions")
         sheet.refuse([Finding.error(place, f"motion {row.id} is all zeros and has no intensity")])
     return Motion(
         id=row.id,

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numba import get_num_threads
 
-from report.study.extra import arrow
+from report.study.extra import ARROW, extra
 from report.study.manifest import NAME, machine
 from solver.files import write_whole
 from solver.model import Floats, InputError
@@ -63,6 +63,12 @@ class Done:
 OnDone = Callable[[Done], None]
 
 
+def costliest_first(campaign: Campaign, numbers: Sequence[int]) -> list[int]:
+    """Return parts by their costs."""
+    costs = [float(campaign.seconds[part].sum()) for part in campaign.parts]
+    return sorted(numbers, key=lambda number: -costs[number])
+
+
 def made_part(
     runner: Runner, number: int, identity: str, names: Sequence[str]
 ) -> tuple[bytes, Done]:
@@ -92,7 +98,7 @@ def parquet(
     names : sequence of str
         Of the buildings.
     """
-    pa = arrow()
+    pa = extra(ARROW)
     cases, columns = campaign.cases[part], campaign.columns
     each, whole = len(columns), len(cases) * len(columns)
 
@@ -153,7 +159,7 @@ class Peaks:
 
 def peaks(content: bytes, campaign: Campaign) -> Peaks:
     """Return the peaks of a part."""
-    pa = arrow()
+    pa = extra(ARROW)
     columns = ["prd_m", "status", "model"]
     table = pa.parquet.read_table(pa.BufferReader(content), columns=columns, use_threads=False)
     shape = (-1, len(campaign.columns))
@@ -294,11 +300,9 @@ def run_missing(
         keep(folder, content, done, identity)
         return done
 
-    costs = [float(campaign.seconds[part].sum()) for part in campaign.parts]
-    order = sorted(missing, key=lambda number: -costs[number])
     # One more than there are cores: a part that waits for the disk leaves no core idle.
     with ThreadPoolExecutor(get_num_threads() + 1) as pool:
-        running = {pool.submit(work, number) for number in order}
+        running = {pool.submit(work, number) for number in costliest_first(campaign, missing)}
         try:
             while running:
                 ended, running = wait(running, return_when=FIRST_COMPLETED)

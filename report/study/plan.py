@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from report.sheet.reading.unseen import warnings
 from report.sheet.schema.fields import Finding, Place
 from report.study.design import DesignRule, design_rule
 from report.study.motions import StudyMotions
-from report.study.read import StudyInput, StudySheet
+from report.study.read import StudySheet
 from report.study.schema import (
     MOST_CASES,
     MOST_RUNS,
@@ -22,6 +23,7 @@ from report.study.schema import (
     Sampling,
     Study,
     StudyArray,
+    StudyInput,
 )
 from solver.studies.campaign import Campaign, Cases, cases_of, grid, joined
 from solver.studies.uncertainty import (
@@ -121,7 +123,7 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     InputError
         If they are more than a study may have, at the cell of the intensities.
     """
-    given = sheet.input
+    given = sheet.project
     buildings = len(motions.buildings)
     blocks = [
         grid(buildings, [math.radians(s) for s in given.slopes_deg], given.mus, given.intensities)
@@ -139,13 +141,14 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
         start += sum(map(len, parts))
     campaign = Campaign(motions=motions.motions, cases=joined(blocks))
     sheet.refuse(_too_many(campaign))
-    hidden = (one for file in motions.files for one in file.unseen)
+    hidden = [one for file in motions.files for one in file.unseen]
+    found = (*warnings([*sheet.unseen, *hidden]), *sheet.warnings)
     return StudyPlan(
         input=given,
         motions=motions,
         campaign=campaign,
         arrays=tuple(arrays),
-        warnings=tuple(sheet.warnings(hidden)),
+        warnings=tuple((one.cell or sheet.where(one.place), one.text) for one in found),
     )
 
 

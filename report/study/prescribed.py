@@ -1,20 +1,29 @@
-"""The prescriptive displacement beside the value from analysis: where it is enough, where it is not
-and where the rule set permits it.
+"""The prescriptive displacement beside the value from analysis: where it is enough and permitted.
 
-Only for studies whose intensity is S_DS. Read `compare`.
+Only for studies whose intensity is S_DS. Read `compare`, then `prescribed`.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from report.document.sections import Section
+from report.document.tables import Table, listed
+from report.entities.shown import centered, text, words
+from report.pages.symbols import with_symbols
+from report.study import figures
+from report.study.page_parts import MOST_FRICTIONS, MOST_LINES, axis, friction_name, some
 from report.study.results import StudyResults
+from report.study.tables import length_unit
+from report.study.words import on_building
+from report.words.units import number, round_down
 from solver.model import Floats
-from solver.rules.provisions import prescriptive_checks
+from solver.rules.provisions import prescriptive_checks, required_mu
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,3 +69,82 @@ def compare(results: StudyResults, building: int) -> tuple[Prescribed, ...]:
     ]
     ratio = results.analysis_m[building] / rule.prescriptive_m
     return (Prescribed(ratio=ratio, permitted=np.array(permitted)),)
+
+
+def prescribed(results: StudyResults, building: int, found: Prescribed) -> Section:
+    """Return the section on the prescriptive displacement."""
+    given, rules = results.plan.input, results.plan.design_rule.rules
+    names = {m: friction_name(results, given.mus[m]) for m in some(given.mus, MOST_FRICTIONS)}
+    slopes, mus = _extent(results, found.unsafe_not_permitted)
+    return Section(
+        id=f"prescribed-{building}",
+        title="Beside the prescriptive displacement"
+        + on_building(results, building, ", building "),
+        template="study/prescribed.html",
+        content={
+            "cases": found.ratio.size,
+            "unsafe": int(found.unsafe.sum()),
+            "outside": int(found.unsafe_not_permitted.sum()),
+            "slopes": slopes,
+            "mus": mus,
+            "steepest_mu": required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"])),
+            "names": names,
+            "margins": _table(results, found),
+        },
+        charts={f"prescribed-{m}": _chart(results, building, m) for m in names},
+    )
+
+
+def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> tuple[list[float], list[float]]:
+    """Return the slopes and the friction coefficients of cases."""
+    given = results.plan.input
+    return (
+        [given.slopes_deg[s] for s in np.flatnonzero(cases.any(axis=(1, 2)))],
+        [given.mus[m] for m in np.flatnonzero(cases.any(axis=(0, 2)))],
+    )
+
+
+def _chart(results: StudyResults, building: int, m: int) -> str:
+    given, rule = results.plan.input, results.plan.design_rule
+    return figures.curves(
+        np.array(given.intensities),
+        [
+            (f"{given.slopes_deg[s]:g}°", results.analysis_m[building, s, m])
+            for s in some(given.slopes_deg, MOST_LINES)
+        ],
+        length_unit(results),
+        along=axis(results),
+        limits=((rule.rules.name, rule.prescriptive_m),),
+    )
+
+
+def _table(results: StudyResults, found: Prescribed) -> Table:
+    given, measure = results.plan.input, with_symbols(axis(results))
+
+    def margins(at: tuple[int, int]) -> tuple[str, str, str]:
+        return _margins(found.ratio[at], given.intensities)
+
+    columns = (
+        (words("Friction", 1.6), lambda at: friction_name(results, given.mus[at[1]])),
+        (text("Slope", "deg"), lambda at: f"{given.slopes_deg[at[0]]:g}"),
+        (centered("Permitted"), lambda at: "yes" if found.permitted[at] else "no"),
+        (text("Enough up to", measure, 1.4), lambda at: margins(at)[0]),
+        (text("Least margin", share=1.1), lambda at: margins(at)[1]),
+        (text("at", measure, 1.2), lambda at: margins(at)[2]),
+    )
+    cases = [(s, m) for m in range(len(given.mus)) for s in range(len(given.slopes_deg))]
+    return listed(cases, columns, kind="compact")
+
+
+def _margins(ratio: Floats, levels: Sequence[float]) -> tuple[str, str, str]:
+    """Return the intensity up to which the prescriptive value is enough, and the least margin."""
+    unsafe = np.flatnonzero(~(ratio <= 1.0))
+    if not unsafe.size:
+        reach = f"{levels[-1]:.12g}, all"
+    else:
+        reach = "none" if unsafe[0] == 0 else f"{levels[unsafe[0] - 1]:.12g}"
+    worst = int(np.argmax(np.where(np.isnan(ratio), np.inf, ratio)))
+    if np.isnan(ratio[worst]):
+        return reach, "none", f"{levels[worst]:g}"
+    margin = math.inf if ratio[worst] == 0.0 else 1.0 / float(ratio[worst])
+    return reach, number(round_down(margin, 2), 2), f"{levels[worst]:g}"

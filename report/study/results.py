@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -135,13 +135,13 @@ class StudyResults:
         From it on, no friction of the study has a displacement above the allowed one.
         """
         values, mus = self.displacements[name][building], np.array(self.plan.input.mus)
-        slopes, _, levels = values.shape
-        return np.array(
-            [
-                [_up(minimum_friction(mus, values[s, :, x], allowed_m), mus) for x in range(levels)]
-                for s in range(slopes)
-            ]
-        )
+
+        def least(prd_m: Floats) -> float:
+            mu = minimum_friction(mus, prd_m, allowed_m)
+            # Rounded up, unless it is one of the study or none is between.
+            return mu if mu in mus else min(round_up(mu, FRICTION_DECIMALS), float(mus[-1]))
+
+        return np.apply_along_axis(least, 1, values)
 
     def largest_slopes(self, building: int, name: str, allowed_m: float) -> Floats:
         """Return the largest slope [deg], rounded down, by friction and intensity; NaN for none.
@@ -149,26 +149,14 @@ class StudyResults:
         Up to it, no slope of the study has a displacement above the allowed one.
         """
         values, slopes = self.displacements[name][building], np.array(self.plan.input.slopes_deg)
-        _, mus, levels = values.shape
-        return np.array(
-            [
-                [
-                    _down(largest_slope(slopes, values[:, m, x], allowed_m), slopes)
-                    for x in range(levels)
-                ]
-                for m in range(mus)
-            ]
-        )
 
+        def largest(prd_m: Floats) -> float:
+            slope = largest_slope(slopes, prd_m, allowed_m)
+            # Rounded down, unless it is one of the study or none is between.
+            least = float(slopes[0])
+            return slope if slope in slopes else max(round_down(slope, SLOPE_DECIMALS), least)
 
-def _up(mu: float, mus: Floats) -> float:
-    """Return a friction rounded up, unless it is one of the study or none is between."""
-    return mu if mu in mus else min(round_up(mu, FRICTION_DECIMALS), float(mus[-1]))
-
-
-def _down(slope: float, slopes: Floats) -> float:
-    """Return a slope rounded down, unless it is one of the study or none is between."""
-    return slope if slope in slopes else max(round_down(slope, SLOPE_DECIMALS), float(slopes[0]))
+        return np.apply_along_axis(largest, 0, values)
 
 
 def results_of(
@@ -182,22 +170,19 @@ def results_of(
     """Return the results of a study whose parts are all there."""
     campaign = plan.campaign
     on_grid = math.prod(plan.shape)
-    columns: list[list[Any]] = [[], [], [], []]
+    on_curves: list[Statistics] = []
     kept: list[Floats] = []
     slips: list[NDArray[np.bool_]] = []
     for number, part in enumerate(campaign.parts):
         found = peaks(read_part(folder, done[number]), campaign)
         # The grid comes first; one part may hold its last cases and the first of the arrays.
         cut = min(max(on_grid - part.start, 0), part.stop - part.start)
-        one = statistics(found.prd_m[:cut])
-        for column, values in zip(
-            columns, (one.mean_m, one.p84_m, one.largest_m, one.without_value), strict=True
-        ):
-            column.append(values)
+        on_curves.append(statistics(found.prd_m[:cut]))
         kept.append(found.prd_m[cut:])
         slips.append(found.slips[cut:])
-    mean, p84, largest, lost = (np.concatenate(c).reshape(plan.shape) for c in columns)
-    curves = Statistics(mean_m=mean, p84_m=p84, largest_m=largest, without_value=lost)
+    names = [field.name for field in fields(Statistics)]
+    whole = {name: np.concatenate([getattr(one, name) for one in on_curves]) for name in names}
+    curves = Statistics(**{name: values.reshape(plan.shape) for name, values in whole.items()})
     prd, slip = np.concatenate(kept), np.concatenate(slips)
     ppa = np.array(
         [

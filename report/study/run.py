@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from report.study.array_capacities import maximum_runs
-from report.study.extra import arrow
+from report.study.extra import ARROW, extra
 from report.study.manifest import NAME, check_former, manifest_of
 from report.study.motions import study_motions
 from report.study.parts import (
@@ -108,7 +108,7 @@ def run_study(
         If a package is missing, the folder has the parts of another version, or the cluster cannot
         be used.
     """
-    arrow()
+    extra(ARROW)
     folder, campaign = out / RUNS, plan.campaign
     manifest = manifest_of(campaign, plan.about)
     check_former(folder, manifest)

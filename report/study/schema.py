@@ -1,7 +1,7 @@
 """The study workbook as data: what is studied, with which mats, arrays, motions and buildings.
 
 Template, reader and messages come from these models; values are SI. Checks that involve more than
-one cell are in `read`. Read `Study` first.
+one cell are in `read`. Read `StudyInput` first.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import datetime as dt
 import itertools
 import re
 from enum import StrEnum
+from functools import lru_cache
 from typing import Annotated
 
 from pydantic import Field
@@ -25,8 +26,9 @@ from report.sheet.schema.choices import (
     Text,
     UnitsFirst,
 )
-from report.sheet.schema.fields import Cell, Frozen, SheetSection
+from report.sheet.schema.fields import Cell, Frozen, OnSheet
 from report.words.units import Quantity
+from solver.studies.uncertainty import Spread, spread_of_tests
 
 MOST_VALUES = 500
 """Most values of one axis of a grid."""
@@ -75,6 +77,7 @@ class Sampling(StrEnum):
     ALL_COMBINATIONS = "all combinations"
 
 
+@lru_cache(maxsize=64)
 def values(text: str) -> tuple[float, ...]:
     """Return the numbers of `0, 1, 2.5` or `0 to 7 by 0.5`, increasing; empty if it is neither.
 
@@ -92,6 +95,15 @@ def values(text: str) -> tuple[float, ...]:
         return ()
     is_row = all(one < two for one, two in itertools.pairwise(found))
     return tuple(found) if is_row and len(found) <= MOST_VALUES else ()
+
+
+def tested(text: str) -> tuple[float, ...]:
+    """Return tested values in any order; empty if they are none."""
+    parts = [part.strip() for part in text.replace(";", ", ").split(", ") if part.strip()]
+    try:
+        return tuple(float(part) for part in parts)
+    except ValueError:
+        return ()
 
 
 Dispersion = Annotated[float, Field(gt=0, le=2)]
@@ -232,41 +244,49 @@ class StudyBuilding(Frozen):
     """Of equal height."""
 
 
-def _section(
-    key: str, sheet: str, title: str, hint: str, model: type[Frozen], *, is_table: bool = True
-) -> SheetSection:
-    return SheetSection(
-        key=key,
-        sheet=sheet,
-        title=title,
-        hint=hint,
-        model=model,
-        is_table=is_table,
-        may_be_absent=False,
-    )
+class StudyInput(Frozen):
+    """The complete input of a study workbook."""
 
+    study: Annotated[Study, OnSheet("Study", "Study")]
+    """Fill in, then run roofslip study FOLDER."""
+    mats: Annotated[tuple[Mat, ...], OnSheet("Mats", "Mats")] = ()
+    """One row for each mat; optional."""
+    study_arrays: Annotated[tuple[StudyArray, ...], OnSheet("Arrays", "Arrays")] = ()
+    """Optional: one row for each fragility."""
+    motions: Annotated[tuple[StudyMotion, ...], OnSheet("Motions", "Motions")] = ()
+    """One row for each motion; leave blank if the sheet Study names a folder."""
+    buildings: Annotated[tuple[StudyBuilding, ...], OnSheet("Buildings", "Buildings")] = ()
+    """Only for ground motions: one row each."""
 
-STUDY = _section(
-    "study", "Study", "Study", "Fill in, then run roofslip study FOLDER.", Study, is_table=False
-)
-SECTIONS = (
-    STUDY,
-    _section("mats", "Mats", "Mats", "One row for each mat; optional.", Mat),
-    _section(
-        "study_arrays", "Arrays", "Arrays", "Optional: one row for each fragility.", StudyArray
-    ),
-    _section(
-        "motions",
-        "Motions",
-        "Motions",
-        "One row for each motion; leave blank if the sheet Study names a folder.",
-        StudyMotion,
-    ),
-    _section(
-        "buildings",
-        "Buildings",
-        "Buildings",
-        "Only for ground motions: one row each.",
-        StudyBuilding,
-    ),
-)
+    @property
+    def slopes_deg(self) -> tuple[float, ...]:
+        """Slopes of the grid [deg]."""
+        return values(self.study.slopes_deg)
+
+    @property
+    def intensities(self) -> tuple[float, ...]:
+        """Intensities of the grid."""
+        return values(self.study.intensities)
+
+    @property
+    def mus(self) -> tuple[float, ...]:
+        """Friction coefficients of the grid: those listed, and those of the mats."""
+        of_mats = {self.friction(mat.id).center for mat in self.mats}
+        return tuple(sorted({*values(self.study.mus), *of_mats}))
+
+    def friction(self, mat_id: str) -> Spread:
+        """Return the distribution of the friction coefficient of a mat."""
+        mat = self._mat(mat_id)
+        tests = tested(mat.tested)
+        if not tests:
+            return Spread(center=float(mat.mu or 0.0))
+        spread = spread_of_tests(tests)
+        return Spread(center=mat.mu or float(f"{spread.center:.6g}"), beta=spread.beta)
+
+    def tests(self, mat_id: str) -> tuple[float, ...]:
+        """Return the tested values of a mat, or its coefficient alone."""
+        mat = self._mat(mat_id)
+        return tested(mat.tested) or (float(mat.mu or 0.0),)
+
+    def _mat(self, mat_id: str) -> Mat:
+        return next(row for row in self.mats if row.id.casefold() == mat_id.casefold())

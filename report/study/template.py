@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from report.sheet.schema import UnitsFirst
+from report.sheet.schema.fields import sections_of
 from report.sheet.writing.template import book_of, save
-from report.study.read import StudyInput
-from report.study.schema import SECTIONS
+from report.study.schema import StudyInput
 
 
 def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = None) -> None:
@@ -18,5 +18,6 @@ def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = N
     units : UnitsFirst
         System of units of the sheets.
     """
-    book, _ = book_of(SECTIONS, SECTIONS[0].sheet, units, example)
+    sections = sections_of(StudyInput)
+    book, _ = book_of(sections, sections[0].sheet, units, example)
     save(book, path, units)

@@ -14,7 +14,6 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.checking.grouped import Group, grouped, listed
 from report.sheet.reading.archive import OpenBook, open_book
-from report.sheet.reading.cells import plain
 from report.sheet.reading.locate_tables import find_table
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.schema import SECTIONS
@@ -84,5 +83,4 @@ def _headed(book: OpenBook, sheet: Worksheet, row: int, column: int) -> tuple[in
 
 
 def _text(book: OpenBook, title: str, row: int, column: int) -> str:
-    value = found_at(book, CellPosition(title, row, column)).value
-    return "" if value is None else cut(plain(value))
+    return cut(found_at(book, CellPosition(title, row, column)).shown)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from report.sheet.schema import ROOF, SECTIONS, SIDES, ObjectKind, RecordedAt, Scaling
-from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, YesNo, entries
+from report.sheet.schema import ROOF, SECTION, SIDES, ObjectKind, RecordedAt, Scaling
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, YesNo
 from report.sheet.schema.layout import literal
 
 Refer = Callable[[str], str]
@@ -137,15 +137,12 @@ MAX_SLOPE_DEG = 45.0
 ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 """Fields of which the second is larger, where a table has them."""
 
-_MODELS = {section.key: section.model for section in SECTIONS}
-
 
 def missing(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
     for (section, field), required in REQUIRED.items():
-        entry = next(one for one in entries(_MODELS[section]) if one.name == field)
         for index, row in enumerate(draft[section] if required.wish else ()):
             is_blank = field in row and row[field] in (None, "")
             if is_blank and required.when.holds(row, draft):
-                found = f"{entry.spoken} is missing"
+                found = f"{SECTION[section].entry(field).spoken} is missing"
                 yield Finding.error(Place(section, index, field), found, required.wish)

@@ -19,11 +19,6 @@ def warning(name: str, place: Place, text: str) -> Finding:
     return Finding(level=Level.WARNING, id=name, place=place, text=text)
 
 
-def unanswered(place: Place, text: str, cell: str) -> Finding:
-    """Return a warning on a cell that is no input."""
-    return Finding(level=Level.WARNING, place=place, text=text, cell=cell)
-
-
 def limit(place: Place, text: str) -> Finding:
     """Return a warning that no reason lifts."""
     return Finding(level=Level.WARNING, place=place, text=text)

@@ -46,8 +46,8 @@ def grouped(problems: Iterable[Problem]) -> Iterator[Group]:
         yield Group(those[0], sheet, tuple(cells))
 
 
-def listed(names: Iterable[str]) -> str:
+def listed(names: Iterable[str], most: int = MOST_LISTED) -> str:
     """Return the first few of the names, with the count of the others."""
     given = list(dict.fromkeys(names))
-    more = len(given) - MOST_LISTED
-    return ", ".join(given[:MOST_LISTED]) + (f" and {more:,} more" if more > 0 else "")
+    more = len(given) - most
+    return ", ".join(given[:most]) + (f" and {more:,} more" if more > 0 else "")

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from report.sheet.checking.findings import warning
+from report.sheet.checking.grouped import listed
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.unseen import Used
 from report.sheet.schema.fields import Finding, Place
@@ -33,7 +34,6 @@ def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding
         return
     if read or any(scan.formulas for scan in book.scans.values()):
         place, cell = read[0] if read else (whole, "")
-        which = ", ".join(address for _, address in read[:_MOST_LISTED]) or "its computed cells"
-        which += f" and {more} more" if (more := len(read) - _MOST_LISTED) > 0 else ""
+        which = listed((address for _, address in read), _MOST_LISTED) or "its computed cells"
         text = f"the workbook {why}, and {which} may show former values: calculate it (F9) and save"
         yield replace(warning("calculation", place, f"{text} it"), cell=cell)

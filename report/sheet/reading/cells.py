@@ -19,9 +19,8 @@ from pydantic import ValidationError
 
 from report.sheet.reading.number_format import is_percentage, misleading
 from report.sheet.schema import legacy_labels
-from report.sheet.schema.fields import Entry, Frozen, YesNo, adapter
+from report.sheet.schema.fields import Entry, YesNo, adapter
 from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
-from report.words.units import Quantity
 from solver.model import InputError, Problem
 
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
@@ -71,10 +70,14 @@ class Found:
         return blank and not self.formula
 
     @property
+    def shown(self) -> str:
+        """Its value as a user would type it; empty for none."""
+        return "" if self.value is None else plain(self.value)
+
+    @property
     def text(self) -> str:
         """What was typed, for the echo; for a formula, with its value."""
-        shown = "" if self.value is None else plain(self.value)
-        return f"{self.formula} → {shown}" if self.formula else shown
+        return f"{self.formula} → {self.shown}" if self.formula else self.shown
 
 
 def plain(value: object) -> str:
@@ -94,19 +97,10 @@ def plain(value: object) -> str:
             return str(value)
 
 
-SI_SYMBOLS = {
-    Quantity.SIZE: "m",
-    Quantity.PLAN: "m",
-    Quantity.WEIGHT: "N",
-    Quantity.STIFFNESS: "N/m",
-    Quantity.VELOCITY: "m/s",
-    Quantity.PRESSURE: "Pa",
-}
-
-
 def as_used(value: object, entry: Entry, unit: str) -> str:
     """Return a field's value for the echo, with its unit: that of SI where it can be chosen."""
-    unit = SI_SYMBOLS[entry.quantity] if entry.quantity else unit
+    if entry.quantity:
+        unit = next(symbol for symbol, si in entry.quantity.accepted.items() if si == 1.0)
     if isinstance(value, bool):
         return str(YesNo.YES if value else YesNo.NO)
     if isinstance(value, float):
@@ -126,9 +120,7 @@ def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]
     return "" if text is None else unit_of(plain(text).strip())
 
 
-def read_cell(
-    cell: Found, entry: Entry, model: type[Frozen], unit: str, si: float, shown: str = ""
-) -> Any:
+def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") -> Any:
     """Return a field's value in SI from a cell that is not blank.
 
     Parameters
@@ -150,7 +142,7 @@ def read_cell(
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
         raise CellError(_is(cell, entry), f"{wanted}, below {LARGEST:g} in size")
     try:
-        return adapter(model, entry.name).validate_python(value)
+        return adapter(entry.model, entry.name).validate_python(value)
     except ValidationError as error:
         raise CellError(_is(cell, entry), wanted) from error
 

@@ -5,25 +5,26 @@ One of the two is read, and what is typed into the other has no effect. Read `co
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Set
 
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.checking.findings import warning
 from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.positions import fields_by_label, label_key, scanned, sheets_of
-from report.sheet.schema import SECTIONS
+from report.sheet.reading.positions import fields_by_label, labels
 from report.sheet.schema.fields import Finding, Place, SheetSection
 
 Rows = tuple[frozenset[str], ...]
 """Labels in each row of a sheet, in the form that is compared."""
 
 
-def copies(book: OpenBook, addresses: Mapping[Place, str]) -> Iterator[Finding]:
+def copies(
+    book: OpenBook, sections: Iterable[SheetSection], addresses: Mapping[Place, str]
+) -> Iterator[Finding]:
     """Yield a warning for each sheet with all labels of one that is read."""
-    rows = {sheet.title: _rows(book, sheet) for sheet in sheets_of(book)}
+    rows = {sheet.title: _rows(book, sheet) for sheet in book.book.worksheets}
     told: set[str] = set()
-    for section in SECTIONS:
+    for section in sections:
         found = (address for place, address in addresses.items() if place.section == section.key)
         read = next(found, "").rpartition("!")[0]
         labels = _labels(section, rows[read]) if read in rows else frozenset()
@@ -39,8 +40,7 @@ def copies(book: OpenBook, addresses: Mapping[Place, str]) -> Iterator[Finding]:
 
 def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
     rows: dict[int, set[str]] = {}
-    for position in scanned(book, sheet):
-        label = label_key(sheet.cell(position.row, position.column).value)
+    for position, label in labels(book, sheet):
         rows.setdefault(position.row, set()).add(label)
     return tuple(map(frozenset, rows.values()))
 

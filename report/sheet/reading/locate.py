@@ -6,17 +6,20 @@ Never uses positions or styles, which users change. `cells` converts the content
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.locate_tables import table_area
+from report.sheet.reading.locate_tables import FieldColumn, table_area
 from report.sheet.reading.positions import (
     FRESH,
     CellPosition,
     area_named,
-    label_key,
+    check_uncovered,
+    found_at,
+    labels,
     labels_of,
-    scanned,
     sheet_titled,
+    unit_size,
 )
 from report.sheet.schema import legacy_labels
 from report.sheet.schema.fields import Entry, SheetSection, entries
@@ -34,12 +37,24 @@ def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
     return position
 
 
-def find_unit_cell(
-    book: OpenBook, section: SheetSection, entry: Entry, value: CellPosition
-) -> CellPosition:
-    """Return the cell that holds the unit of a single field, by name, or else next to the value."""
-    position = _named(book, map(section.unit_name, _fields(section, entry)))
-    return position or CellPosition(value.sheet, value.row, value.column + 1)
+def cell_as_column(
+    book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
+) -> FieldColumn:
+    """Return the unit of a single field, as a column has it: by name, or else next to the value.
+
+    Raises
+    ------
+    InputError
+        If the unit is not accepted, or merged cells cover either.
+    """
+    if entry.kind not in (int, float):
+        check_uncovered(book, position)
+        return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
+    named = _named(book, map(section.unit_name, _fields(section, entry)))
+    at = named or replace(position, column=position.column + 1)
+    check_uncovered(book, position, at)
+    unit, si = unit_size(entry, found_at(book, at).shown.strip(), at.address)
+    return FieldColumn(number=position.column, unit=unit, si=si, heading=at)
 
 
 def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
@@ -85,7 +100,6 @@ def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
     if named or sheet is None:
         return named
     wanted = labels_of(section, entry)
-    for position in scanned(book, sheet):
-        if label_key(sheet.cell(position.row, position.column).value) in wanted:
-            return CellPosition(position.sheet, position.row, position.column + 1)
-    return None
+    found = (position for position, label in labels(book, sheet) if label in wanted)
+    at = next(found, None)
+    return replace(at, column=at.column + 1) if at else None

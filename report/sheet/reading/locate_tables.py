@@ -6,7 +6,7 @@ Never uses positions or styles, which users change. Read `find_table`.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
@@ -21,10 +21,9 @@ from report.sheet.reading.positions import (
     found_at,
     heading_parts,
     label_key,
+    labels,
     merged,
-    scanned,
     sheet_titled,
-    sheets_of,
     unit_size,
 )
 from report.sheet.schema.answers import ANSWER_HEADINGS, STATUS_HEADING
@@ -75,9 +74,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     # Formulas are not read.
     answers = ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
     headings = [p for p in positions if label_key(sheet.cell(top, p.column).value) not in answers]
-    columns, others, seen, problems = _columns(book, section, headings)
-    absent, missing = _unseen(book, section, headings, seen, others)
-    problems += missing
+    columns, others, absent, problems = _columns(book, section, headings)
     used = [column.number for column in columns.values()]
     last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
     problems += _merged(sheet, top, last_row, used)
@@ -86,14 +83,14 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         columns=columns,
         rows=[row for row in range(top + 1, last_row + 1) if row not in below],
         others=tuple(others),
-        absent=absent,
+        absent=tuple(absent),
         problems=tuple(problems),
     )
 
 
 def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
     """Return sheet, left, heading row, right and rows of totals of a section's table."""
-    for sheet in sheets_of(book):
+    for sheet in book.book.worksheets:
         for table in sheet.tables.values():
             names = {str(table.displayName).casefold(), str(table.name).casefold()}
             bounds = bounds_of(table.ref)
@@ -107,16 +104,12 @@ def _table_named(book: OpenBook, section: SheetSection) -> _Place | None:
 
 def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
-    own = sheet_titled(book, section.sheet)
-    for sheet in [own] if own else sheets_of(book):
+    own, fields = sheet_titled(book, section.sheet), fields_by_label(section)
+    for sheet in [own] if own else book.book.worksheets:
         rows: dict[int, list[int]] = {}
         taken = _rows_of_others(sheet, section)
-        for position in scanned(book, sheet):
-            if position.row in taken:
-                continue
-            if label_key(sheet.cell(position.row, position.column).value) in fields_by_label(
-                section
-            ):
+        for position, label in labels(book, sheet):
+            if position.row not in taken and label in fields:
                 rows.setdefault(position.row, []).append(position.column)
         best = max(rows, key=lambda row: len(rows[row]), default=0)
         if best and len(rows[best]) > len(entries(section.model)) / 2:
@@ -148,22 +141,23 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
 
 def _columns(
     book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
-) -> tuple[dict[str, FieldColumn], list[CellPosition], set[str], list[Problem]]:
+) -> tuple[dict[str, FieldColumn], list[CellPosition], list[str], list[Problem]]:
+    """Return the columns of fields, other headings, fields without a column, and problems."""
     fields = fields_by_label(section)
+    places: dict[str, CellPosition] = {}
     columns: dict[str, FieldColumn] = {}
     others: list[CellPosition] = []
     problems: list[Problem] = []
-    seen: set[str] = set()
     for position in headings:
         text = found_at(book, position).value
         entry = fields.get(label_key(text))
         if entry is None:
             others += [position] if text is not None else []
-        elif entry.name in seen:
+        elif entry.name in places:
             twice = f"heading '{entry.cell.label}' appears twice"
             problems.append(Problem(twice, "keep one", position.address))
         else:
-            seen.add(entry.name)
+            places[entry.name] = position
             try:
                 unit, si = unit_size(entry, heading_parts(text)[1], position.address)
             except InputError as error:
@@ -172,48 +166,19 @@ def _columns(
             columns[entry.name] = FieldColumn(
                 number=position.column, unit=unit, si=si, heading=position
             )
-    return columns, others, seen, problems
-
-
-def _unseen(
-    book: OpenBook,
-    section: SheetSection,
-    headings: Sequence[CellPosition],
-    seen: set[str],
-    others: Sequence[CellPosition],
-) -> tuple[tuple[str, ...], list[Problem]]:
-    """Return optional fields that have no column, and a problem for each other missing field."""
-    fields = entries(section.model)
-    places = _heading_places(book, section, headings)
-    # With an unknown heading no field counts as absent: the heading may be a renamed one.
-    absent = [e.name for e in fields if e.name not in seen and not e.is_expected and not others]
-    problems = []
-    for entry in fields:
-        if entry.name not in seen and entry.name not in absent:
-            position = places[entry.name]
-            text = found_at(book, position).value
-            instead = f", '{text}' found" if position in others else ""
-            missing = f"heading '{entry.cell.label}' is missing{instead}"
-            wanted = f"write it here in its own column, or {FRESH}"
-            problems.append(Problem(missing, wanted, position.address))
-    return tuple(absent), problems
-
-
-def _heading_places(
-    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
-) -> Mapping[str, CellPosition]:
-    """Return where each heading is, or where it belongs: after that of the field before it."""
-    fields = fields_by_label(section)
-    places = {
-        fields[key].name: position
-        for position in headings
-        if (key := label_key(found_at(book, position).value)) in fields
-    }
-    first = following = headings[0]
+    absent: list[str] = []
+    following = headings[0]  # where a missing one belongs: after that of the field before it
     for entry in entries(section.model):
-        position = places.setdefault(entry.name, following)
-        following = CellPosition(first.sheet, first.row, position.column + 1)
-    return places
+        if entry.name not in places and not entry.is_expected and not others:
+            absent.append(entry.name)
+        elif entry.name not in places:
+            # With an unknown heading no field counts as absent: the heading may be a renamed one.
+            found = f", '{found_at(book, following).value}' found" if following in others else ""
+            missing = f"heading '{entry.cell.label}' is missing{found}"
+            wanted = f"write it here in its own column, or {FRESH}"
+            problems.append(Problem(missing, wanted, following.address))
+        following = replace(following, column=places.get(entry.name, following).column + 1)
+    return columns, others, absent, problems
 
 
 def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:

@@ -34,37 +34,43 @@ class Formula(str):
 Value = Formula | str | float | int | None
 """What is written in a cell: a formula, text, a number, or nothing."""
 
+_Cells = Mapping[tuple[int, int], Value]  # by row and column
+_Edit = tuple[int, int, bytes]  # start, end and new bytes
+
 _CALC_CHAIN = "xl/calcChain.xml"
+_SPANS = re.compile(rb'\sspans="[^"]*"')
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class _Element:
     """A row or a cell in the bytes of a sheet: where it starts and ends, and its start tag."""
 
+    name: bytes
     attributes: Mapping[str, str]
     start: int
     opened: int  # where its start tag ends
     closing: int  # where its end tag starts
     end: int
 
-    @property
-    def is_empty(self) -> bool:
-        """Whether it has one tag alone."""
-        return self.closing == self.end
+    def insertion(self, before: _Element | None, content: bytes) -> _Edit:
+        """Return the edit that adds to its content, before one of its children or at its end."""
+        if before is not None:
+            return before.start, before.start, content
+        if self.closing < self.end:
+            return self.closing, self.closing, content
+        return self.end - len(b"/>"), self.end, b">%b</%b>" % (content, self.name)
 
 
 @dataclass(slots=True)
 class _Sheet:
     """Where the rows and the cells of a sheet are in its bytes."""
 
-    tag: str = ""
     data: _Element | None = None
     rows: dict[int, _Element] = field(default_factory=dict)
     cells: dict[int, dict[int, _Element]] = field(default_factory=dict)
     formulas: dict[tuple[int, int], Mapping[str, str]] = field(default_factory=dict)
-    styles: list[tuple[int, int, str]] = field(default_factory=list)
-    columns: list[tuple[range, int, int]] = field(default_factory=list)
+    columns: list[tuple[range, Mapping[str, str], int, int]] = field(default_factory=list)
 
     def style(self, row: int, column: int) -> str:
         """Return the style of a cell; of one that is not there, that of its row or column."""
@@ -72,8 +78,10 @@ class _Sheet:
             return cell.attributes.get("s", "")
         if row in self.rows and self.rows[row].attributes.get("customFormat") in ("1", "true"):
             return self.rows[row].attributes.get("s", "")
-        found = (style for low, high, style in self.styles if low <= column <= high)
-        return next(found, "")
+        styles = (
+            said["style"] for at, said, *_ in self.columns if column in at and "style" in said
+        )
+        return next(styles, "")
 
 
 def write_cells(path: Path, changes: Mapping[CellPosition, Value]) -> None:
@@ -169,9 +177,8 @@ class _Scan:
             self._row = int(attributes["r"])
         elif local == "col":
             low, high = int(attributes["min"]), int(attributes["max"])
-            self.sheet.columns.append((range(low, high + 1), at, _tag_end(self._data, at)))
-            if "style" in attributes:
-                self.sheet.styles.append((low, high, attributes["style"]))
+            columns, end = range(low, high + 1), _tag_end(self._data, at)
+            self.sheet.columns.append((columns, attributes, at, end))
         elif local == "f" and self._open:
             row, column = coordinate_to_tuple(self._open[-1][1]["r"])
             self.sheet.formulas[row, column] = attributes
@@ -186,15 +193,15 @@ class _Scan:
         has_end = self._data.startswith(f"</{name}".encode(), at)
         end = self._data.index(b">", at) + 1 if has_end else at
         closing = at if has_end else end
-        element = _Element(attributes, start, opened, closing, end)
-        if local == "sheetData":
-            self.sheet.tag = name.removesuffix("sheetData")
-            self.sheet.data = element
-        elif local == "row":
-            self.sheet.rows[self._row] = element
-        else:
-            column = coordinate_to_tuple(attributes["r"])[1]
-            self.sheet.cells.setdefault(self._row, {})[column] = element
+        element = _Element(name.encode(), attributes, start, opened, closing, end)
+        match local:
+            case "sheetData":
+                self.sheet.data = element
+            case "row":
+                self.sheet.rows[self._row] = element
+            case "c":
+                column = coordinate_to_tuple(attributes["r"])[1]
+                self.sheet.cells.setdefault(self._row, {})[column] = element
 
 
 def _tag_end(data: bytes, start: int) -> int:
@@ -203,45 +210,37 @@ def _tag_end(data: bytes, start: int) -> int:
     return match.end() if match else start
 
 
-def _spliced(
-    title: str, data: bytes, sheet: _Sheet, cells: Mapping[tuple[int, int], Value]
-) -> bytes:
-    """Return the bytes of a sheet with other contents of cells, by row and column."""
-    filled = {column for (_, column), value in cells.items() if value is not None}
-    edits = list(_shown(data, sheet, filled))
-    for row in sorted({row for row, _ in cells}):
-        values = {column: value for (at, column), value in cells.items() if at == row}
-        for column in values:
-            if _is_needed_elsewhere(sheet, row, column, cells):
-                cell = f"{title}!{get_column_letter(column)}{row}"
-                raise InputError(f"{cell}: shares its formula with other cells; clear it first")
-        edits += _row_edits(data, sheet, row, values)
+def _spliced(title: str, data: bytes, sheet: _Sheet, cells: _Cells) -> bytes:
+    """Return the bytes of a sheet with other contents of cells."""
+    for row, column in cells:
+        if _is_needed_elsewhere(sheet, row, column, cells):
+            cell = f"{title}!{get_column_letter(column)}{row}"
+            raise InputError(f"{cell}: shares its formula with other cells; clear it first")
     out, at = [], 0
-    for start, end, content in sorted(edits, key=lambda edit: edit[0]):
+    edits = [*_shown(data, sheet, cells), *_edits(data, sheet, cells)]
+    for start, end, content in sorted(edits, key=lambda edit: edit[:2]):
         out += [data[at:start], content]
         at = end
     return b"".join([*out, data[at:]])
 
 
-def _shown(data: bytes, sheet: _Sheet, filled: set[int]) -> Iterator[tuple[int, int, bytes]]:
-    """Yield start, end and new bytes of columns that are hidden, folded groups also, and filled."""
+def _shown(data: bytes, sheet: _Sheet, cells: _Cells) -> Iterator[_Edit]:
+    """Yield the edits that show columns which are hidden, folded groups also, and filled."""
+    filled = {column for (_, column), value in cells.items() if value is not None}
     hidden = [
         columns
-        for columns, start, end in sheet.columns
-        if re.search(rb'\shidden="(?:1|true)"', data[start:end]) and filled.intersection(columns)
+        for columns, said, *_ in sheet.columns
+        if said.get("hidden") in ("1", "true") and filled.intersection(columns)
     ]
-    for columns, start, end in sheet.columns:
-        tag = data[start:end]
-        if columns in hidden:
-            yield start, end, re.sub(rb'\s(?:hidden|collapsed)="\w+"', b"", tag)
-        elif any(columns.start == other.stop for other in hidden):
-            # Where a group ends, its mark would fold it again.
-            yield start, end, re.sub(rb'\scollapsed="\w+"', b"", tag)
+    for columns, _, start, end in sheet.columns:
+        # Where a group ends, its mark would fold it again.
+        is_end = any(columns.start == other.stop for other in hidden)
+        if columns in hidden or is_end:
+            names = rb"hidden|collapsed" if columns in hidden else rb"collapsed"
+            yield start, end, re.sub(rb'\s(?:%b)="\w+"' % names, b"", data[start:end])
 
 
-def _is_needed_elsewhere(
-    sheet: _Sheet, row: int, column: int, cells: Mapping[tuple[int, int], Value]
-) -> bool:
+def _is_needed_elsewhere(sheet: _Sheet, row: int, column: int, cells: _Cells) -> bool:
     """Whether the formula of a cell is also that of cells which are not changed."""
     formula = sheet.formulas.get((row, column), {})
     reach = formula.get("ref", "")
@@ -251,67 +250,54 @@ def _is_needed_elsewhere(
     return bool(reach) and not cells.keys() >= set(group)
 
 
-def _row_edits(
-    data: bytes, sheet: _Sheet, row: int, values: Mapping[int, Value]
-) -> Iterator[tuple[int, int, bytes]]:
-    """Yield start, end and new bytes of what changes in a row."""
+def _edits(data: bytes, sheet: _Sheet, cells: _Cells) -> Iterator[_Edit]:
+    """Yield the edits of cells that are there, and those that add cells and rows."""
     assert sheet.data is not None
-    old = sheet.cells.get(row, {})
-    home = sheet.rows.get(row)
-    fresh = {c: v for c, v in values.items() if c not in old and v is not None}
-    for column in sorted(values.keys() & old.keys()):
-        cell = old[column]
-        yield cell.start, cell.end, _cell(sheet, row, column, values[column])
-    if not fresh:
-        return
-    if home is None or home.is_empty:
-        yield _whole_row(data, sheet, row, home, fresh)
-        return
-    head = re.sub(rb'\sspans="[^"]*"', b"", data[home.start : home.opened])
-    yield home.start, home.opened, head
-    for column in sorted(fresh):
-        after = min((c for c in old if c > column), default=None)
-        at = home.closing if after is None else old[after].start
-        yield at, at, _cell(sheet, row, column, fresh[column])
+    prefix = sheet.data.name.removesuffix(b"sheetData")
+    added: dict[int, dict[int, bytes]] = {}
+    for (row, column), value in sorted(cells.items(), key=lambda item: item[0]):
+        content = _cell(prefix.decode(), sheet.style(row, column), row, column, value)
+        if cell := sheet.cells.get(row, {}).get(column):
+            yield cell.start, cell.end, content
+        elif value is not None:
+            added.setdefault(row, {})[column] = content
+    inserted: dict[tuple[_Element, _Element | None], list[bytes]] = {}
+    for row, written in added.items():
+        home, old = sheet.rows.get(row), sheet.cells.get(row, {})
+        if home is None:
+            whole = b'<%brow r="%d">%b</%brow>' % (prefix, row, b"".join(written.values()), prefix)
+            inserted.setdefault((sheet.data, _next(sheet.rows, row)), []).append(whole)
+            continue
+        if spans := _SPANS.search(data, home.start, home.opened):
+            yield *spans.span(), b""
+        for column, content in written.items():
+            inserted.setdefault((home, _next(old, column)), []).append(content)
+    for (parent, before), contents in inserted.items():
+        yield parent.insertion(before, b"".join(contents))
 
 
-def _whole_row(
-    data: bytes, sheet: _Sheet, row: int, home: _Element | None, values: Mapping[int, Value]
-) -> tuple[int, int, bytes]:
-    """Return the place and the bytes of a row that has no cells yet, or is not there."""
-    assert sheet.data is not None
-    inner = b"".join(_cell(sheet, row, column, values[column]) for column in sorted(values))
-    tag = f"{sheet.tag}row".encode()
-    if home is not None:
-        head = re.sub(rb'\sspans="[^"]*"', b"", data[home.start : home.opened])
-        return home.start, home.end, head.rstrip(b"/> ") + b">" + inner + b"</" + tag + b">"
-    whole = b'<%b r="%d">%b</%b>' % (tag, row, inner, tag)
-    body = sheet.data
-    if body.is_empty:
-        name = f"{sheet.tag}sheetData".encode()
-        return body.start, body.end, b"<%b>%b</%b>" % (name, whole, name)
-    after = min((number for number in sheet.rows if number > row), default=None)
-    at = body.closing if after is None else sheet.rows[after].start
-    return at, at, whole
+def _next(elements: Mapping[int, _Element], number: int) -> _Element | None:
+    """Return the first of the elements beyond a row or column."""
+    return elements.get(min((at for at in elements if at > number), default=0))
 
 
-def _cell(sheet: _Sheet, row: int, column: int, value: Value) -> bytes:
+def _cell(prefix: str, style: str, row: int, column: int, value: Value) -> bytes:
     """Return a cell; a number as such, a text within the cell itself."""
-    tag, style = sheet.tag, sheet.style(row, column)
-    start = f'<{tag}c r="{get_column_letter(column)}{row}"' + (f' s="{style}"' if style else "")
+    start = f'<{prefix}c r="{get_column_letter(column)}{row}"' + (f' s="{style}"' if style else "")
     if value is None:
         return f"{start}/>".encode()
     if isinstance(value, Formula):
-        inner = f"<{tag}f>{escape(value[1:])}</{tag}f>"
+        inner = f"<{prefix}f>{escape(value[1:])}</{prefix}f>"
     elif isinstance(value, str):
         start += ' t="inlineStr"'
         words = escape(_CONTROL.sub("?", value))
-        inner = f'<{tag}is><{tag}t xml:space="preserve">{words}</{tag}t></{tag}is>'
+        text = f'<{prefix}t xml:space="preserve">{words}</{prefix}t>'
+        inner = f"<{prefix}is>{text}</{prefix}is>"
     else:
         # A number of numpy is written as a number of Python.
         number = value if isinstance(value, int) else float(value)
-        inner = f"<{tag}v>{number!r}</{tag}v>"
-    return f"{start}>{inner}</{tag}c>".encode()
+        inner = f"<{prefix}v>{number!r}</{prefix}v>"
+    return f"{start}>{inner}</{prefix}c>".encode()
 
 
 def _computed_when_opened(workbook: bytes) -> bytes:
@@ -337,7 +323,7 @@ def _without_chain(archive: zipfile.ZipFile, new: dict[str, bytes]) -> frozenset
 
 
 def _longer_tables(
-    archive: zipfile.ZipFile, part: str, cells: Mapping[tuple[int, int], Value]
+    archive: zipfile.ZipFile, part: str, cells: _Cells
 ) -> Iterator[tuple[str, bytes]]:
     """Yield the tables of a sheet that grow to the rows written just below them."""
     filled = [at for at, value in cells.items() if value is not None]

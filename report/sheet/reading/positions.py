@@ -89,23 +89,18 @@ def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:
     ]
 
 
-def sheets_of(book: OpenBook) -> list[Worksheet]:
-    """Return the sheets with cells."""
-    return list(book.book.worksheets)
-
-
 def sheet_titled(book: OpenBook, title: str) -> Worksheet | None:
     """Return the sheet with a title, ignoring case."""
     wanted = title.strip().casefold()
-    return next((s for s in sheets_of(book) if s.title.strip().casefold() == wanted), None)
+    return next((s for s in book.book.worksheets if s.title.strip().casefold() == wanted), None)
 
 
-def scanned(book: OpenBook, sheet: Worksheet) -> Iterator[CellPosition]:
-    """Yield the cells of a sheet where labels and headings are looked for, row by row."""
+def labels(book: OpenBook, sheet: Worksheet) -> Iterator[tuple[CellPosition, str]]:
+    """Yield each cell where a label or heading may be, row by row, with `label_key` of its text."""
     extent = book.extent(sheet.title)
     for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1):
         for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1):
-            yield CellPosition(sheet.title, row, column)
+            yield CellPosition(sheet.title, row, column), label_key(sheet.cell(row, column).value)
 
 
 def area_named(book: Workbook, name: str) -> tuple[str, tuple[int, int, int, int]] | None:

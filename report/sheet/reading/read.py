@@ -6,11 +6,11 @@ Combines opening (`archive`), finding (`locate`), converting (`cells`) and check
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from report.sheet.checking.checks import faults
 from report.sheet.reading.archive import OpenBook, open_book
@@ -19,18 +19,27 @@ from report.sheet.reading.cells import (
     CellError,
     Found,
     as_used,
-    plain,
     read_cell,
     stated_unit,
     wish_for_missing,
 )
 from report.sheet.reading.duplicate_sheets import copies
-from report.sheet.reading.locate import added_later, find_cell, find_unit_cell, is_absent
+from report.sheet.reading.locate import added_later, cell_as_column, find_cell, is_absent
 from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
-from report.sheet.reading.positions import FRESH, CellPosition, check_uncovered, found_at, unit_size
+from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.reading.unseen import Unseen, by_cell, unseen
 from report.sheet.schema import SECTIONS, ProjectInput
-from report.sheet.schema.fields import Draft, Entry, Finding, Place, SheetSection, entries
+from report.sheet.schema.fields import (
+    Draft,
+    Entry,
+    Finding,
+    Frozen,
+    Place,
+    SheetSection,
+    Where,
+    entries,
+    sections_of,
+)
 from solver.model import InputError, Problem
 
 
@@ -59,13 +68,17 @@ IGNORED = "not an input, ignored"
 """How the echo shows a cell under a heading that is not known."""
 
 
+Whole = TypeVar("Whole", bound=Frozen)
+
+
 @dataclass(frozen=True, kw_only=True)
-class Sheet:
+class SheetOf(Generic[Whole]):
     """A workbook as data, with every problem found in it."""
 
     path: Path
     sha256: str  # of the workbook
     book: OpenBook  # for columns pasted into it and files beside it
+    whole: type[Whole]  # what it is the input of
     draft: Draft
     echo: tuple[EchoRow, ...]  # every field in the order of the template
     problems: tuple[tuple[Place, Problem], ...]
@@ -75,7 +88,7 @@ class Sheet:
     warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
 
     @cached_property
-    def project(self) -> ProjectInput:
+    def project(self) -> Whole:
         """The input, validated.
 
         Raises
@@ -84,7 +97,15 @@ class Sheet:
             With every problem, each as `Sheet!Cell: what was found; what to give`.
         """
         self.refuse(())
-        return ProjectInput(**models(self.draft, SECTIONS))
+        given: dict[str, Any] = {}
+        for part in sections_of(self.whole):
+            rows = tuple(part.model(**row) for row in self.draft[part.key])
+            given[part.key] = rows if part.is_table else rows[0]
+        return self.whole(**given)
+
+    def where(self, place: Place) -> str:
+        """Return the address of a place; that of its table or sheet if it has no cell."""
+        return _where(place, self.addresses)
 
     def refuse(self, faults: Iterable[Finding]) -> None:
         """Raise the problems of the workbook together with further faults, if there are any.
@@ -92,10 +113,24 @@ class Sheet:
         Raises
         ------
         InputError
-            In the order of the template.
+            In the order of the template, each once.
         """
-        located = _located(faults, self.addresses, self.unfound)
-        refuse([*self.problems, *located], SECTIONS)
+        found = [*self.problems, *_located(faults, self.addresses, self.unfound)]
+        sections = sections_of(self.whole)
+        order = {part.key: count for count, part in enumerate(sections)}
+        names = {part.key: [entry.name for entry in entries(part.model)] for part in sections}
+
+        def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
+            section, row, field = problem[0]
+            fields = names[section]
+            return order[section], row, fields.index(field) if field in fields else -1
+
+        if found:
+            raise InputError(list(dict.fromkeys(each for _, each in sorted(found, key=rank))))
+
+
+Sheet = SheetOf[ProjectInput]
+"""The input workbook of a project as data."""
 
 
 def read(path: Path) -> Sheet:
@@ -110,14 +145,24 @@ def read(path: Path) -> Sheet:
     book = open_book(path)
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
         raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
-    gathered = gather(book, SECTIONS)
-    gathered.take(faults(gathered.draft, gathered.where))
+    return read_as(ProjectInput, book, faults)
+
+
+def read_as(
+    whole: type[Whole], book: OpenBook, check: Callable[[Draft, Where], Iterable[Finding]]
+) -> SheetOf[Whole]:
+    """Read every field of a whole input, with the errors of single cells and those of a check."""
+    gathered, sections = Gathered(), sections_of(whole)
+    for section in sections:
+        _read_section(book, section, gathered)
+    gathered.take(check(gathered.draft, gathered.where))
     hidden = unseen(book, gathered.used)
     marks = by_cell(hidden)
-    return Sheet(
+    return SheetOf(
         path=book.path,
         sha256=book.sha256,
         book=book,
+        whole=whole,
         draft=gathered.draft,
         echo=tuple(replace(row, unseen=marks.get(row.address, "")) for row in gathered.echo),
         problems=tuple(gathered.problems),
@@ -125,58 +170,28 @@ def read(path: Path) -> Sheet:
         unfound=frozenset(gathered.unfound),
         unseen=hidden,
         warnings=(
-            *copies(book, gathered.addresses),
-            *not_calculated(book, gathered.used, Place(SECTIONS[0].key)),
+            *copies(book, sections, gathered.addresses),
+            *not_calculated(book, gathered.used, Place(sections[0].key)),
         ),
     )
 
 
-def gather(book: OpenBook, sections: Sequence[SheetSection]) -> Gathered:
-    """Read every field of sections, with the errors of single cells."""
-    gathered = Gathered()
-    for section in sections:
-        _read_section(book, section, gathered)
-    return gathered
-
-
-def models(draft: Draft, sections: Sequence[SheetSection]) -> Mapping[str, Any]:
-    """Return the validated rows of each table, and the only row of each block, by section."""
-    rows = {each.key: tuple(each.model(**row) for row in draft[each.key]) for each in sections}
-    return {each.key: rows[each.key] if each.is_table else rows[each.key][0] for each in sections}
-
-
 def _where(place: Place, addresses: Mapping[Place, str]) -> str:
-    """Return the address of a place; that of its table or sheet if it has no cell."""
     whole = addresses.get(Place(place.section), place.section)
     return addresses.get(place, whole)
+
+
+_SOURCES = {"clearances": {"arrays", "objects"}, "links": {"arrays"}, "study_arrays": {"mats"}}
 
 
 def _located(
     faults: Iterable[Finding], addresses: Mapping[Place, str], unfound: Set[str]
 ) -> Iterator[tuple[Place, Problem]]:
     """Yield faults with their addresses, except those that only follow from a missing table."""
-    sources = {"clearances": {"arrays", "objects"}, "links": {"arrays"}}
     for fault in faults:
         place = fault.place
-        if place.section not in unfound and not sources.get(place.section, set()) & unfound:
+        if place.section not in unfound and not _SOURCES.get(place.section, set()) & unfound:
             yield place, fault.problem(_where(place, addresses))
-
-
-def refuse(problems: Sequence[tuple[Place, Problem]], sections: Sequence[SheetSection]) -> None:
-    """Raise problems in the order of the template, each once, if there are any."""
-    order = {section.key: i for i, section in enumerate(sections)}
-    fields = {
-        (section.key, entry.name): i
-        for section in sections
-        for i, entry in enumerate(entries(section.model))
-    }
-
-    def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
-        place = problem[0]
-        return order[place.section], place.row, fields.get((place.section, place.field), -1)
-
-    if problems:
-        raise InputError(list(dict.fromkeys(each for _, each in sorted(problems, key=rank))))
 
 
 @dataclass(slots=True)
@@ -240,28 +255,14 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         try:
             position = find_cell(book, section, entry)
             gathered.addresses[place] = position.address
-            column = _block_column(book, section, entry, position)
+            column = cell_as_column(book, section, entry, position)
         except InputError as error:
             gathered.add(place, error.parts)
             continue
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
-        _read_field(section, entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
-
-
-def _block_column(
-    book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
-) -> FieldColumn:
-    if entry.kind not in (int, float):
-        check_uncovered(book, position)
-        return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
-    at = find_unit_cell(book, section, entry, position)
-    check_uncovered(book, position, at)
-    unit = found_at(book, at)
-    text = "" if unit.value is None else plain(unit.value).strip()
-    symbol, si = unit_size(entry, text, unit.address)
-    return FieldColumn(number=position.column, unit=symbol, si=si, heading=at)
+        _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
 
 
 def _read_table(
@@ -270,7 +271,7 @@ def _read_table(
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
     for other in table.others:
-        label = f"column '{plain(found_at(book, other).value)}'"
+        label = f"column '{found_at(book, other).shown}'"
         ignored = EchoRow(
             sheet=other.sheet, cell=other.cell, label=label, typed="", unit="", value=IGNORED
         )
@@ -302,11 +303,10 @@ def _read_row(
             place, cell = Place(section.key, len(rows) - 1, entry.name), cells[entry.name]
             gathered.addresses[place] = cell.address
             column, stated = table.columns[entry.name], stated_unit(entry, row, cells)
-            _read_field(section, entry, place, cell, column, stated, row, gathered)
+            _read_field(entry, place, cell, column, stated, row, gathered)
 
 
 def _read_field(
-    section: SheetSection,
     entry: Entry,
     place: Place,
     cell: Found,
@@ -318,7 +318,7 @@ def _read_field(
     gathered.use(place, cell)
     try:
         if not cell.is_blank:
-            value = read_cell(cell, entry, section.model, column.unit, column.si, stated)
+            value = read_cell(cell, entry, column.unit, column.si, stated)
         elif entry.is_required:
             raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
         else:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
 
 from openpyxl.utils import coordinate_to_tuple
 
@@ -16,13 +15,11 @@ from report.sheet.checking.checks import faults
 from report.sheet.reading.cells import CellError, Found, read_cell
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import Gathered, Sheet
-from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Entry, Place, SheetSection, entries
+from report.sheet.schema import SECTION
+from report.sheet.schema.fields import Place
 
 Typed = float | str | None
 """What is typed into a cell: a number in the unit of the cell, a text, or nothing."""
-
-_BY_KEY = {section.key: section for section in SECTIONS}
 
 
 def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
@@ -32,24 +29,30 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
     """
     draft = {key: [dict(row) for row in rows] for key, rows in sheet.draft.items()}
     gathered = Gathered(draft=draft, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
-    units = {row.address: row.unit for row in sheet.echo}
     for place, value in typed.items():
-        _, entry = _field(place)
-        address = sheet.addresses[place]
+        entry = SECTION[place.section].entry(place.field)
+        read = entry.default
         try:
-            draft[place.section][place.row][place.field] = _read(place, value, units[address])
+            if value is not None:
+                cell = Found(sheet="", cell="", value=value)
+                read = read_cell(cell, entry, *_unit_of(sheet, place))
+            draft[place.section][place.row][place.field] = read
         except CellError as error:
-            gathered.add(place, [error.problem.at(address, entry.spoken)])
+            gathered.add(place, [error.problem.at(sheet.addresses[place], entry.spoken)])
     gathered.take(faults(draft, gathered.where))
     return replace(sheet, draft=draft, problems=tuple(gathered.problems))
 
 
 def size_of_unit(sheet: Sheet, place: Place) -> float:
     """Return the size in SI of the unit in which the number of a cell is typed."""
-    quantity = _field(place)[1].quantity
-    address = sheet.addresses[place]
-    unit = next(row.unit for row in sheet.echo if row.address == address)
-    return quantity.accepted[unit] if quantity else 1.0
+    return _unit_of(sheet, place)[1]
+
+
+def _unit_of(sheet: Sheet, place: Place) -> tuple[str, float]:
+    """Return the unit of the number of a cell, and its size in SI."""
+    quantity = SECTION[place.section].entry(place.field).quantity
+    unit = next(row.unit for row in sheet.echo if row.address == sheet.addresses[place])
+    return unit, quantity.accepted[unit] if quantity else 1.0
 
 
 def cells(sheet: Sheet, typed: Mapping[Place, Typed]) -> dict[CellPosition, Typed]:
@@ -59,16 +62,3 @@ def cells(sheet: Sheet, typed: Mapping[Place, Typed]) -> dict[CellPosition, Type
         title, _, cell = sheet.addresses[place].rpartition("!")
         found[CellPosition(title, *coordinate_to_tuple(cell))] = value
     return found
-
-
-def _read(place: Place, value: Typed, unit: str) -> Any:
-    section, entry = _field(place)
-    if value is None:
-        return entry.default
-    si = entry.quantity.accepted[unit] if entry.quantity else 1.0
-    return read_cell(Found(sheet="", cell="", value=value), entry, section.model, unit, si)
-
-
-def _field(place: Place) -> tuple[SheetSection, Entry]:
-    section = _BY_KEY[place.section]
-    return section, next(e for e in entries(section.model) if e.name == place.field)

@@ -7,10 +7,10 @@ than one cell are in `checks`. Read `report.sheet.reading.read` next.
 from __future__ import annotations
 
 import datetime as dt
-from typing import Annotated, Any, get_args, get_origin
+from collections.abc import Mapping
+from typing import Annotated
 
 from pydantic import AfterValidator, model_validator
-from pydantic.fields import FieldInfo
 
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
@@ -33,7 +33,7 @@ from report.sheet.schema.choices import (
     UnitsFirst,
     decimals,
 )
-from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection
+from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection, sections_of
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.legacy_labels import PROVISIONS
 from report.sheet.schema.links import Links, coefficients
@@ -56,6 +56,7 @@ from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 __all__ = [
     "PROVISION_KEYS",
     "ROOF",
+    "SECTION",
     "SECTIONS",
     "SIDES",
     "AccelUnit",
@@ -324,21 +325,8 @@ class ProjectInput(Frozen):
         return self
 
 
-def _section(key: str, field: FieldInfo) -> SheetSection:
-    """Return a part of the workbook: of rows, a table."""
-    (part,) = (item for item in field.metadata if isinstance(item, OnSheet))
-    is_table = get_origin(field.annotation) is tuple
-    model: Any = get_args(field.annotation)[0] if is_table else field.annotation
-    return SheetSection(
-        key=key,
-        sheet=part.sheet,
-        title=part.title,
-        whole=ProjectInput,
-        model=model,
-        is_table=is_table,
-        may_be_absent=part.may_be_absent,
-    )
-
-
-SECTIONS = tuple(_section(key, field) for key, field in ProjectInput.model_fields.items())
+SECTIONS = sections_of(ProjectInput)
 """Parts of the workbook, in its order."""
+
+SECTION: Mapping[str, SheetSection] = {section.key: section for section in SECTIONS}
+"""The same by key."""

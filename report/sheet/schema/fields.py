@@ -11,11 +11,11 @@ import datetime as dt
 import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, asdict, dataclass
 from enum import StrEnum
 from functools import cache
 from itertools import pairwise
-from typing import Annotated, Any, NamedTuple, get_args
+from typing import Annotated, Any, NamedTuple, get_args, get_origin
 
 from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel, ConfigDict, TypeAdapter
@@ -122,24 +122,27 @@ class OnSheet:
 class SheetSection:
     """A part of the workbook: a block of single cells, or a table."""
 
-    key: str  # its attribute of `ProjectInput`, and the prefix of its names in the workbook
+    key: str  # its field of `whole`, and the prefix of its names in the workbook
     sheet: str
     title: str
     model: type[Frozen]  # of the block, or of one row
     is_table: bool
     may_be_absent: bool  # as in workbooks of earlier versions
-    hint: str = ""  # one line of instruction; empty for the docstring of its field of `whole`
-    whole: type[BaseModel] = BaseModel
+    whole: type[Frozen]
 
     @property
     def instruction(self) -> str:
-        """The line of instruction."""
-        return self.hint or _docstrings(self.whole)[self.key]
+        """One line of instruction: the docstring of its field of `whole`."""
+        return _docstrings(self.whole)[self.key]
 
     @property
     def table_name(self) -> str:
         """Name of its Excel table."""
         return f"{self.key}_table"
+
+    def entry(self, field: str) -> Entry:
+        """Return one of its fields."""
+        return next(one for one in entries(self.model) if one.name == field)
 
     def cell_name(self, field: str) -> str:
         """Return the defined name of a single cell."""
@@ -148,6 +151,19 @@ class SheetSection:
     def unit_name(self, field: str) -> str:
         """Return the defined name of the cell that holds a single cell's unit."""
         return f"{self.cell_name(field)}_unit"
+
+
+@cache
+def sections_of(whole: type[Frozen]) -> tuple[SheetSection, ...]:
+    """Return the parts of the workbook of a whole input, in its order; rows are a table."""
+    return tuple(_section(whole, key, field) for key, field in whole.model_fields.items())
+
+
+def _section(whole: type[Frozen], key: str, field: FieldInfo) -> SheetSection:
+    (part,) = (item for item in field.metadata if isinstance(item, OnSheet))
+    is_table = get_origin(field.annotation) is tuple
+    model: Any = get_args(field.annotation)[0] if is_table else field.annotation
+    return SheetSection(key=key, model=model, is_table=is_table, whole=whole, **asdict(part))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

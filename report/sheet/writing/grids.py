@@ -59,9 +59,7 @@ def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bo
         style.put_title(sheet, section.title, section.instruction)
         return 4, True
     row = sheet.max_row + 3
-    style.put(sheet, row, 1, section.title, bold=True, size=13, wrap=False)
-    style.put(sheet, row + 1, 1, section.instruction, color=style.GRAY, wrap=False)
-    sheet.row_dimensions[row].height = 28
+    style.put_heading(sheet, row, section.title, section.instruction)
     return row + 3, False
 
 

@@ -13,7 +13,6 @@ from itertools import product
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
 
-from report.sheet.checking.findings import unanswered
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found, plain
 from report.sheet.reading.formula_text import canonical, moved
@@ -28,7 +27,7 @@ from report.sheet.reading.positions import (
 )
 from report.sheet.schema import SECTIONS, UnitsFirst
 from report.sheet.schema.answers import SITE_ANSWERS, STATUS
-from report.sheet.schema.fields import Finding, Place, SheetSection
+from report.sheet.schema.fields import Finding, Level, Place, SheetSection
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.writing.counts import START, write_counts
 from report.sheet.writing.grids import columns_of, table_formulas
@@ -90,7 +89,8 @@ def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
         cell = first.position.address
         cells = f"{cell}:{last.position.cell}" if len(run) > 1 else cell
         place = Place(keys.get(first.position.sheet, SECTIONS[0].key))
-        yield unanswered(place, _text(first, len(run)), cells)
+        text = _text(first, len(run))
+        yield Finding(level=Level.WARNING, place=place, text=text, cell=cells)
 
 
 def _runs(lost: Sequence[Overwritten]) -> Iterator[list[Overwritten]]:

@@ -37,9 +37,7 @@ def write_panel(book: Workbook, *, is_us: bool) -> None:
     sheet = book["Site"]
     top = sheet.max_row + 3
     sheet.row_breaks.append(Break(id=top - 1))
-    style.put(sheet, top, 1, "Prescriptive values", bold=True, size=13, wrap=False)
-    style.put(sheet, top + 1, 1, _HINT, color=style.GRAY, wrap=False)
-    sheet.row_dimensions[top].height = 28
+    style.put_heading(sheet, top, "Prescriptive values", _HINT)
     style.put_values(
         sheet, top + 3, ("", "Value", "", "Governs", "Clause", "", "Note"), are_heads=True
     )

@@ -133,6 +133,13 @@ def put_title(sheet: Worksheet, title: str, hint: str) -> None:
     sheet.row_dimensions[1].height = 28
 
 
+def put_heading(sheet: Worksheet, row: int, title: str, hint: str) -> None:
+    """Write the heading of a part of a sheet and the line below it."""
+    put(sheet, row, 1, title, bold=True, size=13, wrap=False)
+    put(sheet, row + 1, 1, hint, color=GRAY, wrap=False)
+    sheet.row_dimensions[row].height = 28
+
+
 def put_input(
     cell: Any, entry: Entry, value: object, unit: Unit | None, like: Any | None = None
 ) -> None:

@@ -12,7 +12,7 @@ from cells import cell
 from report.sheet.reading.parts import changed, write_cells
 from report.sheet.reading.positions import CellPosition
 from report.sheet.writing import style
-from sheets import at, make, pack, parts
+from sheets import at, edit, make, pack, parts
 from solver.model import InputError
 
 DRAWING = (
@@ -110,6 +110,25 @@ def test_a_cell_that_is_not_there_is_added_in_order(book, row, column):
     for row in set(rows):
         columns = [(len(c), c) for c, number in found if c and int(number) == row]
         assert columns == sorted(set(columns))
+
+
+def test_a_cell_is_added_before_one_that_is_changed(book):
+    path, name = book
+    files = parts(path)
+    files[name] = re.sub(whole(WEIGHT), b"", files[name])
+    data = after(pack(path, files), {place(WEIGHT): 41000, place(HEIGHT): 12.5})
+    assert [cell(opened(data), key).value for key in (WEIGHT, HEIGHT)] == [41000, 12.5]
+    assert len(re.findall(rb'<c r="%b"' % named(HEIGHT), parts(io.BytesIO(data))[name])) == 1
+
+
+def test_rows_are_added_to_a_sheet_without_any(book):
+    path, _ = book
+    edit(path, lambda opened: opened.create_sheet("Blank"))
+    cells = {
+        CellPosition("Blank", row, column): row * column for row in (2, 5) for column in (3, 1)
+    }
+    found = opened(after(path, cells))["Blank"]
+    assert {at: found.cell(at.row, at.column).value for at in cells} == cells
 
 
 def test_any_number_is_written_as_one_and_a_cleared_cell_keeps_its_format(book):

@@ -21,7 +21,7 @@ from report.sheet.reading.read import read
 from report.sheet.schema import UnitsFirst
 from report.study.motions import study_motions
 from report.study.plan import plan_study
-from report.study.read import StudyInput, read_study
+from report.study.read import read_study
 from report.study.schema import (
     Intensity,
     Mat,
@@ -29,6 +29,7 @@ from report.study.schema import (
     Study,
     StudyArray,
     StudyBuilding,
+    StudyInput,
     StudyMotion,
     values,
 )
@@ -55,7 +56,7 @@ def given(**changes):
         "mats": (Mat(id="A", mu=0.4, tested="0.38, 0.40, 0.42"), Mat(id="B", mu=0.6)),
         "study_arrays": (StudyArray(id="S1", mat="a", slope_deg=2.0, clearance_m=0.3),),
     }
-    names = StudyInput.__dataclass_fields__.keys() - {"study"}
+    names = StudyInput.model_fields.keys() - {"study"}
     tables |= {name: changes.pop(name) for name in list(changes) if name in names}
     return StudyInput(study=Study(**{**ABOUT, **changes}), **tables)
 
@@ -82,7 +83,8 @@ def with_study(results, **changes):
     """The results of a study whose sheet Study has other values."""
     former = results.plan.input
     study = former.study.model_copy(update=changes)
-    return replace(results, plan=replace(results.plan, input=replace(former, study=study)))
+    altered = former.model_copy(update={"study": study})
+    return replace(results, plan=replace(results.plan, input=altered))
 
 
 def sheet_rows(results, sheet):
@@ -133,7 +135,7 @@ def test_what_is_written_is_read(tmp_path, units):
     write(tmp_path)
     study = given(allowed_m=0.5, site_intensity=1.2, s_ds_g=1.0)
     write_study(tmp_path / "input.xlsx", units=units, example=study)
-    found = read_study(tmp_path).input
+    found = read_study(tmp_path).project
     assert found.study.allowed_m == pytest.approx(0.5)
     assert found.study.model_copy(update={"allowed_m": 0.5}) == study.study
     assert (found.mats, found.motions, found.buildings) == (study.mats, (), ())
