@@ -165,7 +165,7 @@ def test_a_job_that_takes_too_long_is_stopped_and_says_so():
 
 
 def test_the_first_job_of_a_process_may_take_longer():
-    """Where the solver is not compiled yet it takes minutes: a process that is ended never starts."""
+    """Where the solver is not compiled yet it takes minutes; ended before, it would never start."""
 
     async def script(pool):
         return (await ask(pool, "after it"))["name"]
