@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -372,6 +372,15 @@ class Motion:
     az_mps2: Floats
     scale: float
     signs: tuple[int, ...]
+    # The horizontal components reversed. Scenes share all their arrays with the motion: a package
+    # has hundreds of scenes, and gives them to another process.
+    _reversed: tuple[Floats, Floats] = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        backward = (-self.ax_mps2, -self.ay_mps2)
+        for component in backward:
+            component.setflags(write=False)
+        object.__setattr__(self, "_reversed", backward)
 
     @property
     def has_vertical(self) -> bool:
@@ -395,14 +404,11 @@ class Motion:
 
     def scene(self, orientation: Orientation, *, slope_rad: float, friction: Friction) -> Scene:
         """Return the scene of one run: this motion in an orientation, on a slope with friction."""
-        along, across = self.ax_mps2, self.ay_mps2
-        if orientation.is_transverse:
-            along, across = across, along
-        along = along * orientation.polarity
-        along.setflags(write=False)
+        components, at = (self.ax_mps2, self.ay_mps2), int(orientation.is_transverse)
+        along = (components if orientation.polarity > 0 else self._reversed)[at]
         return Scene(
             ax_mps2=along,
-            ay_mps2=across,
+            ay_mps2=components[1 - at],
             az_mps2=self.az_mps2,
             dt_s=self.dt_s,
             slope_rad=slope_rad,
