@@ -7,21 +7,21 @@ what it can meanwhile. Read `make`.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
+from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from report.assessment.changes import Changes
     from report.assessment.evidence import Evidence
     from report.assessment.project import Assessment
-    from report.assessment.spectra import Spectra
     from report.entities.results import Compared
     from report.motions.prepare import Shaking
-    from report.package.html import PendingPictures
+    from report.pages.pictures import Drawings
     from report.provenance.files import SourceFile
     from report.sheet.reading.read import Sheet
+    from report.typeset.equations import Equations
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 
@@ -56,7 +56,6 @@ def make(
     """
     worker.submit(load)  # before the imports below, so that both processes import at once
     from report.assessment.project import assess
-    from report.package.html import pages
     from report.results.publish import publish
 
     progress(Step("reading the workbook"))
@@ -67,7 +66,7 @@ def make(
     on_assessment(assessment)
     supported = support(assessment, request, worker)
     progress(Step("writing the pages"))
-    html = pages(assessment, supported.evidence, supported.changes, supported.pictures)
+    html = fill(assessment, supported, worker)
     progress(Step("laying out the package"))
     files = lay_out(html, assessment, supported.evidence, prepared.sources, worker)
     progress(Step("writing the result tables"))
@@ -96,17 +95,25 @@ class Request:
 def read(source: Path, out: Path | None, since: Path | None) -> Request:
     """Read a workbook and former results, and check that the package can be written."""
     from report.results.publish import check_apart, check_writable
-    from report.results.since import read_former
     from report.sheet.reading.read import read
     from report.typeset.letters import check_letters
 
-    former = tuple(read_former(path) for path in (since,) if path)
+    former = _former(since)
     sheet = read(source)
     folder = out or sheet.path.parent / "out"
     check_letters(sheet)
     check_writable(folder)
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
     return Request(sheet=sheet, folder=folder, former=former, since=since)
+
+
+def _former(since: Path | None) -> tuple[Compared, ...]:
+    """Return former results, if any: what reads them is loaded only then."""
+    if since is None:
+        return ()
+    from report.results.since import read_former
+
+    return (read_former(since),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,21 +145,40 @@ class Supported:
 
     evidence: Evidence
     changes: Changes
-    pictures: PendingPictures
+    begun: Future[tuple[Drawings, Equations]]
+    plots: Future[Drawings]
 
 
 def support(assessment: Assessment, request: Request, worker: Executor) -> Supported:
     """Compute what supports an assessment, while the worker draws what is known already."""
-    from report.assessment.changes import NO_FORMER
     from report.assessment.evidence import plotted, support
-    from report.package.html import begin
+
+    changes = _changes(assessment, request.former)
+    begun = worker.submit(_begin, assessment, changes)
+    shown = plotted(assessment)
+    plots = worker.submit(_plot, assessment, changes, shown)
+    evidence = support(assessment, shown)
+    return Supported(evidence=evidence, changes=changes, begun=begun, plots=plots)
+
+
+def _changes(assessment: Assessment, former: Sequence[Compared]) -> Changes:
+    from report.assessment.changes import NO_FORMER
+
+    if not former:
+        return NO_FORMER
     from report.results.compare import changes
 
-    changed = changes(request.former[0], assessment) if request.former else NO_FORMER
-    pictures = begin(assessment, changed, worker)
-    shown = plotted(assessment)
-    pictures = pictures.plot(shown)
-    return Supported(evidence=support(assessment, shown), changes=changed, pictures=pictures)
+    return changes(former[0], assessment)
+
+
+def fill(assessment: Assessment, supported: Supported, worker: Executor) -> str:
+    """Return the pages as HTML; the worker fills them in while this process loads the renderer."""
+    from report.typeset.renderer import load
+
+    about = (assessment, supported.evidence, supported.changes)
+    html = worker.submit(_pages, *about, supported.begun.result(), supported.plots.result())
+    load()
+    return html.result()
 
 
 def lay_out(
@@ -163,26 +189,46 @@ def lay_out(
     worker: Executor,
 ) -> Mapping[str, bytes]:
     """Return the files of the package; the worker writes tables while the pages are laid out."""
-    from report.drawing.dxf import write_dxf
-    from report.drawing.plan import plan_drawing
     from report.provenance.files import attachments, fingerprint
-    from report.results.json import results_json
     from report.typeset.pdf import draw_ahead, lay_out, pictures
 
     drawn = worker.submit(draw_ahead, pictures(html))
-    results = worker.submit(results_json, assessment, evidence)
-    plan = worker.submit(write_dxf, plan_drawing(assessment))
-    table = worker.submit(_table, assessment, evidence.spectra)
+    tables = worker.submit(_tables, assessment, evidence)
     short = fingerprint(assessment.sheet, assessment.shaking)
-    pdf = lay_out(html, drawn, lambda: attachments(found, results.result(), short))
-    return dict(zip(OUTPUTS, (pdf, plan.result(), table.result(), results.result()), strict=True))
+    pdf = lay_out(html, drawn, lambda: attachments(found, tables.result()[-1], short))
+    return dict(zip(OUTPUTS, (pdf, *tables.result()), strict=True))
 
 
-def _table(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
-    """Return results.xlsx: only the worker loads what writes it."""
+# What follows runs in the worker: only there is loaded what draws and writes.
+
+
+def _begin(*about: Any) -> tuple[Drawings, Equations]:
+    from report.package.html import begin
+
+    return begin(*about)
+
+
+def _plot(*about: Any) -> Drawings:
+    from report.package.html import plot
+
+    return plot(*about)
+
+
+def _pages(*about: Any) -> str:
+    from report.package.html import pages
+
+    return pages(*about)
+
+
+def _tables(assessment: Assessment, evidence: Evidence) -> tuple[bytes, bytes, bytes]:
+    """Return plan.dxf, results.xlsx and results.json."""
+    from report.drawing.dxf import write_dxf
+    from report.drawing.plan import plan_drawing
+    from report.results.json import results_json
     from report.results.xlsx import results_xlsx
 
-    return results_xlsx(assessment, spectra)
+    plan = write_dxf(plan_drawing(assessment))
+    return plan, results_xlsx(assessment, evidence.spectra), results_json(assessment, evidence)
 
 
 def load() -> None:
@@ -192,7 +238,9 @@ def load() -> None:
     import report.package.html
     import report.results.xlsx  # noqa: F401
     from report.pages.pictures import load_charts
+    from report.typeset.equations import formula
     from report.typeset.pdf import draw_ahead
 
     load_charts()
+    formula("g")  # loads the typesetter of equations
     draw_ahead([])

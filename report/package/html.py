@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor, Future
-from dataclasses import dataclass, replace
 
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence, Plotted
@@ -23,71 +21,43 @@ from report.pages.registry import Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
 from report.typeset.equations import Equations
 from report.typeset.pdf import TEMPLATES
-from report.workers import SameProcess
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PendingPictures:
-    """What is drawn and typeset beside the computation.
-
-    Attributes
-    ----------
-    package : PackageData
-        What the worker is given; nothing else may use it, because it caches what it is asked for.
-    """
-
-    package: PackageData
-    worker: Executor
-    pictures: tuple[Future[Drawings], ...]
-    equations: Future[Equations]
-
-    def plot(self, shown: Plotted) -> PendingPictures:
-        """Begin with most figures."""
-        drawn = self.worker.submit(draw_plotted, self.package, shown)
-        return replace(self, pictures=(*self.pictures, drawn))
-
-
-def begin(assessment: Assessment, changes: Changes, worker: Executor) -> PendingPictures:
-    """Begin with what needs no evidence, while it is computed."""
-    package = package_data(assessment, changes)
-    return PendingPictures(
-        package=package,
-        worker=worker,
-        pictures=(worker.submit(draw_assessment, package),),
-        equations=worker.submit(_typeset, package),
-    )
-
-
-def _typeset(package: PackageData) -> Equations:
-    """Return the equations of the method, which are found by printing its page."""
-    equations = Equations()
+def begin(assessment: Assessment, changes: Changes) -> tuple[Drawings, Equations]:
+    """Draw what needs no evidence, and typeset the equations, which are all in one page."""
+    package, equations = package_data(assessment, changes), Equations()
     _html(package, {"method": method.page(package)}, defaultdict(tuple), equations)
-    return equations
+    return draw_assessment(package), equations
+
+
+def plot(assessment: Assessment, changes: Changes, shown: Plotted) -> Drawings:
+    """Draw most figures."""
+    return draw_plotted(package_data(assessment, changes), shown)
 
 
 def pages(
     assessment: Assessment,
     evidence: Evidence,
     changes: Changes = NO_FORMER,
-    pending: PendingPictures | None = None,
+    begun: tuple[Drawings, Equations] | None = None,
+    plots: Drawings | None = None,
 ) -> str:
     """Return the calculation package as HTML, with what changed if a former one is named.
 
     Parameters
     ----------
-    pending : PendingPictures, optional
-        What `begin` returned, and then its `plot`.
+    begun, plots : optional
+        What `begin` and `plot` returned.
     """
-    pending = pending or begin(assessment, changes, SameProcess()).plot(evidence)
-    drawn = (
-        *pending.pictures,
-        pending.worker.submit(draw_uncertainty, pending.package, evidence.uncertainty),
-    )
+    begun_drawings, equations = begun or begin(assessment, changes)
     package = package_data(assessment, changes)
+    drawings = {
+        **begun_drawings,
+        **(plots or plot(assessment, changes, evidence)),
+        **draw_uncertainty(package, evidence.uncertainty),
+    }
     ids = (*_FRONT, *(page.id for page in pages_of(package)))
-    content = _content(package, evidence, ids)
-    drawings = {id: some for done in drawn for id, some in done.result().items()}
-    return _html(package, content, drawings, pending.equations.result())
+    return _html(package, _content(package, evidence, ids), drawings, equations)
 
 
 def part(package: PackageData, evidence: Evidence, id: str, drawings: Drawings) -> str:
