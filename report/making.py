@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from report.provenance.files import SourceFile
     from report.sheet.reading.read import Sheet
     from report.typeset.equations import Equations
+    from report.typeset.finish import Attached
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 
@@ -189,14 +190,12 @@ def lay_out(
     worker: Executor,
 ) -> Mapping[str, bytes]:
     """Return the files of the package; the worker writes tables while the pages are laid out."""
-    from report.provenance.files import attachments, fingerprint
     from report.typeset.pdf import draw_ahead, lay_out, pictures
 
     drawn = worker.submit(draw_ahead, pictures(html))
-    tables = worker.submit(_tables, assessment, evidence)
-    short = fingerprint(assessment.sheet, assessment.shaking)
-    pdf = lay_out(html, drawn, lambda: attachments(found, tables.result()[-1], short))
-    return dict(zip(OUTPUTS, (pdf, *tables.result()), strict=True))
+    written = worker.submit(_written, assessment, evidence, found)
+    pdf = lay_out(html, drawn, lambda: written.result()[1])
+    return dict(zip(OUTPUTS, (pdf, *written.result()[0]), strict=True))
 
 
 # What follows runs in the worker: only there is loaded what draws and writes.
@@ -220,15 +219,20 @@ def _pages(*about: Any) -> str:
     return pages(*about)
 
 
-def _tables(assessment: Assessment, evidence: Evidence) -> tuple[bytes, bytes, bytes]:
-    """Return plan.dxf, results.xlsx and results.json."""
+def _written(
+    assessment: Assessment, evidence: Evidence, found: Sequence[SourceFile]
+) -> tuple[tuple[bytes, bytes, bytes], tuple[Attached, ...]]:
+    """Return plan.dxf, results.xlsx and results.json, and what the package has attached."""
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
+    from report.provenance.files import attachments, fingerprint
     from report.results.json import results_json
     from report.results.xlsx import results_xlsx
 
     plan = write_dxf(plan_drawing(assessment))
-    return plan, results_xlsx(assessment, evidence.spectra), results_json(assessment, evidence)
+    table, results = results_xlsx(assessment, evidence.spectra), results_json(assessment, evidence)
+    short = fingerprint(assessment.sheet, assessment.shaking)
+    return (plan, table, results), attachments(found, results, short)
 
 
 def load() -> None:
@@ -238,9 +242,11 @@ def load() -> None:
     import report.package.html
     import report.results.xlsx  # noqa: F401
     from report.pages.pictures import load_charts
+    from report.provenance.software import sbom_sha256
     from report.typeset.equations import formula
     from report.typeset.pdf import draw_ahead
 
     load_charts()
-    formula("g")  # loads the typesetter of equations
+    formula("g")  # loads the typesetter
     draw_ahead([])
+    sbom_sha256()  # reads what is said of every installed library
