@@ -239,14 +239,13 @@ def load() -> None:
     """Import what draws and writes, while the other process reads and runs."""
     import report.drawing.dxf
     import report.figures.charts
-    import report.package.html
     import report.results.xlsx  # noqa: F401
+    from report.package.html import typeset_ahead
     from report.pages.pictures import load_charts
     from report.provenance.software import sbom_sha256
-    from report.typeset.equations import formula
     from report.typeset.pdf import draw_ahead
 
     load_charts()
-    formula("g")  # loads the typesetter
+    typeset_ahead()
     draw_ahead([])
     sbom_sha256()  # reads what is said of every installed library

@@ -20,11 +20,12 @@ from report.words.units import G_MPS2
 from solver.model import Floats, Motion
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
-from solver.records.spectrum_acceptance import POINTS_HZ
+from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
 # The points of the limits on spectra, so that a page says one thing of them; and printed periods.
 PERIODS_S: Floats = np.unique(np.concatenate([1.0 / POINTS_HZ, PRINTED_S[1:]]))
+_IS_POINT = np.isin(PERIODS_S, 1.0 / POINTS_HZ)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,4 +163,8 @@ def _spectra(
 
 @memoized
 def _ordinates(a_mps2: Floats, dt_s: float) -> Floats:
-    return response_spectrum(a_mps2, dt_s, PERIODS_S)
+    ordinates = np.empty(PERIODS_S.size)
+    # The limits have been checked at the same points, of the record before it is scaled.
+    ordinates[_IS_POINT] = spectrum_mps2(a_mps2.tobytes(), dt_s)[::-1]
+    ordinates[~_IS_POINT] = response_spectrum(a_mps2, dt_s, PERIODS_S[~_IS_POINT])
+    return ordinates

@@ -5,6 +5,7 @@ Runs nothing. The pages are those of `report.pages.registry`; read it first.
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 
@@ -19,8 +20,17 @@ from report.pages.parts import PackageData
 from report.pages.pictures import Drawings, draw_assessment, draw_plotted, draw_uncertainty
 from report.pages.registry import Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
-from report.typeset.equations import Equations
+from report.typeset.equations import Equations, formula
 from report.typeset.pdf import TEMPLATES
+
+_CONSTANT = re.compile(r"{% set latex %}((?:(?!{[{%]).)*){% endset %}")
+"""An equation in a template, without anything to fill in."""
+
+
+def typeset_ahead() -> None:
+    """Typeset the equations that no project changes, so that `begin` need not."""
+    for latex in _CONSTANT.findall((TEMPLATES / "method.html").read_text(encoding="utf-8")):
+        formula(latex)
 
 
 def begin(assessment: Assessment, changes: Changes) -> tuple[Drawings, Equations]:

@@ -37,7 +37,7 @@ def _step(p, zeta):
     return h, 1.0 - once - 2.0 * zeta * h, once, twice
 
 
-@njit(cache=KEPT, error_model="numpy")
+@njit(cache=KEPT, error_model="numpy", nogil=True)
 def peaks(a, dt, omega, zeta, peak, at):
     """Largest pseudo-acceleration of damped oscillators under the linearly interpolated record.
 

@@ -112,22 +112,19 @@ def spectrum_ratios(
         SpectrumRatio(
             motion=motion.id,
             component=name,
-            ratio=abs(motion.scale) * _spectrum_g(a.tobytes(), motion.dt_s) / goals[name],
+            ratio=abs(motion.scale)
+            * (spectrum_mps2(a.tobytes(), motion.dt_s) / UNITS["g"])
+            / goals[name],
         )
         for motion in motions
         for name, a in components_of(motion).items()
     )
 
 
-def ratio_to_target(a_mps2: Floats, dt_s: float, target_g: Floats) -> Floats:
-    """Return a component's spectrum over its target at `POINTS_HZ`, 5 % damping."""
-    return np.asarray(response_spectrum(a_mps2, dt_s, 1.0 / POINTS_HZ) / UNITS["g"] / target_g)
-
-
 @lru_cache(_KEPT)
-def _spectrum_g(record: bytes, dt_s: float) -> Floats:
-    """Return a record's spectrum [g], computed once for all scales and targets that are tried."""
-    return read_only(ratio_to_target(np.frombuffer(record), dt_s, np.ones(len(POINTS_HZ))))
+def spectrum_mps2(record: bytes, dt_s: float) -> Floats:
+    """Return a record's spectrum at `POINTS_HZ`, computed once for all that is compared with it."""
+    return read_only(response_spectrum(np.frombuffer(record), dt_s, 1.0 / POINTS_HZ))
 
 
 def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:
