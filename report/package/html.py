@@ -9,6 +9,8 @@ import re
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 
+from markupsafe import Markup
+
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.evidence import Evidence, Plotted
 from report.assessment.project import Assessment
@@ -30,7 +32,7 @@ _CONSTANT = re.compile(r"{% set latex %}((?:(?!{[{%]).)*){% endset %}")
 def typeset_ahead() -> None:
     """Typeset the equations that no project changes, so that `begin` need not."""
     for latex in _CONSTANT.findall((TEMPLATES / "method.html").read_text(encoding="utf-8")):
-        formula(latex)
+        formula(Markup(latex))  # as the template asks for it
 
 
 def begin(assessment: Assessment, changes: Changes) -> tuple[Drawings, Equations]:

@@ -9,8 +9,8 @@ import packages
 import scenes
 from report.assessment.changes import NO_FORMER
 from report.assessment.evidence import support
-from report.package.html import begin, pages, part
-from report.workers import SameProcess
+from report.package.html import begin, pages, part, plot, typeset_ahead
+from report.typeset.equations import formula
 
 LETTERS, WIDE_PT = 64, 175.0
 """What has room on a line: numbers beside an equation, and an equation beside its numbers."""
@@ -19,31 +19,34 @@ LETTERS, WIDE_PT = 64, 175.0
 def test_every_equation_of_a_package_is_typeset_before_its_evidence_is_there():
     assessment = scenes.package().assessment
     with packages.undrawn():
-        begun = begin(assessment, NO_FORMER, SameProcess())
-        ready = {equation.src for equation in begun.equations.result().values()}
+        begun = begin(assessment, NO_FORMER)
+        ready = {equation.src for equation in begun[1].values()}
         evidence = support(assessment)
-        html = pages(assessment, evidence, NO_FORMER, begun.plot(evidence))
+        plots = plot(assessment, NO_FORMER, evidence)
+        html = pages(assessment, evidence, NO_FORMER, begun, plots)
     printed = set(re.findall(r'<div class="symbols"><img src="([^"]+)"', html))
     assert len(printed) > 15
     assert printed == ready
 
 
-class Apart(SameProcess):
-    """Runs each function on copies, as a second process does."""
-
-    def submit(self, fn, /, *given):
-        return super().submit(fn, *pickle.loads(pickle.dumps(given)))
-
-
-def test_nothing_that_a_second_process_is_given_changes_while_the_pages_are_made():
-    # It is pickled beside them: what it caches meanwhile ended a report, now and then.
-    assessment = scenes.package().assessment
+def test_most_equations_are_typeset_before_a_project_is_read():
+    formula.cache_clear()
+    typeset_ahead()
+    ahead = formula.cache_info().misses
     with packages.undrawn():
-        begun = begin(assessment, NO_FORMER, Apart())
-        before = pickle.dumps(begun.package)
-        evidence = support(assessment)
-        pages(assessment, evidence, NO_FORMER, begun.plot(evidence))
-    assert pickle.dumps(begun.package) == before
+        _, equations = begin(scenes.package().assessment, NO_FORMER)
+    assert formula.cache_info().misses - ahead <= 0.5 * len(equations)
+
+
+def test_nothing_that_a_second_process_is_given_changes_while_its_evidence_is_computed():
+    # It is pickled beside that: what it caches meanwhile ended a report, now and then.
+    assessment = scenes.package().assessment
+    before = pickle.dumps(assessment)
+    evidence = support(assessment)
+    assert pickle.dumps(assessment) == before
+    with packages.undrawn():
+        apart = pickle.loads(pickle.dumps((assessment, evidence)))
+        assert pages(*apart) == pages(assessment, evidence)
 
 
 def test_numbers_stand_below_an_equation_where_there_is_no_room_beside_it():
