@@ -110,6 +110,11 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(usual):
         assert row["5 % more [in]"].rstrip("†") == f"{more.design_m / 0.0254:.1f}"
 
 
+def test_the_runs_with_less_friction_are_those_of_the_conditions(usual):
+    scene, evidence, _ = usual
+    assert evidence.at_reduced_friction is scene.assessment.at_reduced_friction
+
+
 def test_where_nothing_slides_there_is_no_chart():
     arrays = [stand_in.array("B1", 0.0, mu=1.5)]
     still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, seconds=4.0))
