@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING
 import click
 
 from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR, input_errors
+from report.cli.values import Existing
 
 if TYPE_CHECKING:
     import uvicorn
@@ -46,7 +47,7 @@ _VISIT_S = 120.0
 @click.option("--no-browser", is_flag=True, help="Open no browser.")
 @click.option("--host", metavar="ADDRESS", help="Listen on this address of the machine, so that "
               "other machines reach the page. Needs --token-file.")  # fmt: skip
-@click.option("--token-file", type=click.Path(path_type=Path, exists=True, dir_okay=False),
+@click.option("--token-file", type=Existing(dir_okay=False),
               help=f"File with the token of the address: {SHORTEST_TOKEN} letters and digits or "
               "more.")  # fmt: skip
 @click.option("--once", is_flag=True, help="Load the page with the example as a browser does, "
