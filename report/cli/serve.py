@@ -186,7 +186,7 @@ class _Visit(threading.Thread):
         try:
             browser.open(self._address, timeout=_VISIT_S).read()
             state = json.load(browser.open(f"{page}api/state", timeout=_VISIT_S))
-            verdict = state["answer"]["verdict"]
+            verdict = state["answer"]["verdict"]["text"]
             self.sentence = f"the example: {verdict}, after {time.monotonic() - began:.1f} s"
             self.is_answered = True
         except (OSError, ValueError) as error:
