@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 OUTPUTS = ("calc-package.pdf", "plan.dxf", "results.xlsx", "results.json")
 
-STEPS = 5
-"""Steps that `make` reports."""
+STEPS = (0.16, 0.35, 0.09, 0.38, 0.02)
+"""Usual shares of the time of the steps that `make` reports, as for `projects/example`."""
 
 
 @dataclass(frozen=True, slots=True)

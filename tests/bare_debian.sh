@@ -2,6 +2,7 @@
 # Both commands of the README in a bare Debian 12: minbase, python3 and certificates.
 # What is committed is run, as root. Arguments go to ./roofslip test:
 #   sudo tests/bare_debian.sh [tests/solver/test_public.py ...]
+# With --image, the steps of the Dockerfile instead, and the page and a report as its user.
 set -eu
 
 here=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
@@ -45,20 +46,25 @@ make_root() {
     for file in /etc/hosts /etc/resolv.conf /etc/pip.conf /etc/ssl/certs/ca-certificates.crt; do
         [ ! -e "$file" ] || cp -L "$file" "$root$file"
     done
-    mkdir "$root/roofslip"
-    git -c safe.directory="$here" -C "$here" archive HEAD | tar -x -C "$root/roofslip"
 }
 
-# The mounts and all processes end with their name spaces. `|| exit` keeps the shell as process 1:
-# it collects orphans, which Python would not.
+# Unpacks what is committed, or the given parts of it, in a folder of the root.
+unpack() {
+    mkdir -p "$root$1"
+    target=$root$1 && shift
+    git -c safe.directory="$here" -C "$here" archive HEAD "$@" | tar -x -C "$target"
+}
+
+# Runs a script of the shell in the root, as a user. The mounts and all processes end with their name
+# spaces. `|| exit` keeps the shell as process 1: it collects orphans, which Python would not.
 inside() {
     # shellcheck disable=SC2016
     unshare --mount --pid --fork --kill-child sh -euc '
-        cd "$1" && shift
+        cd "$1" && user=$2 && shift 2
         mount -t proc proc proc
         mount -t devpts devpts dev/pts
         mount -t tmpfs shm dev/shm
-        chroot . sh -c "cd /roofslip && exec ./roofslip \"\$@\"" sh "$@" || exit
+        chroot --userspec="$user" . sh -c "$@" || exit
     ' sh "$root" "$@"
 }
 
@@ -67,7 +73,8 @@ run() {
     started=$(date +%s)
     inside "$@" >"$top/output" 2>&1 </dev/null || code=$?
     seconds=$(($(date +%s) - started))
-    printf '$ ./roofslip %s\n' "$*"
+    shift 3
+    printf '$ roofslip %s\n' "$*"
     if [ "$code" = 0 ]; then
         grep '^roofslip: ' "$top/output" || true
         tail -n 10 "$top/output"
@@ -78,8 +85,33 @@ run() {
     printf '%s s, exit code %s\n\n' "$seconds" "$code"
 }
 
+# The Dockerfile's COPY (by .dockerignore), ENV, RUN and USER; FROM is the root as it is.
+run_image() {
+    # shellcheck disable=SC2046
+    unpack /opt/roofslip -- $(sed -n 's/^!//p' "$here/.dockerignore")
+    mkdir "$root/projects"
+    cp -r "$here/projects/example" "$root/projects/yours"
+    rm -rf "$root/projects/yours/out"
+    chown -R 1000 "$root/projects"
+    environment="export HOME=/root $(sed -n 's/^ENV //p' "$here/Dockerfile")"
+    steps=$(awk '/^RUN / { on = 1; sub(/^RUN /, "") } on; !/\\$/ { on = 0 }' "$here/Dockerfile")
+    run 0 "$environment; cd /opt/roofslip/projects; $steps" sh "(the steps of the image)"
+    user=$(sed -n 's/^USER //p' "$here/Dockerfile")
+    command="$environment HOME=~roofslip; cd /projects; exec roofslip \"\$@\""
+    run "$user:$user" "$command" sh report yours
+    run "$user:$user" "$command" sh serve --once --port 0
+    run "$user:$user" "$command" sh verify --quick --out /tmp/out
+}
+
 failed=0
 make_root
-run report projects/example
-run test "$@"
+if [ "${1-}" = --image ]; then
+    run_image
+else
+    unpack /roofslip
+    # shellcheck disable=SC2016
+    command='cd /roofslip && exec ./roofslip "$@"'
+    run 0 "$command" sh report projects/example
+    run 0 "$command" sh test "$@"
+fi
 exit "$failed"

@@ -18,7 +18,8 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 TOP_LEVEL = {
     "pyproject.toml", "requirements.lock", "README.md", "roofslip", "solver", "report", "templates",
     "projects", "tests", "docs", "mkdocs.yml", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
-    "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml",
+    "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml", "Dockerfile",
+    ".dockerignore",
 }  # fmt: skip
 
 
@@ -101,6 +102,68 @@ def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
             text = file.read_text(errors="replace")
             assert not [host for host in hosts if host in text], file
             assert not path.search(text), file
+
+
+@pytest.fixture
+def launched(tmp_path):
+    """A function that runs the launcher where nothing is installed, and returns what it prints."""
+    for name in ("roofslip", "docs/commands.md", "pyproject.toml", "requirements.lock"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+
+    def run(*words, program="./roofslip", path=os.environ["PATH"]):
+        before = sorted(tmp_path.rglob("*"))
+        done = subprocess.run(
+            [program, *words],
+            cwd=tmp_path,
+            env={"PATH": path},
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert sorted(tmp_path.rglob("*")) == before  # nothing is installed
+        assert done.stderr == ""
+        return done.stdout
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("words", "command"),
+    [
+        (["--help"], "roofslip"),
+        (["report", "projects/example", "-h"], "report"),
+        (["motion", "--help"], "motion"),
+        (["motion", "suite", "--count", "3", "--help"], "motion suite"),
+    ],
+)
+def test_help_needs_nothing_installed(launched, words, command):
+    pages = (ROOT / "docs" / "commands.md").read_text()
+    (text,) = re.findall(rf"^## {command}\n\n```text\n(.*?)```", pages, re.DOTALL | re.MULTILINE)
+    assert launched(*words) == text.replace("Usage: roofslip", "Usage: ./roofslip")
+
+
+def test_the_version_needs_nothing_installed(launched, tmp_path):
+    version = PROJECT["project"]["version"]
+    assert launched("--version") == f"roofslip, version {version}\n"
+    path = f"{tmp_path}:{os.environ['PATH']}"
+    assert launched("--help", program=tmp_path / "roofslip", path=path).startswith(
+        "Usage: roofslip "
+    )
+
+
+def test_the_image_holds_what_is_installed_and_no_other_project(tracked):
+    lines = (ROOT / ".dockerignore").read_text().splitlines()
+    rules = [line for line in lines if line and not line.startswith("#")]
+    assert rules[0] == "*"
+    kept = [rule[1:] for rule in rules if rule.startswith("!")]
+    assert {name for name in kept if name.startswith("projects")} == {
+        "projects/example", "projects/study",
+    }  # fmt: skip
+    assert all(list(ROOT.glob(name)) for name in kept)
+    targets = PROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]
+    needed = {*targets["packages"], "templates", "README.md", *PROJECT["project"]["license-files"]}
+    assert needed <= set(kept)
 
 
 @pytest.mark.parametrize("name", ["roofslip", "tests/bare_debian.sh"])

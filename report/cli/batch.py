@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from report.cli.colors import colored
 from report.cli.terminal import (
     AS_JSON,
     FAIL_ON_NG,
@@ -97,7 +98,7 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
         print_json(document(outcomes))
     elif not quiet:
         for line in table(outcomes):
-            click.echo(line)
+            click.echo(colored(line))
     for outcome in outcomes:
         problems = () if as_json else (each.line for each in grouped(outcome.problems))
         for text in (*problems, *outcome.internal.splitlines()):
@@ -149,7 +150,8 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
             while waiting and idle:
                 source, worker = waiting.pop(), idle.pop()
                 running[worker.submit(package, source)] = source, worker
-            progress(f"{len(outcomes)} of {len(distinct)} projects done")
+            done = len(outcomes)
+            progress(f"{done} of {len(distinct)} projects done", done)
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 source, worker = running.pop(future)
                 try:

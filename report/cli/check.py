@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from report.cli.colors import colored
 from report.cli.terminal import (
     AS_JSON,
     QUIET,
@@ -19,8 +20,10 @@ from report.cli.terminal import (
     Progress,
     document,
     input_errors,
+    plain,
     print_json,
 )
+from report.words.command import as_typed, called
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
@@ -61,7 +64,8 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
     elif not quiet:
         click.echo(_summary(sheet, shaking, found))
         for line in lines(sheet, found):
-            click.echo(line)
+            click.echo(colored(as_typed(plain(line))))
+        click.echo(f"Next: {called()} report {source}")
 
 
 def checked(

@@ -17,7 +17,10 @@ import click
 
 from report.cli.batch import batch
 from report.cli.check import check
+from report.cli.colors import color_choice
+from report.cli.completion import VARIABLE, completion
 from report.cli.doctor import doctor
+from report.cli.groups import SectionedGroup
 from report.cli.motion import motion
 from report.cli.plan import plan
 from report.cli.report import new, report
@@ -38,9 +41,10 @@ from report.cli.terminal import (
 from report.cli.verify import verify
 from report.cli.verify_package import verify_package
 from report.cli.watch import watch
+from report.words.command import called
 
 
-class _Commands(click.Group):
+class _Commands(SectionedGroup):
     """The group of all commands, which says so where what it prints cannot be written."""
 
     def main(self, *arguments: Any, **options: Any) -> Any:
@@ -51,6 +55,7 @@ class _Commands(click.Group):
         for name in ("stdout", "stderr"):
             if stream := getattr(sys, name):  # closed, it is None
                 setattr(sys, name, UntilClosed(stream))
+        options = {"prog_name": called(), "complete_var": VARIABLE} | options
         try:
             return super().main(*arguments, **options)
         except OSError as error:
@@ -82,6 +87,7 @@ def main() -> None:
     Start with `roofslip new DIR`, fill in DIR/input.xlsx, then run `roofslip report DIR`.
     """
     show_warnings()
+    click.get_current_context().color = color_choice()
     try:
         os.getcwd()
     except OSError:
@@ -89,9 +95,9 @@ def main() -> None:
         sys.exit(INPUT_ERROR)
 
 
-COMMANDS = (
-    batch, check, doctor, motion, new, plan, report, sbom, schema, serve, sign, slide, study,
-    verify, verify_package, watch,
-)  # fmt: skip
-for command in COMMANDS:
-    main.add_command(command)
+main.add_section("Package", report, watch, serve, batch, schema)
+main.add_section("Sheet", new, check, plan)
+main.add_section("Motions", motion, slide)
+main.add_section("Studies", study)
+main.add_section("Trust", verify, verify_package, sign, sbom)
+main.add_section("Installation", doctor, completion)

@@ -14,7 +14,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from report.cli.groups import SectionedGroup
 from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors
+from report.cli.values import TIME_STEP, Number
+from report.words.command import called
 
 if TYPE_CHECKING:
     from report.suite.inputs import SuiteTargets
@@ -26,7 +29,7 @@ _KEPT_WITHIN = 1e-9
 _PICTURES = (".svg", ".png")
 
 
-@click.group()
+@click.group(cls=SectionedGroup)
 def motion() -> None:
     """Inspect and convert records, and generate suites of motions."""
 
@@ -36,8 +39,8 @@ def _reading(command: Callable[..., None]) -> Callable[..., None]:
     options = (
         click.option("--units", type=UnitChoice(),
                      help="Units, if the file does not state them."),
-        click.option("--dt", "dt_s", type=float, default=math.nan, metavar="S",
-                     help="Time step [s], if the file has none."),
+        click.option("--dt", "dt_s", type=TIME_STEP, default=math.nan,
+                     help="Time step, if the file has none."),
     )  # fmt: skip
     for option in options:
         command = option(command)
@@ -113,8 +116,8 @@ def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float)
 @motion.command()
 @click.argument("folder", metavar="DIR", type=SOURCE)
 @click.argument("more", metavar="", nargs=-1)
-@click.option("--sds", "s_ds_g", type=float, default=math.nan, help="S_DS [g].")
-@click.option("--zh", "z_over_h", type=float, default=1.0, show_default=True,
+@click.option("--sds", "s_ds_g", type=Number("g"), default=math.nan, help="S_DS.")
+@click.option("--zh", "z_over_h", type=Number(), default=1.0, show_default=True,
               help="Height ratio z/h of the array.")  # fmt: skip
 @click.option("--code", help="Edition for the AC156 target spectrum, e.g. asce7-16 or pv1.")
 @click.option("--tail", type=click.Choice(["ac156", "1/T"]), default="ac156", show_default=True,
@@ -175,6 +178,8 @@ def suite(
     for line in (*suite_table(motions, targets), *seeds.notes):
         click.echo(line)
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
+    click.echo("Next: copy the records into records/ of a project, list them on its sheet Motions,")
+    click.echo(f"then run: {called()} check DIR")
 
 
 def _targets(

@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from report.cli.groups import SectionedGroup
 from report.cli.terminal import SOURCE, input_errors, plain
+from report.words.command import called
 
 if TYPE_CHECKING:
     from report.drawing.plan_read import DrawnOutline, RoofPlan
@@ -21,7 +23,7 @@ UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
 MOST_HANDLES = 20
 
 
-@click.group()
+@click.group(cls=SectionedGroup)
 def plan() -> None:
     """Fill in the roof plan of a workbook from a drawing."""
 
@@ -46,7 +48,7 @@ def read(drawing: Path, project: Path, units: str | None, replace: bool) -> None
         click.echo(plain(_line(place)))
     for text in _unread(found):
         click.echo(plain(text))
-    click.echo(f"{path}: the plan is filled in. Complete it, then run: roofslip report {project}")
+    click.echo(f"{path}: the plan is filled in. Complete it, then run: {called()} check {project}")
     if has_formulas:
         click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 

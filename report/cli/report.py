@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from report.cli.colors import colored
 from report.cli.terminal import (
     AS_JSON,
     FAIL_ON_NG,
@@ -26,13 +27,11 @@ from report.cli.terminal import (
     plain,
     print_json,
 )
+from report.words.command import as_typed, called
 
 if TYPE_CHECKING:
     from report.assessment.changes import Changes
     from report.assessment.project import Assessment
-
-EXAMPLE_STEPS = 7
-"""Motions of the example, each of which `new --example` reports."""
 
 
 @click.command()
@@ -46,24 +45,17 @@ def new(folder: Path, units: str, example: bool, study: bool) -> None:
     """Write a blank DIR/input.xlsx and the folder DIR/records/ for the motions."""
     if example and study:
         raise click.UsageError("give --example or --study, not both; projects/study is an example")
-    with input_errors(folder), Progress(EXAMPLE_STEPS) as progress:
-        path = _new_project(folder, units, progress, is_example=example, is_study=study)
+    with input_errors(folder):
+        path = _new_project(folder, units, is_example=example, is_study=study)
     if example:
         click.echo(f"{path}: a warehouse with three arrays and seven motions, complete;")
-        click.echo(f"to see its package, run: roofslip report {folder}")
+        click.echo(f"to see its package, run: {called()} report {folder}")
         return
     click.echo(f"{path}: fill in the yellow cells, put the roof motions in {folder / 'records'},")
-    click.echo(f"then run: roofslip {'study' if study else 'report'} {folder}")
+    click.echo(f"then run: {called()} {'study' if study else 'check'} {folder}")
 
 
-def _new_project(
-    folder: Path,
-    units: str,
-    progress: Callable[[str], None],
-    *,
-    is_example: bool,
-    is_study: bool,
-) -> Path:
+def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> Path:
     """Write a workbook and its records folder; never overwrite a workbook or a record."""
     from report.sheet.schema import UnitsFirst
     from report.sheet.writing.example import write_example
@@ -80,7 +72,7 @@ def _new_project(
             raise InputError(f"{records}: is not empty; choose another folder")
         records.mkdir(parents=True, exist_ok=True)
         if is_example:
-            write_example(folder, UnitsFirst(units), progress)
+            write_example(folder, UnitsFirst(units))
         else:
             write = write_study if is_study else write_template
             write(path, units=UnitsFirst(units))
@@ -132,7 +124,7 @@ def _print(
     from report.pages.summary import summary
 
     for line in summary(assessment):
-        click.echo(plain(line))
+        click.echo(colored(as_typed(plain(line))))
     if changed.is_asked_for:
         _print_changes(assessment, changed)
     click.echo("")

@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING
 import click
 
 from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR, input_errors
+from report.cli.values import Existing
 
 if TYPE_CHECKING:
     import uvicorn
@@ -46,7 +47,7 @@ _VISIT_S = 120.0
 @click.option("--no-browser", is_flag=True, help="Open no browser.")
 @click.option("--host", metavar="ADDRESS", help="Listen on this address of the machine, so that "
               "other machines reach the page. Needs --token-file.")  # fmt: skip
-@click.option("--token-file", type=click.Path(path_type=Path, exists=True, dir_okay=False),
+@click.option("--token-file", type=Existing(dir_okay=False),
               help=f"File with the token of the address: {SHORTEST_TOKEN} letters and digits or "
               "more.")  # fmt: skip
 @click.option("--once", is_flag=True, help="Load the page with the example as a browser does, "
@@ -185,7 +186,7 @@ class _Visit(threading.Thread):
         try:
             browser.open(self._address, timeout=_VISIT_S).read()
             state = json.load(browser.open(f"{page}api/state", timeout=_VISIT_S))
-            verdict = state["answer"]["verdict"]
+            verdict = state["answer"]["verdict"]["text"]
             self.sentence = f"the example: {verdict}, after {time.monotonic() - began:.1f} s"
             self.is_answered = True
         except (OSError, ValueError) as error:

@@ -8,13 +8,14 @@ from pathlib import Path
 import click
 
 from report.cli.terminal import SOURCE, input_errors
+from report.cli.values import Existing
 
-_THERE = click.Path(exists=True, dir_okay=False, path_type=Path)
+_FILE = Existing(dir_okay=False)
 
 
 @click.command()
-@click.argument("file", metavar="FILE.pdf", type=_THERE, is_eager=True)
-@click.option("--p12", type=_THERE, is_eager=True, required=True, metavar="CERT.p12",
+@click.argument("file", metavar="FILE.pdf", type=_FILE, is_eager=True)
+@click.option("--p12", type=_FILE, is_eager=True, required=True, metavar="CERT.p12",
               help="PKCS#12 file with the private key and the certificate.")  # fmt: skip
 @click.option("--password", envvar="ROOFSLIP_P12_PASSWORD",
               help="Of CERT.p12; without it, from ROOFSLIP_P12_PASSWORD or asked for.")  # fmt: skip

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from report.cli.terminal import AS_JSON, UnitChoice, input_errors
+from report.cli.values import TIME_STEP, Number
 
 if TYPE_CHECKING:
     from solver.model import Scene
@@ -26,17 +27,18 @@ velocity-dependent friction."""
 
 @click.command()
 @click.argument("record")
-@click.option("--slope-deg", type=float, required=True, help="Roof slope [deg]; positive if "
+@click.option("--slope-deg", required=True,
+              type=Number("deg", -90.0, 90.0, is_open=True), help="Roof slope; positive if "
               "positive acceleration points downslope.")  # fmt: skip
-@click.option("--mu", type=float, required=True, help="Friction coefficient.")
+@click.option("--mu", type=Number(low=0.0), required=True, help="Friction coefficient.")
 @click.option("--transverse", metavar="RECORD", help="Second horizontal record, acting "
               "cross-slope.")  # fmt: skip
 @click.option("--vertical", metavar="RECORD", help="Vertical record, positive up.")
 @click.option(
-    "--ppa-g", type=float, help="Scale all components so that RECORD peaks at this PPA [g]."
+    "--ppa-g", type=Number("g"), help="Scale all components so that RECORD peaks at this PPA."
 )
-@click.option("--factor", type=float, help="Scale all components by this factor.")
-@click.option("--dt", type=float, help="Time step [s], if the record has no time column.")
+@click.option("--factor", type=Number(), help="Scale all components by this factor.")
+@click.option("--dt", type=TIME_STEP, help="Time step, if the record has no time column.")
 @click.option("--units", type=UnitChoice(),
               help="Units of the records, if the files do not state them.")  # fmt: skip
 @click.option("--model", type=click.Choice(MODELS), help="Run this model instead of the simplest "

@@ -10,9 +10,11 @@ import gc
 import json
 import os
 import re
+import shutil
 import signal
 import sys
 import tempfile
+import threading
 import time
 import warnings
 from collections.abc import Iterator, Sequence
@@ -23,6 +25,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
+from report.words.command import as_typed
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
@@ -48,6 +51,7 @@ class UnitChoice(click.Choice[str]):
 
 
 QUIET_SECONDS = 1.0
+TIMED_SECONDS = 2.0
 _BAR = 20
 _LONGEST = 2000
 
@@ -147,7 +151,7 @@ def say_problems(source: Path, problems: Sequence[Problem]) -> None:
 
     click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
     for problem in grouped(problems):
-        click.echo(f"  {plain(problem.line)}", err=True)
+        click.echo(f"  {as_typed(plain(problem.line))}", err=True)
 
 
 def system_problem(error: OSError) -> Problem:
@@ -242,47 +246,85 @@ def no_collections() -> Iterator[None]:
 
 
 class Progress:
-    """Prints the current step: a bar that is updated on a terminal, plain lines elsewhere.
+    """Prints the current step: on a terminal a line with the time left, elsewhere plain lines.
 
-    Plain lines start after one second, so that quick commands print none.
+    The line is written again every second. Plain lines start after one second, so that quick
+    commands print none.
     """
 
-    def __init__(self, steps: int = 0, *, quiet: bool = False) -> None:
+    def __init__(self, steps: int | Sequence[float] = 0, *, quiet: bool = False) -> None:
         """Begin.
 
         Parameters
         ----------
-        steps : int
-            Number of steps that will be reported, for the bar; 0 if it is not known.
+        steps : int or sequence of float
+            Number of steps that will be reported, or their usual shares of the time, for the bar
+            and the time left; 0 if it is not known.
         quiet : bool
             Print nothing.
         """
+        shares = [1.0] * steps if isinstance(steps, int) else steps
+        self._shares_before = [sum(shares[:n]) / sum(shares) for n in range(len(shares))]
         self._started = time.monotonic()
         # Closed, it is None.
         self._terminal = sys.stderr is not None and sys.stderr.isatty()
-        self._steps, self._done, self._quiet = steps, 0, quiet
+        self._quiet = quiet
+        self._done, self._doing, self._expected_s = 0, "", 0.0
+        self._ended = threading.Event()
+        self._rewriting = threading.Thread(target=self._rewrite, daemon=True)
 
     def __enter__(self) -> Progress:
+        if self._terminal and not self._quiet:
+            self._rewriting.start()
         return self
 
-    def __call__(self, doing: object) -> None:
-        """Print the current step."""
+    def __call__(self, doing: object, done: int | None = None) -> None:
+        """Print the current step, and that so many are done: one more at each call if not given."""
         seconds = time.monotonic() - self._started
         if self._quiet:
             return
+        self._done = self._done if done is None else done
         if self._terminal:
-            line = f"{self._bar()}{seconds:4.1f} s  {doing}"
-            click.echo(f"\r\x1b[2K{line}", nl=False, err=True)
+            part = self._part()
+            self._expected_s = seconds / part if part else 0.0
+            self._doing = str(doing)
+            self._show(seconds)
         elif seconds > QUIET_SECONDS:
             click.echo(f"[{seconds:4.1f} s] {doing}", err=True)
         self._done += 1
 
-    def _bar(self) -> str:
-        if not self._steps:
-            return ""
-        filled = _BAR * min(self._done, self._steps) // self._steps
-        return f"[{'#' * filled}{'.' * (_BAR - filled)}] "
+    def _part(self) -> float:
+        """Return how much was done when the current step began."""
+        before = self._shares_before
+        return before[min(self._done, len(before) - 1)] if before else 0.0
+
+    def _show(self, seconds: float) -> None:
+        filled = int(_BAR * self._part() + 1e-9)  # 7 of 10 may be 0.6999
+        bar = f"[{'#' * filled}{'.' * (_BAR - filled)}] " if self._shares_before else ""
+        left = _left(self._expected_s - seconds) if seconds > TIMED_SECONDS else ""
+        line = f"{bar}{seconds:4.1f} s{left}  {self._doing}"
+        # A line that wraps could not be written over.
+        _over(line[: shutil.get_terminal_size().columns - 1])
+
+    def _rewrite(self) -> None:
+        while not self._ended.wait(1.0):
+            if self._doing:
+                self._show(time.monotonic() - self._started)
 
     def __exit__(self, *_: Any) -> None:
         if self._terminal and not self._quiet:
-            click.echo("\r\x1b[2K", nl=False, err=True)
+            self._ended.set()
+            self._rewriting.join()
+            _over("")
+
+
+def _left(seconds: float) -> str:
+    if seconds < 1.0:
+        return ""
+    return f", {seconds:.0f} s left" if seconds < 100.0 else f", {seconds / 60.0:.0f} min left"
+
+
+def _over(line: str) -> None:
+    """Write a line over the current one of the terminal."""
+    # It is no color that is asked for: click would take the code off with NO_COLOR.
+    click.echo(f"\r\x1b[2K{line}", nl=False, err=True, color=True)

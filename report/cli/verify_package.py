@@ -27,12 +27,17 @@ from report.cli.terminal import (
     print_json,
 )
 from report.making import STEPS, make
+from report.words.command import as_typed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from report.proof.signatures import Signature
     from report.proof.verdict import Proof
+
+
+COMPARING = 0.1
+"""Usual time of the comparison, as a share of that of the package."""
 
 
 @click.command("verify-package")
@@ -52,7 +57,7 @@ def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool)
 
     with (
         input_errors(file, as_json=as_json),
-        Progress(STEPS + 1, quiet=quiet) as progress,
+        Progress((*STEPS, COMPARING), quiet=quiet) as progress,
         no_collections(),
         started_worker() as worker,
         tempfile.TemporaryDirectory(prefix="roofslip-") as folder,
@@ -104,7 +109,7 @@ def _print(proof: Proof) -> None:
     else:
         click.echo(f"Nothing differs in what could be compared: {proof.how}.")
     if proof.not_compared:
-        click.echo(plain(_redrawn(proof.not_compared)))
+        click.echo(as_typed(plain(_redrawn(proof.not_compared))))
     for signature in proof.signed:
         click.echo(plain(_told(signature)))
 
@@ -125,7 +130,7 @@ def _told(signature: Signature) -> str:
     if not signature.is_checked:
         return (
             f"{field}: the signature was not checked; that needs the extra 'sign', which "
-            "./roofslip sign --help installs."
+            "./roofslip sign installs."
         )
     if signature.problem:
         return f"{field}: the signature is not valid."

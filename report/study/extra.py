@@ -23,7 +23,7 @@ def extra(name: str) -> Any:
     except ImportError as error:
         raise InputError(
             f"a study needs the package {package}, which is not installed; type: "
-            "./roofslip study --help (the launcher installs the extra), or: "
+            "./roofslip study (the launcher installs the extra), or: "
             "pip install 'roofslip[study]'"
         ) from error
     return sys.modules[package]

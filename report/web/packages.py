@@ -144,7 +144,7 @@ class Packages:
             "values": package.values,
             "state": package.state.value,
             "words": f"In line, place {queued.index(package) + 1}" if is_queued else package.words,
-            "part": None if is_queued else package.step / (STEPS + 1),
+            "part": None if is_queued else package.step / (len(STEPS) + 1),
         }
 
     async def cancel(self, package: Package) -> None:

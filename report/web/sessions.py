@@ -12,6 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from report.sheet.writing import shipped
+
 LIFE_S = 3600.0
 """How long a session lives without use [s]."""
 
@@ -19,10 +21,7 @@ MOST = 200
 """Most sessions at once: each may fill a folder."""
 
 _UPLOAD = "upload-"
-_PACKAGE = Path(__file__).resolve().parent
-_HOMES = (_PACKAGE / "example", _PACKAGE.parents[1] / "projects" / "example")
-EXAMPLE = next(path for path in _HOMES if path.is_dir()) / "input.xlsx"
-"""The example: within the package where it is installed, or of the checkout."""
+EXAMPLE = shipped.EXAMPLE / "input.xlsx"
 
 
 class OtherProjectError(Exception):

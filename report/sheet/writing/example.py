@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Callable
+import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,8 +20,8 @@ from report.sheet.writing.rows import (
     motion,
     rectangle,
     roof_object,
-    write_motions,
 )
+from report.sheet.writing.shipped import EXAMPLE
 from report.sheet.writing.template import write_template
 
 if TYPE_CHECKING:
@@ -33,19 +33,19 @@ COUNT, SEED = 7, 1566
 SOURCE = f"AC156 spectrum at the roof, seed {SEED}"
 
 
-def write_example(
-    folder: Path,
-    units: UnitsFirst = UnitsFirst.US,
-    progress: Callable[[str], None] = lambda _: None,
-) -> Path:
-    """Write records/ and input.xlsx to a folder, calling for each motion; return the workbook."""
-    write_motions(folder / "records", "RM", suite(progress))
-    path = folder / "input.xlsx"
-    write_template(path, units=units, example=project(units))
-    return path
+def write_example(folder: Path, units: UnitsFirst = UnitsFirst.US) -> None:
+    """Write records/, as they are shipped, and input.xlsx to a folder."""
+    records = folder / "records"
+    shutil.copytree(EXAMPLE / "records", records, dirs_exist_ok=True, copy_function=shutil.copyfile)
+    write_workbook(folder, units)
 
 
-def suite(progress: Callable[[str], None] = lambda _: None) -> list[SuiteMotion]:
+def write_workbook(folder: Path, units: UnitsFirst = UnitsFirst.US) -> None:
+    """Write input.xlsx to a folder."""
+    write_template(folder / "input.xlsx", units=units, example=project(units))
+
+
+def suite() -> list[SuiteMotion]:
     """Return seven motions with spectra that match AC156 at the roof."""
     from solver.rules.hazard import EDITIONS
     from solver.rules.provisions import RULE_SETS
@@ -60,7 +60,6 @@ def suite(progress: Callable[[str], None] = lambda _: None) -> list[SuiteMotion]
         (upward.freq_hz, upward.sa_g),
         count=COUNT,
         seed=SEED,
-        progress=progress,
     )
 
 

@@ -24,6 +24,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.cells import wish
 from report.sheet.schema.fields import Entry, YesNo
+from report.words.command import as_typed
 from report.words.units import Unit
 
 INK = "1F3A4D"
@@ -81,9 +82,12 @@ def put(
     size: int = 10,
     wrap: bool = True,
 ) -> Cell:
-    """Write a text in a cell that has no format yet; return the cell."""
+    """Write a text in a cell that has no format yet; return the cell.
+
+    Its commands begin as the reader typed the one that writes it.
+    """
     cell: Any = sheet.cell(row, column)
-    cell.value, cell.data_type = text, "s"
+    cell.value, cell.data_type = as_typed(text), "s"
     indent = 1 if wrap and column > 1 else 0
     looks, look = _LOOKS.setdefault(sheet, {}), (color, bold, italic, size, wrap, indent)
     if look in looks:

@@ -13,7 +13,7 @@ from http.cookiejar import CookieJar
 
 import pytest
 
-from commands import hearing, refused
+from commands import hearing, printed, refused
 from places import ROOT
 from report.cli.serve import listen, names_of
 from report.web.connections import TimedProtocol
@@ -119,3 +119,9 @@ def test_a_short_answer_is_sent_at_once():
         listening.accept()[0] as accepted,
     ):
         assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+
+
+@pytest.mark.nightly("report/cli/serve.py", "report/web/")
+def test_once_says_the_verdict_of_the_example():
+    told = printed("serve", "--once", "--no-browser", "--port", 0)
+    assert re.search(r"^the example: OK with conditions, after \d+\.\d s$", told, re.MULTILINE)

@@ -76,8 +76,8 @@ def test_a_file_of_several_channels_gives_each_component():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--slope-deg", "95", "--mu", "0.5"], "give an angle between"),
-        (["--slope-deg", "2", "--mu", "-1"], "give a friction coefficient of 0 or more"),
+        (["--slope-deg", "95", "--mu", "0.5"], "it is 95 deg; give more than -90 deg"),
+        (["--slope-deg", "2", "--mu", "-1"], "it is -1; give 0 or more"),
         (["--slope-deg", "2"], "--mu"),
         ([*PLACE, "--dt", "0.01"], "0.01"),
         ([*PLACE, "--ppa-g", "1", "--factor", "1"], "not both"),

@@ -1,5 +1,6 @@
 """Progress on the terminal."""
 
+import time
 import warnings
 
 import pytest
@@ -24,6 +25,51 @@ def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(terminal, capsy
     assert shown[2].endswith(" s  running")
 
 
+def shown_at(seconds, monkeypatch, capsys, progress):
+    """The lines that a terminal shows of steps that begin at these times."""
+    now = iter(seconds)
+    monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: next(now))
+    made = progress()
+    for number in range(len(seconds) - 1):
+        made(f"step {number}")
+    return capsys.readouterr().err.split("\r\x1b[2K")[1:]
+
+
+def test_the_time_left_follows_from_what_is_done(terminal, monkeypatch, capsys):
+    terminal()
+    times = (0.0, 1.0, 3.0, 320.0)
+    lines = shown_at(times, monkeypatch, capsys, lambda: Progress(4))
+    assert [line.partition("] ")[2] for line in lines] == [
+        " 1.0 s  step 0",
+        " 3.0 s, 9 s left  step 1",
+        "320.0 s, 5 min left  step 2",
+    ]
+
+
+def test_steps_of_unequal_length_count_by_their_shares(terminal, monkeypatch, capsys):
+    terminal()
+    lines = shown_at((0.0, 0.0, 9.0), monkeypatch, capsys, lambda: Progress((3, 1)))
+    assert lines[1] == "[" + "#" * 15 + "." * 5 + "]  9.0 s, 3 s left  step 1"
+
+
+def test_a_line_is_no_wider_than_the_terminal(terminal, monkeypatch, capsys):
+    terminal()
+    monkeypatch.setenv("COLUMNS", "30")
+    lines = shown_at((0.0, 0.0), monkeypatch, capsys, lambda: Progress(4))
+    assert lines == ["[" + "." * 20 + "]  0.0 s"]
+
+
+def test_the_line_is_written_again_while_a_step_lasts(terminal, capsys):
+    terminal()
+    with Progress(2) as progress:
+        progress("running")
+        time.sleep(1.5)
+    *lines, cleared = capsys.readouterr().err.split("\r\x1b[2K")[1:]
+    assert len(lines) >= 2
+    assert all(line.endswith("  running") for line in lines)
+    assert cleared == ""
+
+
 def test_without_a_number_of_steps_there_is_no_bar(terminal, capsys):
     terminal()
     with Progress() as progress:
@@ -42,7 +88,6 @@ def test_without_a_number_of_steps_there_is_no_bar(terminal, capsys):
 )
 @pytest.mark.nightly
 def test_the_bar_of_a_command_is_full_when_it_ends(tmp_path, bars, full_after, command, steps):
-    """That of `new --example` is tested in test_cli.py."""
     paths = make(tmp_path / "old"), tmp_path / "new"
     assert bars(*(word.format(*paths) for word in command)) == full_after(steps)
 
