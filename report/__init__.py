@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
 
+__all__ = ["assess_project"]
+
 # openpyxl asks once, as it is loaded. Through lxml, where that is installed, it would write other
 # workbooks. Through defusedxml it reads them in half as much time again; by then
 # `report.sheet.reading.scan` has refused what that refuses.

@@ -22,3 +22,8 @@ def __getattr__(name: str) -> Any:
         warnings.warn(text, DeprecationWarning, stacklevel=2)
     # Not `from solver import public`, which would ask here whether there is such a name.
     return getattr(import_module("solver.public"), FORMER.get(name, name))
+
+
+def __dir__() -> list[str]:
+    """Return the public names, which `help` shows."""
+    return list(import_module("solver.public").__all__)
