@@ -9,7 +9,9 @@ import roofslip
 import solver
 from places import ROOT
 
-SLID = "import roofslip; print(roofslip.slide([0, 4, -4, 0, 0, 0], 0.1, slope_rad=0, mu=0.2).status)"
+SLID = (
+    "import roofslip; print(roofslip.slide([0, 4, -4, 0, 0, 0], 0.1, slope_rad=0, mu=0.2).status)"
+)
 
 
 def run(folder, program):
