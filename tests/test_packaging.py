@@ -16,9 +16,9 @@ from places import ROOT, TESTS
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 TOP_LEVEL = {
-    "pyproject.toml", "requirements.lock", "README.md", "roofslip", "roofslip.py", "solver", "report",
-    "templates", "projects", "tests", "docs", "mkdocs.yml", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
-    "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml",
+    "pyproject.toml", "requirements.lock", "README.md", "roofslip", "solver", "report", "templates",
+    "projects", "tests", "docs", "mkdocs.yml", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
+    "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml", "roofslip.py",
 }  # fmt: skip
 
 

@@ -104,6 +104,10 @@ class ArrayAssessment:
     interconnection_n: float
     adopted: ArrayAssessment | None
 
+    def __repr__(self) -> str:
+        design = f"design displacement {1e3 * self.design_m:.0f} mm"
+        return f"ArrayAssessment: {self.id}, {design}, by {self.source}"
+
     @property
     def id(self) -> str:
         """Name of the array in the workbook."""

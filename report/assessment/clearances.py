@@ -81,6 +81,14 @@ class ClearanceCheck:
     design_mark: str
     mark: str
 
+    def __repr__(self) -> str:
+        gap = f"{self.clearance.array} to {self.clearance.object}"
+        required, provided = (1e3 * m for m in (self.required_m, self.clearance.provided_m))
+        return (
+            f"ClearanceCheck: {gap}, {required:.0f} mm required, {provided:.0f} mm provided, "
+            f"{self.verdict.value}"
+        )
+
     @property
     def demand_capacity(self) -> float:
         """Required / provided separation; NaN without a required one."""

@@ -111,6 +111,10 @@ class Assessment:
     low_velocity: LowVelocityAssessment
     solver_seconds: float
 
+    def __repr__(self) -> str:
+        counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
+        return f"Assessment: {self.verdict.value}; {counts}, {len(self.conditions)} conditions"
+
     @property
     def governing(self) -> ArrayAssessment:
         """The array with the largest design displacement, or one without a value."""

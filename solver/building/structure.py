@@ -43,6 +43,9 @@ class Building:
     roof_factors: Floats
     words: str
 
+    def __repr__(self) -> str:
+        return f"Building: {self.words}"
+
 
 def building_of_periods(
     periods_s: Sequence[float],
@@ -68,9 +71,19 @@ def building_of_periods(
     stories : int
         Number of equal stories with equal floor masses; 0 for a continuous beam.
 
+    Returns
+    -------
+    Building
+
     Raises
     ------
     InputError
+        For a value out of range.
+
+    Examples
+    --------
+    >>> building_of_periods([0.5, 0.16], damping=[0.03, 0.05], stories=4)
+    Building: 4 equal stories, in shear; period 0.5, 0.16 s; damping 3, 5 % of critical
     """
     _check_periods(periods_s, damping)
     modes = _modes(alpha0, stories)

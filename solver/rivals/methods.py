@@ -237,6 +237,9 @@ WANTED: Mapping[str, tuple[str, Callable[[float], bool]]] = {
 }
 """What each parameter accepts, in words and as a test."""
 
+ANY_NUMBER = ("a finite number", math.isfinite)
+"""What a parameter of a method of your own accepts."""
+
 _ALL = (
     Method(
         name="exact",

@@ -127,6 +127,15 @@ def make_suite(
     ------
     InputError
         If an argument is invalid, or no motion is found that meets the target.
+
+    Examples
+    --------
+    >>> from solver import EDITIONS, ac156_horizontal, ac156_vertical
+    >>> horizontal = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0)
+    >>> vertical = ac156_vertical(s_ds_g=1.2)
+    >>> (made,) = make_suite(horizontal.corners, vertical.corners, count=1, seed=1)
+    >>> made.x
+    Record('motion-01-x', 6001 samples at 0.005 s)
     """
     if count < 1 or seed < 0:
         raise InputError(f"suite: count {count} and seed {seed}; give at least 1 and at least 0")
