@@ -91,6 +91,9 @@ class Method:
     link_steps_per_radian : float
         In a sweep (`settings`), sub-steps for each radian omega dt of the link; 0 without a link.
     follow : callable
+        Given the `AxisScene`, the parameters by name, and an array of shape (2, n) that it fills
+        with displacement [m] and velocity [m/s] along the slope at the samples, or of shape (2, 0)
+        that it leaves; returns an `Outcome`.
     """
 
     name: str

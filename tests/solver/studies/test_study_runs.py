@@ -87,6 +87,8 @@ def test_a_fragility_is_fitted_to_the_first_exceedance_of_each_motion(motions):
     logs = np.log(found.capacities.intensity)
     assert found.fitted.theta == pytest.approx(np.exp(logs.mean()))
     assert found.fitted.beta == pytest.approx(logs.std(ddof=1))
+    fit = f"median {found.fitted.theta:.4g}, dispersion {found.fitted.beta:.3g}"
+    assert repr(found) == f"Fragility: {fit}, 3 motions, 0 censored"
     exceeded = ~(study.prd_m[0, 0] <= limit_m)
     assert found.exceeded.tolist() == exceeded.sum(axis=1).tolist()
 
