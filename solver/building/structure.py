@@ -57,7 +57,8 @@ def building_of_periods(
     """Return a uniform building whose first modes have the given periods.
 
     The roof factors, and the ratios of the periods of higher modes to the last one given, are those
-    of `solver.building.beam`. With few stories the lumped floor masses matter: one story has a roof
+    of a beam in shear and bending (Miranda and Taghavi, J. Struct. Eng. 131 (2005) 203-211;
+    `solver.building.beam`). With few stories the lumped floor masses matter: one story has a roof
     factor of 1, whereas the first mode of a continuous beam has up to 1.57.
 
     Parameters

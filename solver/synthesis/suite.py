@@ -86,6 +86,10 @@ def make_suite(
 ) -> list[SuiteMotion]:
     """Generate motions of two horizontal components and a vertical component each.
 
+    Sinusoids under an envelope, matched in frequency and then in time (Gasparini and Vanmarcke,
+    MIT R76-4, 1976; Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824), as in
+    `solver.synthesis.synthesize`.
+
     Motion k of a seed is the same for any count. Every component alone satisfies the rows of
     `solver.records.acceptance` where its target is given and the duration has three cycles: it is
     scaled so that its spectrum touches the target at the lowest point of `GRIDS` grids of 1/6
