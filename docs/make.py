@@ -3,7 +3,8 @@
     .venv/bin/python docs/make.py
 
 `commands.md` is the command line's own help, `workbook-fields.md` the schema of the input sheets
-and `results-json.md` that of results.json. A test compares the pages with what this would write.
+and `results-json.md` that of results.json; `examples.md` lists the scripts of `docs/examples` with
+their own first words. A test compares the pages with what this would write.
 """
 
 from __future__ import annotations
@@ -21,10 +22,20 @@ from report.sheet.schema.fields import Entry, SheetSection, entries
 
 HERE = Path(__file__).resolve().parent
 
+EXAMPLES = (
+    "slip", "two_axes", "design_curves", "least_friction", "workbook", "suite", "ground_to_roof",
+    "fragility", "own_method", "newmark",
+)  # fmt: skip
+
 
 def pages() -> Mapping[Path, str]:
     """Return every page that is made."""
-    made = {"commands.md": _commands, "workbook-fields.md": _fields, "results-json.md": _results}
+    made = {
+        "commands.md": _commands,
+        "examples.md": _examples,
+        "workbook-fields.md": _fields,
+        "results-json.md": _results,
+    }
     return {HERE / name: "\n".join(lines()) for name, lines in made.items()}
 
 
@@ -43,6 +54,25 @@ def _named(command: click.Command, words: tuple[str, ...]) -> Iterator[tuple[tup
     if isinstance(command, click.Group):
         for name, below in sorted(command.commands.items()):
             yield from _named(below, (*words, name))
+
+
+def _examples() -> Iterator[str]:
+    yield "# Examples\n"
+    yield (
+        "Scripts that run in the checkout, each in a minute or less. Jupyter (with jupytext) and "
+        "editors that know `# %%` open them as notebooks. Each saves its plots where it runs.\n"
+    )
+    for name in EXAMPLES:
+        title, *words = _first_cell(HERE / "examples" / f"{name}.py")
+        yield f"## {title}\n\n{' '.join(words)}\n\n[`{name}.py`](examples/{name}.py)\n"
+
+
+def _first_cell(path: Path) -> list[str]:
+    """Return the title and the words of the first cell of a script, by line."""
+    _, first, *_ = path.read_text(encoding="utf-8").split("# %%")
+    lines = [line.removeprefix("#").strip() for line in first.splitlines()[1:]]
+    title, *words = filter(None, lines)
+    return [title.removeprefix("# "), *words]
 
 
 def _fields() -> Iterator[str]:

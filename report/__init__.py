@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
 
+__all__ = ["assess_project"]
+
 # openpyxl asks once, as it is loaded. Through lxml, where that is installed, it would write other
 # workbooks. Through defusedxml it reads them in half as much time again; by then
 # `report.sheet.reading.scan` has refused what that refuses.
@@ -23,10 +25,24 @@ def assess_project(source: str | Path) -> Assessment:
     source : str or Path
         An input workbook, or a folder with `input.xlsx`.
 
+    Returns
+    -------
+    Assessment
+        Arrays, clearances, requirements and the verdict.
+
     Raises
     ------
     InputError
         With every problem of the workbook and of its records.
+
+    Examples
+    --------
+    >>> from report import assess_project
+    >>> assessment = assess_project("projects/conditions")
+    >>> assessment
+    Assessment: NG; 2 arrays, 6 clearances, 11 conditions
+    >>> assessment.clearances[1]
+    ClearanceCheck: A2 to RTU-1, 549 mm required, 305 mm provided, NG
     """
     from report.assessment.project import assess
     from report.motions.prepare import prepare

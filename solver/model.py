@@ -159,6 +159,25 @@ class SlideResult:
     peak_speed_mps: float
     error_m: float
 
+    def __repr__(self) -> str:
+        return f"SlideResult: {self.words}"
+
+    @property
+    def words(self) -> str:
+        """The result in one line for a reader."""
+        if math.isnan(self.prd_m):
+            return self.status.sentence
+        if self.prd_m == 0.0:
+            return "no slip"
+        when = "" if math.isnan(self.t_prd_s) else f" at {self.t_prd_s:.2f} s"
+        end = f"{1e3 * self.residual_m:+z.1f} mm"
+        if self.residual_across_m:
+            end += f" and {1e3 * self.residual_across_m:+z.1f} mm cross-slope"
+        return (
+            f"PRD {1e3 * self.prd_m:.1f} mm{when}, {end} at the end, {self.n_stops} stops, "
+            f"{self.status}"
+        )
+
     def __eq__(self, other: object) -> bool:
         """Whether every value is equal; one that is NaN in both is, in every version of Python."""
         return isinstance(other, SlideResult) and self._values == other._values
@@ -214,10 +233,14 @@ class SlideHistory:
     result: SlideResult
 
     def __repr__(self) -> str:
-        return f"SlideHistory({len(self.t_s)} samples, {len(self.events)} events, {self.result})"
+        samples, events = len(self.t_s), len(self.events)
+        return f"SlideHistory: {samples} samples, {events} events; {self.result.words}"
 
     def to_frame(self) -> pd.DataFrame:
-        """Return the motion as a table with one row per sample, indexed by time."""
+        """Return the motion as a table with one row per sample, indexed by time [s].
+
+        Columns: `u_m`, `v_mps`, and in two axes `across_m`, `across_mps`.
+        """
         import pandas as pd
 
         columns = {"u_m": self.u_m, "v_mps": self.v_mps}
@@ -270,7 +293,27 @@ class Friction:
 
 
 def coulomb(mu: float) -> Friction:
-    """Return Coulomb friction with one coefficient."""
+    """Return Coulomb friction with one coefficient.
+
+    Parameters
+    ----------
+    mu : float
+        Friction coefficient, static and kinetic, >= 0.
+
+    Returns
+    -------
+    Friction
+
+    Raises
+    ------
+    Nothing
+        The function that takes the friction checks it.
+
+    Examples
+    --------
+    >>> coulomb(0.4).at(1.0)
+    0.4
+    """
     return Friction(mu_slow=mu, mu_fast=mu, rate_s_per_m=0.0, mu_static=mu)
 
 
@@ -381,6 +424,12 @@ class Motion:
         for component in backward:
             component.setflags(write=False)
         object.__setattr__(self, "_reversed", backward)
+
+    def __repr__(self) -> str:
+        there = {"x": True, "y": self.has_transverse, "z": self.has_vertical}
+        names = " and ".join(name for name, is_there in there.items() if is_there)
+        samples = f"{len(self.ax_mps2)} samples of {self.dt_s:g} s"
+        return f"Motion: {self.id}, {names}, {samples}, scale {self.scale:g}"
 
     @property
     def has_vertical(self) -> bool:

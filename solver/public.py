@@ -1,6 +1,8 @@
 """The public names of the solver, which `import solver` offers."""
 
-from solver.formats import read_record
+from solver.building.roof import at_roof
+from solver.building.structure import Building, building_of_periods
+from solver.formats import MotionFile, read_motion_file, read_record
 from solver.model import (
     Event,
     EventKind,
@@ -13,34 +15,68 @@ from solver.model import (
     Status,
     coulomb,
 )
-from solver.records.record import Record
-from solver.rivals.methods import METHODS
-from solver.sliding.checked import history, scene, slide, slide_history, solve
+from solver.records.measures import Measures, measures
+from solver.records.processing import Processing, process
+from solver.records.record import Record, record_from_values, write_record
+from solver.records.scaling import design_spectrum, factor_to_target
+from solver.records.spectrum import ResponseSpectrum, spectrum
+from solver.rivals.methods import METHODS, Method, Outcome
+from solver.rules.hazard import EDITIONS
+from solver.rules.spectra import RequiredSpectrum, ac156_horizontal, ac156_vertical
+from solver.sliding.checked import history, motion, scene, slide, slide_history, solve
 from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.sweep import Sweep, sweep
+from solver.studies.study import StudyRuns, study
+from solver.synthesis import SuiteMotion, make_suite
 
 __all__ = [
+    "EDITIONS",
     "METHODS",
+    "Building",
     "Event",
     "EventKind",
     "Friction",
     "InputError",
+    "Measures",
+    "Method",
     "Model",
     "Motion",
+    "MotionFile",
+    "Outcome",
+    "Processing",
     "Record",
+    "RequiredSpectrum",
+    "ResponseSpectrum",
     "Scene",
     "Settings",
     "SlideHistory",
     "SlideResult",
     "Solution",
     "Status",
+    "StudyRuns",
+    "SuiteMotion",
     "Sweep",
+    "ac156_horizontal",
+    "ac156_vertical",
+    "at_roof",
+    "building_of_periods",
     "coulomb",
+    "design_spectrum",
+    "factor_to_target",
     "history",
+    "make_suite",
+    "measures",
+    "motion",
+    "process",
+    "read_motion_file",
     "read_record",
+    "record_from_values",
     "scene",
     "slide",
     "slide_history",
     "solve",
+    "spectrum",
+    "study",
     "sweep",
+    "write_record",
 ]

@@ -19,7 +19,7 @@ TOP_LEVEL = {
     "pyproject.toml", "requirements.lock", "README.md", "roofslip", "solver", "report", "templates",
     "projects", "tests", "docs", "mkdocs.yml", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
     "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml", "Dockerfile",
-    ".dockerignore",
+    ".dockerignore", "roofslip.py",
 }  # fmt: skip
 
 
@@ -50,11 +50,13 @@ def built(tmp_path_factory):
     return folder
 
 
-def test_the_wheel_holds_two_packages_their_templates_the_page_and_its_example(built):
+def test_the_wheel_holds_the_packages_their_templates_the_page_and_its_example(built):
     with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
         names = set(wheel.namelist())
     tops = {name.split("/")[0] for name in names}
-    assert {top for top in tops if not top.endswith(".dist-info")} == {"solver", "report"}
+    assert {top for top in tops if not top.endswith(".dist-info")} == {
+        "solver", "report", "roofslip.py"
+    }  # fmt: skip
     assert any(re.fullmatch(r"report/templates/.*\.html", name) for name in names)
     assert any(re.fullmatch(r"report/templates/fonts/.*OFL.*", name) for name in names)
     web = ("static/index.html", "static/app.js", "example/input.xlsx", "example/records/RM7-z.csv")

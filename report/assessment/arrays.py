@@ -65,31 +65,66 @@ class RouteLimits:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayAssessment(RouteLimits):
-    """One array: its runs, the value from analysis, the prescriptive value, the design value."""
+    """One array: its runs, the value from analysis, the prescriptive value, the design value.
+
+    Attributes
+    ----------
+    array : Array
+        Its row of the workbook.
+    motions : tuple of MotionRun
+        The runs under each motion.
+    analysis : AnalysisValue
+    directions : mapping of Direction to AnalysisValue
+        Value from analysis of the excursions in each direction; `analysis` is that for any.
+    chosen : mapping of Direction to AnalysisValue
+        The same with the adequate models; differs from it where a model is requested.
+    needed : tuple of MotionRun
+        The runs for `chosen`, in the order of `motions`.
+    prescriptive : Prescriptive
+    floor_m : float
+        Minimum design displacement without peer review [m]; 0 with peer review.
+    route : Route
+        By which the design displacement is obtained.
+    is_permitted : bool
+        Whether the route is permitted: its limits are satisfied, and by analysis those on the
+        motions.
+    design_m : float
+        Design displacement [m]. By analysis: the larger of the value from analysis and the floor.
+        By the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where
+        a run has no final displacement, or neither route gives a value.
+    by_direction : bool
+        Whether clearances take the displacement toward them, a departure from the rule sets.
+    tipping, uplift : Tipping, Uplift
+        Of the run nearest to tipping, and of the run with the smallest normal force.
+    checks : tuple of Limit
+        Limits that apply to both routes.
+    analysis_checks, prescriptive_checks : tuple of Limit
+        Limits of each route.
+    interconnection_n : float
+        Required strength between the parts of the array [N].
+    adopted : ArrayAssessment or None
+        The same under the rule set as adopted, where the workbook overrides it or departs from it.
+    """
 
     array: Array
     motions: tuple[MotionRun, ...]
     analysis: AnalysisValue
-    # value from analysis of the excursions in each direction; `analysis` is that for any
     directions: Mapping[Direction, AnalysisValue]
-    # the same with the adequate models; differs from it where a model is requested
     chosen: Mapping[Direction, AnalysisValue]
-    needed: tuple[MotionRun, ...]  # the runs for `chosen`, in the order of `motions`
+    needed: tuple[MotionRun, ...]
     prescriptive: Prescriptive
-    floor_m: float  # minimum design displacement without peer review [m]; 0 with peer review
-    # whether the route is permitted: its limits are satisfied, and by analysis those on the motions
+    floor_m: float
     is_permitted: bool
-    # design displacement [m]. By analysis: the larger of the value from analysis and the floor. By
-    # the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where a run
-    # has no final displacement, or neither route gives a value
     design_m: float
-    # whether clearances take the displacement toward them, a departure from the rule sets
     by_direction: bool
-    tipping: Tipping  # of the run nearest to tipping
-    uplift: Uplift  # of the run with the smallest normal force
-    interconnection_n: float  # required strength between the parts of the array [N]
-    # the same under the rule set as adopted, where the workbook overrides it or departs from it
+    tipping: Tipping
+    uplift: Uplift
+    interconnection_n: float
     adopted: ArrayAssessment | None
+
+    def __repr__(self) -> str:
+        design = f"design displacement {1e3 * self.design_m:.0f} mm"
+        return f"ArrayAssessment: {self.id}, {design}, by {self.source}"
 
     @property
     def id(self) -> str:

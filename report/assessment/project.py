@@ -55,30 +55,63 @@ THREADS = 2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
-    """Everything that was computed for a project."""
+    """Everything that was computed for a project.
+
+    Attributes
+    ----------
+    sheet : Sheet
+        The workbook as data.
+    shaking : Shaking
+        The motions at the roof.
+    project : ProjectInput
+        As assessed: that of the sheet, except for runs with changed friction.
+    rules : RuleSet
+    horizontal_target, vertical_target : RequiredSpectrum
+        AC156 at the roof.
+    targets : Targets
+        Target spectra of the motions: AC156 or project-specific.
+    building_checks : tuple of Limit
+    arrays : tuple of ArrayAssessment
+    clearances : tuple of ClearanceCheck
+    linked : tuple of LinkedArray
+        The arrays for which the workbook requests a check of the rigid-block model.
+    neighbors : tuple of PlanNeighbor
+        What the plan shows near each array, with its clearances.
+    acceptance : Acceptance
+        Limits on the motions as run, at the roof.
+    rows : tuple of Requirement
+        Requirements beside the numeric limits, of the project, its motions and its arrays.
+    at_reduced_friction : Assessment or None
+        The same with less friction, from runs that tell whether clearances are satisfied
+        (`report.assessment.rough`); None in that one itself.
+    low_velocity : LowVelocityAssessment
+        Arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`,
+        and in what `reassess` and `anticipate` give.
+    solver_seconds : float
+        Time of all runs [s].
+    """
 
     sheet: Sheet
     shaking: Shaking
-    project: ProjectInput  # as assessed: that of the sheet, except for runs with changed friction
+    project: ProjectInput
     rules: RuleSet
-    # AC156 at the roof
     horizontal_target: RequiredSpectrum
     vertical_target: RequiredSpectrum
-    targets: Targets  # target spectra of the motions: AC156 or project-specific
+    targets: Targets
     building_checks: tuple[Limit, ...]
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
-    # the arrays for which the workbook requests a check of the rigid-block model
     linked: tuple[LinkedArray, ...]
-    neighbors: tuple[PlanNeighbor, ...]  # what the plan shows near each array, with its clearances
-    acceptance: Acceptance  # limits on the motions as run, at the roof
-    # requirements beside the numeric limits, of the project, its motions and its arrays
+    neighbors: tuple[PlanNeighbor, ...]
+    acceptance: Acceptance
     rows: tuple[Requirement, ...]
-    at_reduced_friction: Assessment | None  # the same with less friction; None in that one itself
-    # arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`, and in
-    # what `reassess` and `anticipate` give
+    at_reduced_friction: Assessment | None
     low_velocity: LowVelocityAssessment
     solver_seconds: float
+
+    def __repr__(self) -> str:
+        counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
+        return f"Assessment: {self.verdict.value}; {counts}, {len(self.conditions)} conditions"
 
     @property
     def governing(self) -> ArrayAssessment:

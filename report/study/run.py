@@ -50,15 +50,20 @@ class Estimate:
     disk_bytes: float
 
 
-def planned(source: Path) -> tuple[StudyPlan, Path]:
+def planned(source: str | Path) -> tuple[StudyPlan, Path]:
     """Read a study workbook and its records; return the plan and the workbook's folder.
+
+    Parameters
+    ----------
+    source : str or Path
+        A study workbook, or a folder with `input.xlsx`.
 
     Raises
     ------
     InputError
         With every problem, by cell.
     """
-    sheet = read_study(source)
+    sheet = read_study(Path(source))
     return plan_study(sheet, study_motions(sheet)), sheet.book.path.parent
 
 
@@ -82,7 +87,7 @@ def estimate(plan: StudyPlan) -> Estimate:
 
 def run_study(
     plan: StudyPlan,
-    out: Path,
+    out: str | Path,
     *,
     scheduler: str = "",
     allow_matched: bool = False,
@@ -93,7 +98,7 @@ def run_study(
     Parameters
     ----------
     plan : StudyPlan
-    out : Path
+    out : str or Path
         Folder of the outputs; the parts are in its folder `RUNS`.
     scheduler : str
         Address of a Dask scheduler; empty for the cores of this machine.
@@ -109,6 +114,7 @@ def run_study(
         be used.
     """
     extra(ARROW)
+    out = Path(out)
     folder, campaign = out / RUNS, plan.campaign
     manifest = manifest_of(campaign, plan.about)
     check_former(folder, manifest)

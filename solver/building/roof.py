@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from solver.building.structure import Building, building_of_modes, building_of_periods
 from solver.kernels import oscillator
-from solver.model import Floats, InputError
+from solver.model import Floats, InputError, Motion
 from solver.records.record import read_only
 from solver.records.spectrum import refined
 
@@ -25,6 +25,7 @@ __all__ = [
     "RoofMotion",
     "RoofShaking",
     "absolute_accelerations",
+    "at_roof",
     "building_of_modes",
     "building_of_periods",
     "lengthened",
@@ -186,6 +187,54 @@ def shaking_to_roof(
         dt_s=dt_s / steps,
         horizontal=tuple(_as_long(motion, count) for motion in motions),
         vertical_mps2=read_only(vertical),
+    )
+
+
+def at_roof(motion: Motion, building: Building, transverse: Building | None = None) -> Motion:
+    """Return a ground motion as the roof of an elastic building has it.
+
+    The horizontal components are carried through the modes of the building by exact oscillators
+    (Nigam and Jennings, Bull. Seism. Soc. Am. 59 (1969) 909-922; `solver.building.roof.to_roof`);
+    the vertical one is unchanged. The motion is longer than that of the ground, by free vibration,
+    and its step is finer where a mode needs it.
+
+    Parameters
+    ----------
+    motion : Motion
+        At the ground.
+    building : Building
+        As `solver.building_of_periods` makes it, for the record along the slope.
+    transverse : Building, optional
+        For the transverse component; by default the same.
+
+    Returns
+    -------
+    Motion
+        With the same name and scale.
+
+    Raises
+    ------
+    InputError
+        If the motion has fewer than two samples or values that are not finite.
+
+    Examples
+    --------
+    >>> from solver import building_of_periods, motion
+    >>> ground = motion([0.0, 2.0, -2.0, 0.0], dt_s=0.02, id="pulse")
+    >>> at_roof(ground, building_of_periods([0.3], stories=1))
+    Motion: pulse, x, 442 samples of 0.01 s, scale 1
+    """
+    components = [motion.ax_mps2, motion.ay_mps2][: 1 + motion.has_transverse]
+    buildings = [building, transverse or building][: len(components)]
+    roof = shaking_to_roof(components, motion.az_mps2, motion.dt_s, buildings)
+    x, *y = (each.a_mps2 for each in roof.horizontal)
+    return replace(
+        motion,
+        source=f"{motion.source} at the roof of: {building.words}".strip(),
+        dt_s=roof.dt_s,
+        ax_mps2=x,
+        ay_mps2=y[0] if y else motion.ay_mps2,
+        az_mps2=roof.vertical_mps2,
     )
 
 

@@ -43,6 +43,9 @@ class Building:
     roof_factors: Floats
     words: str
 
+    def __repr__(self) -> str:
+        return f"Building: {self.words}"
+
 
 def building_of_periods(
     periods_s: Sequence[float],
@@ -54,7 +57,8 @@ def building_of_periods(
     """Return a uniform building whose first modes have the given periods.
 
     The roof factors, and the ratios of the periods of higher modes to the last one given, are those
-    of `solver.building.beam`. With few stories the lumped floor masses matter: one story has a roof
+    of a beam in shear and bending (Miranda and Taghavi, J. Struct. Eng. 131 (2005) 203-211;
+    `solver.building.beam`). With few stories the lumped floor masses matter: one story has a roof
     factor of 1, whereas the first mode of a continuous beam has up to 1.57.
 
     Parameters
@@ -68,9 +72,19 @@ def building_of_periods(
     stories : int
         Number of equal stories with equal floor masses; 0 for a continuous beam.
 
+    Returns
+    -------
+    Building
+
     Raises
     ------
     InputError
+        For a value out of range.
+
+    Examples
+    --------
+    >>> building_of_periods([0.5, 0.16], damping=[0.03, 0.05], stories=4)
+    Building: 4 equal stories, in shear; period 0.5, 0.16 s; damping 3, 5 % of critical
     """
     _check_periods(periods_s, damping)
     modes = _modes(alpha0, stories)

@@ -29,7 +29,7 @@ _FORMATS = tuple(
 )
 
 
-def read_motion_file(path: Path, *, units: str = "", dt_s: float = math.nan) -> MotionFile:
+def read_motion_file(path: str | Path, *, units: str = "", dt_s: float = math.nan) -> MotionFile:
     """Read all channels of a record file.
 
     The format is identified by content: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC;
@@ -39,25 +39,56 @@ def read_motion_file(path: Path, *, units: str = "", dt_s: float = math.nan) -> 
 
     Parameters
     ----------
-    path : Path
+    path : str or Path
     units : {"", "g", "m/s2", "cm/s2", "mm/s2", "gal"}
         Unit of the accelerations, for a file that does not state it. If the file does, both must
         agree.
     dt_s : float
         Sampling interval [s], likewise.
 
+    Returns
+    -------
+    MotionFile
+
     Raises
     ------
     InputError
         With every problem in the file, as ``name:LINE: what was found; what is accepted``.
+
+    Examples
+    --------
+    >>> read_motion_file("projects/example/records/RM1-x.csv").channels
+    (Record('RM1-x.csv', 6001 samples at 0.005 s),)
     """
-    source = open_source(path, units=units, dt_s=dt_s)
+    source = open_source(Path(path), units=units, dt_s=dt_s)
     form = next(form for form in _FORMATS if form.recognizes(source.lines))
     return form.read(source)
 
 
 def read_record(
-    path: Path, *, units: str = "", dt_s: float = math.nan, channel: str = ""
+    path: str | Path, *, units: str = "", dt_s: float = math.nan, channel: str = ""
 ) -> Record:
-    """Read one channel of a file: `read_motion_file`, then `MotionFile.channel`."""
+    """Read one channel of a record file.
+
+    Parameters
+    ----------
+    path, units, dt_s
+        As in `read_motion_file`.
+    channel : str
+        Its name or number in the file; may be omitted where there is only one.
+
+    Returns
+    -------
+    Record
+
+    Raises
+    ------
+    InputError
+        As `read_motion_file`, and where there is no such channel.
+
+    Examples
+    --------
+    >>> read_record("projects/example/records/RM1-x.csv")
+    Record('RM1-x.csv', 6001 samples at 0.005 s)
+    """
     return read_motion_file(path, units=units, dt_s=dt_s).channel(channel)

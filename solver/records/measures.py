@@ -71,12 +71,33 @@ def correlation(record: Record, other: Record) -> float:
 
 
 def measures(record: Record) -> Measures:
-    """Measure a record as analyzed by the solver, with acceleration linear between samples.
+    """Measure peaks, drift, Arias intensity and duration of a record.
 
-    Velocity is then quadratic and displacement cubic in each interval. Peaks inside an interval
-    are found as roots, and the times of 5 % and 95 % of the Arias intensity in closed form. Arias
-    (1970) in Seismic Design for Nuclear Power Plants, MIT Press, 438-483; significant duration:
-    Trifunac and Brady, Bull. Seism. Soc. Am. 65 (1975) 581-626.
+    As analyzed by the solver, acceleration is linear between samples. Velocity is then quadratic
+    and displacement cubic in each interval. Peaks inside an interval are found as roots, and the
+    times of 5 % and 95 % of the Arias intensity in closed form. Arias (1970) in Seismic Design for
+    Nuclear Power Plants, MIT Press, 438-483; significant duration: Trifunac and Brady, Bull. Seism.
+    Soc. Am. 65 (1975) 581-626.
+
+    Parameters
+    ----------
+    record : Record
+
+    Returns
+    -------
+    Measures
+
+    Raises
+    ------
+    Nothing
+        A record was checked when it was made.
+
+    Examples
+    --------
+    >>> from solver import record_from_values
+    >>> pulse = record_from_values("pulse", [0.0, 4.0, -4.0, 0.0], units="m/s2", dt_s=0.1)
+    >>> measures(pulse).pga_mps2
+    4.0
     """
     a, dt = record.a_mps2, record.dt_s
     v, d = velocity_displacement(record)

@@ -81,8 +81,9 @@ class Processing:
 
 
 def process(record: Record, processing: Processing) -> Record:
-    """Process a record: trim, baseline, filters, resampling, zeros at the end, in this order.
+    """Process a record: trim, baseline, filters, resampling, zeros at the end.
 
+    The steps are applied in this order.
     The filters are applied to the Fourier spectrum of the whole record with pads of zeros of
     1.5 n / corner [s] before and after it. Boore, Bull. Seism. Soc. Am. 95 (2005) 745-750,
     doi:10.1785/0120040160, requires that length in total. The filter transients in the pads belong
@@ -111,6 +112,13 @@ def process(record: Record, processing: Processing) -> Record:
     ------
     InputError
         If the processing is invalid, or invalid for this record.
+
+    Examples
+    --------
+    >>> from solver import read_record
+    >>> record = read_record("projects/example/records/RM1-x.csv")
+    >>> process(record, Processing(baseline=0, pad_s=5.0))
+    Record('RM1-x.csv', 7001 samples at 0.005 s)
     """
     problems = processing.problems() or _record_problems(record, processing)
     if problems:

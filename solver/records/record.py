@@ -62,10 +62,29 @@ def record_from_values(
 ) -> Record:
     """Create a record from values in memory, such as a pasted column.
 
+    Parameters
+    ----------
+    name : str
+    values : sequence of numbers or array, shape (n,)
+        Accelerations, n >= 2.
+    units : {"g", "m/s2", "cm/s2", "mm/s2"}
+        Of the values.
+    dt_s : float
+        Sampling interval [s], > 0.
+
+    Returns
+    -------
+    Record
+
     Raises
     ------
     InputError
         With every value that is not a finite number, counted from 1.
+
+    Examples
+    --------
+    >>> record_from_values("pulse", [0.0, 0.4, -0.4, 0.0], units="g", dt_s=0.1)
+    Record('pulse', 4 samples at 0.1 s)
     """
     _check_arguments(name, units, dt_s)
     if isinstance(values, str | bytes) or not isinstance(values, Sequence | np.ndarray):
@@ -91,7 +110,7 @@ def record_from_values(
 
 
 def write_record(
-    path: Path,
+    path: str | Path,
     record: Record,
     units: str = "g",
     *,
@@ -100,14 +119,44 @@ def write_record(
 ) -> None:
     """Write a record as csv of time [s] and acceleration, with a heading line.
 
-    A generated record states the hold of its envelope `hold_s` in a comment; NaN for none.
+    The acceleration is printed to `DECIMALS`, about 1e-5 g. A record already rounded to these, such
+    as those of `solver.make_suite` in g, is read back bit for bit.
 
-    The acceleration is printed to `DECIMALS`, or to more decimals if needed to keep the rounding of
-    every sample `within` that fraction of the record's peak. A record already rounded to
-    `DECIMALS`, such as those of `solver.synthesis` in g, is read back bit for bit.
+    Parameters
+    ----------
+    path : str or Path
+        Replaced if it exists.
+    record : Record
+    units : {"g", "m/s2", "cm/s2", "mm/s2"}
+        Of the accelerations written.
+    within : float
+        Fraction of the record's peak; more decimals are printed where the rounding of a sample
+        would be more.
+    hold_s : float
+        Hold of the envelope of a generated record [s], stated in a comment; NaN for none.
+
+    Returns
+    -------
+    None
+
+    Raises
+    ------
+    InputError
+        If the unit is not known or the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from solver import read_record, record_from_values
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> pulse = record_from_values("pulse", [0.0, 0.4, -0.4, 0.0], units="g", dt_s=0.1)
+    >>> write_record(f"{folder.name}/pulse.csv", pulse)
+    >>> read_record(f"{folder.name}/pulse.csv")
+    Record('pulse.csv', 4 samples at 0.1 s)
+    >>> folder.cleanup()
     """
     text = record_csv(record, units, within=within, hold_s=hold_s)
-    write_whole(path, text.encode())
+    write_whole(Path(path), text.encode())
 
 
 def record_csv(

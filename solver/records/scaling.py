@@ -45,9 +45,22 @@ def design_spectrum(*, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Target:
     t_l_s : float
         Long-period transition period [s], > T_S.
 
+    Returns
+    -------
+    callable
+        Spectral acceleration [g] at frequencies [Hz], array of any shape.
+
     Raises
     ------
     InputError
+        For a number out of range.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> target = design_spectrum(s_ds_g=1.2, s_d1_g=0.6, t_l_s=8.0)
+    >>> target(1.0 / np.array([0.2, 1.0, 2.0]))
+    array([1.2, 0.6, 0.3])
     """
     _check_design(s_ds_g, s_d1_g, t_l_s)
     return partial(_design, s_ds_g=s_ds_g, s_d1_g=s_d1_g, t_l_s=t_l_s)
@@ -66,12 +79,13 @@ def _design(freq_hz: Floats, *, s_ds_g: float, s_d1_g: float, t_l_s: float) -> F
 def factor_to_target(
     horizontals: Sequence[Record], target: Target, periods_s: tuple[float, float]
 ) -> float:
-    """Return the factor that scales a motion to a target, on average over a range of periods.
+    """Return the factor that scales a motion to a target spectrum.
 
-    The factor is the exponential of the mean of ln(target / spectrum) over log-spaced periods. The
-    spectrum is the geometric mean of the horizontal components' spectra, 5 % damping. This factor
-    minimizes the sum of squared differences of the logarithms. It applies to all components of the
-    motion, including the vertical.
+    It holds on average over a range of periods: the factor is the exponential of the mean of
+    ln(target / spectrum) over log-spaced periods. The spectrum is the geometric mean of the
+    horizontal components' spectra, 5 % damping. This factor minimizes the sum of squared
+    differences of the logarithms. It applies to all components of the motion, including the
+    vertical.
 
     Parameters
     ----------
@@ -82,10 +96,23 @@ def factor_to_target(
     periods_s : tuple of float
         Shortest and longest period [s].
 
+    Returns
+    -------
+    float
+        Such as the `scale` of `solver.motion`.
+
     Raises
     ------
     InputError
         If the range is invalid, or a component is zero throughout.
+
+    Examples
+    --------
+    >>> from solver import design_spectrum, read_record
+    >>> records = [read_record(f"projects/example/records/RM1-{name}.csv") for name in "xy"]
+    >>> target = design_spectrum(s_ds_g=1.2, s_d1_g=0.6, t_l_s=8.0)
+    >>> round(factor_to_target(records, target, (0.2, 2.0)), 3)
+    0.358
     """
     _check_range(periods_s)
     shortest_s, longest_s = periods_s

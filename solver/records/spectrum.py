@@ -1,21 +1,114 @@
 """Response spectra of records.
 
-Reads no files. Read `response_spectrum`.
+Reads no files. Read `response_spectrum`, then `spectrum` for notebooks.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels import oscillator
-from solver.model import Floats
-from solver.records.record import raise_any, read_only
+from solver.model import Floats, Motion
+from solver.records.record import Record, raise_any, read_only
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 PEAK_FINENESS, PEAK_STEPS = 16, 16
 """Least steps per period of an oscillator; most steps per interval of the record."""
+
+
+PERIODS_S = read_only(np.geomspace(0.02, 10.0, 200))
+"""Periods [s] of `spectrum`, where none are given."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ResponseSpectrum:
+    """Response spectra of the components of a motion.
+
+    Attributes
+    ----------
+    periods_s : array, shape (m,)
+        Natural periods [s].
+    sa_mps2 : dict of str to array, shape (m,)
+        Pseudo-spectral acceleration [m/s2] of each component, by its name.
+    damping : float
+        Fraction of critical damping.
+    """
+
+    periods_s: Floats
+    sa_mps2: dict[str, Floats]
+    damping: float
+
+    def __repr__(self) -> str:
+        peaks = ", ".join(f"{name} up to {a.max():.3g} m/s2" for name, a in self.sa_mps2.items())
+        return f"ResponseSpectrum: {self.periods_s.size} periods, {100 * self.damping:g} %; {peaks}"
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the spectra [m/s2] as a table with one column each, indexed by period [s]."""
+        import pandas as pd
+
+        return pd.DataFrame(self.sa_mps2, index=pd.Index(self.periods_s, name="period_s"))
+
+
+def spectrum(
+    shaking: Record | Motion, periods_s: ArrayLike | None = None, damping: float = 0.05
+) -> ResponseSpectrum:
+    """Return the response spectra of a record, or of a motion with its scale.
+
+    Pseudo-spectral accelerations, exact for the linearly interpolated record: Nigam and Jennings,
+    Bull. Seism. Soc. Am. 59 (1969) 909-922; see `solver.records.spectrum.response_spectrum`.
+
+    Parameters
+    ----------
+    shaking : Record or Motion
+    periods_s : array_like, shape (m,)
+        Natural periods [s], >= 0; 0 gives the peak acceleration. By default 200 from 0.02 to 10 s.
+    damping : float
+        Fraction of critical damping, in [0, 1).
+
+    Returns
+    -------
+    ResponseSpectrum
+        Of a record by its name, of a motion by `x`, `y` and `z`.
+
+    Raises
+    ------
+    InputError
+        For a period or a damping out of range.
+
+    Examples
+    --------
+    >>> from solver import motion
+    >>> pulse = motion([0.0, 4.0, -4.0, 0.0], dt_s=0.1)
+    >>> spectrum(pulse, [0.0, 0.5, 1.0]).to_frame().round(2)
+                 x
+    period_s
+    0.0       4.00
+    0.5       3.04
+    1.0       1.17
+    """
+    periods = np.asarray(PERIODS_S if periods_s is None else periods_s, dtype=np.float64)
+    return ResponseSpectrum(
+        periods_s=periods,
+        sa_mps2={
+            name: response_spectrum(a, shaking.dt_s, periods, damping)
+            for name, a in _components(shaking).items()
+        },
+        damping=damping,
+    )
+
+
+def _components(shaking: Record | Motion) -> dict[str, Floats]:
+    if isinstance(shaking, Record):
+        return {shaking.name: shaking.a_mps2}
+    each = {"x": shaking.ax_mps2, "y": shaking.ay_mps2, "z": shaking.az_mps2}
+    return {name: shaking.scale * a for name, a in each.items() if a.size}
 
 
 def response_spectrum(

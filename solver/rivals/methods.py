@@ -91,6 +91,9 @@ class Method:
     link_steps_per_radian : float
         In a sweep (`settings`), sub-steps for each radian omega dt of the link; 0 without a link.
     follow : callable
+        Given the `AxisScene`, the parameters by name, and an array of shape (2, n) that it fills
+        with displacement [m] and velocity [m/s] along the slope at the samples, or of shape (2, 0)
+        that it leaves; returns an `Outcome`.
     """
 
     name: str
@@ -236,6 +239,9 @@ WANTED: Mapping[str, tuple[str, Callable[[float], bool]]] = {
     "tolerance": (_TOLERANCE, lambda v: 1e-13 <= v <= 0.1),
 }
 """What each parameter accepts, in words and as a test."""
+
+ANY_NUMBER = ("a finite number", math.isfinite)
+"""What a parameter of a method of your own accepts."""
 
 _ALL = (
     Method(

@@ -100,6 +100,7 @@ EDITIONS: Mapping[str, Edition] = {
         ),
     )
 }
+"""Every edition of ASCE 7 by its name."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -26,6 +26,11 @@ class RequiredSpectrum:
     freq_hz: Floats
     sa_g: Floats
 
+    @property
+    def corners(self) -> tuple[Floats, Floats]:
+        """Frequencies [Hz] and accelerations [g], as `solver.make_suite` takes them."""
+        return self.freq_hz, self.sa_g
+
     def at(self, freq_hz: Floats) -> Floats:
         """Return ordinates [g] at frequencies [Hz], constant outside the corners."""
         return np.asarray(
@@ -67,13 +72,63 @@ def ac156_horizontal(
     A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3
     above grade and 1 at grade.
     PV1-2012 permits 1/T beyond 0.77 s in place of the AC156 line.
+
+    Parameters
+    ----------
+    edition : Edition
+        Of `solver.EDITIONS`, such as ``EDITIONS["ASCE 7-16"]``.
+    s_ds_g : float
+        Design spectral acceleration at short periods [g].
+    z_over_h : float
+        Height of the array / height of the roof, from 0 to 1.
+    tail : Tail
+        Below 1.3 Hz: ``"AC156"`` or ``"1/T"``.
+
+    Returns
+    -------
+    RequiredSpectrum
+        Four corner points, [Hz] and [g].
+
+    Raises
+    ------
+    KeyError
+        For a tail that is not one of these.
+
+    Examples
+    --------
+    >>> from solver import EDITIONS
+    >>> ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0).sa_g.round(3)
+    array([0.192, 1.92 , 1.92 , 1.44 ])
     """
     ratio = edition.amplification.at(z_over_h)
     return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
 
 
 def ac156_vertical(*, s_ds_g: float, tail: Tail = Tail.AC156) -> RequiredSpectrum:
-    """Return the vertical AC156 spectrum: 0.67 S_DS and 0.27 S_DS."""
+    """Return the vertical AC156 spectrum, 5 % damping: 0.67 S_DS and 0.27 S_DS.
+
+    Parameters
+    ----------
+    s_ds_g : float
+        Design spectral acceleration at short periods [g].
+    tail : Tail
+        Below 1.3 Hz: ``"AC156"`` or ``"1/T"``.
+
+    Returns
+    -------
+    RequiredSpectrum
+        Four corner points, [Hz] and [g].
+
+    Raises
+    ------
+    KeyError
+        For a tail that is not one of these.
+
+    Examples
+    --------
+    >>> ac156_vertical(s_ds_g=1.2).sa_g.round(3)
+    array([0.08 , 0.804, 0.804, 0.324])
+    """
     return _corners(0.67 * s_ds_g, 0.27 * s_ds_g, tail)
 
 

@@ -111,6 +111,17 @@ class Solution:
     friction_demand: float
     seconds: float = math.nan
 
+    def __repr__(self) -> str:
+        return f"Solution: {self.model.title}; {self.reason}\n{self.result}\n{self._beyond}"
+
+    @property
+    def _beyond(self) -> str:
+        demand = f"Friction demand {self.friction_demand:.3f}"
+        if self.next_model is self.model:
+            return f"{demand}; no more complete model applies"
+        effect = f"changes no displacement by more than {1e3 * self.next_effect_m:.2g} mm"
+        return f"{demand}; the model '{self.next_model.title}' {effect}"
+
     def __getattr__(self, name: str) -> Any:
         """Return a value by its name of 0.2, which this version still knows."""
         if name not in ("rung", "next_rung"):

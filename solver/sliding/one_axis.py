@@ -71,7 +71,7 @@ def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floa
         samples[:] = np.nan
         return without_displacement(Status.DIVERGED, n_min_g, math.nan)
     samples *= scene.cs
-    error_m = _rounding(scene) if method.name == "exact" else math.nan
+    error_m = _rounding(scene) if method is METHODS["exact"] else math.nan
     return _result(outcome, scene.cs, n_min_g, error_m)
 
 
@@ -139,7 +139,7 @@ def method_history(method: Method, parameters: Parameters, scene: Scene) -> Slid
         v_mps=samples[1],
         across_m=NO_RECORD,
         across_mps=NO_RECORD,
-        events=_events(made, result) if method.name == "exact" else (),
+        events=_events(made, result) if method is METHODS["exact"] else (),
         result=result,
     )
 

@@ -17,11 +17,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels import one_axis
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Status, coulomb
+from solver.records.frames import dataset
+from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
-from solver.sliding.checked import checked_number, checked_record, overflow
+from solver.sliding.checked import Given, checked_number, checked_record, overflow, unpacked
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
 STATUSES = (Status.OK, Status.SLIDING_AT_END, Status.UPLIFT)
 """Meaning of the numbers in `Sweep.status`."""
@@ -52,7 +55,10 @@ class Sweep:
         return f"Sweep({p} slopes, {q} friction coefficients, {r} scales)"
 
     def to_frame(self) -> pd.DataFrame:
-        """Return the results as a table with one row per combination and the status in words."""
+        """Return the results as a table with one row per combination and the status in words.
+
+        Index: `slope_rad`, `mu`, `scale`; columns: `prd_m`, `residual_m`, `status`.
+        """
         import pandas as pd
 
         axes = (self.slopes_rad, self.mus, self.scales)
@@ -67,70 +73,114 @@ class Sweep:
             index=index,
         )
 
+    def to_xarray(self) -> xr.Dataset:
+        """Return the results as a dataset with the axes `slope_rad`, `mu` and `scale`.
+
+        Raises
+        ------
+        ImportError
+            Where xarray is not installed.
+        """
+        axes = {"slope_rad": self.slopes_rad, "mu": self.mus, "scale": self.scales}
+        words = np.array([status.value for status in STATUSES])
+        return dataset(
+            axes,
+            {"prd_m": self.prd_m, "residual_m": self.residual_m, "status": words[self.status]},
+        )
+
 
 def sweep(
-    ax_mps2: ArrayLike,
-    dt_s: float,
+    ax_mps2: Given,
+    dt_s: float | None = None,
     *,
     slopes_rad: ArrayLike,
     mus: ArrayLike,
     scales: ArrayLike,
-    az_mps2: ArrayLike | None = None,
+    az_mps2: ArrayLike | Record | None = None,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
     progress: Callable[[float], None] | None = None,
 ) -> Sweep:
-    """Run all combinations of slope, friction coefficient and scale by the exact method.
+    """Run all combinations of slope, friction coefficient and scale of a record.
 
-    The runs are distributed over all cores; the result does not depend on the number of cores.
+    By the exact method. The runs are distributed over all cores; the result does not depend on the
+    number of cores.
 
     Parameters
     ----------
     ax_mps2, dt_s, az_mps2, g_mps2
-        As in `solver.slide`.
-    slopes_rad, mus, scales : array_like, shape (p,), (q,), (r,)
+        As in `solver.slide`, in one axis; `solver.study` runs motions of two.
+    slopes_rad : array_like, shape (p,)
+        Roof slopes [rad], |slope| < pi/2.
+    mus : array_like, shape (q,)
+        Friction coefficients, >= 0.
+    scales : array_like, shape (r,)
+        Factors on all components.
     progress : callable, optional
         Called once for each slope, with the fraction of the work that is done.
+
+    Returns
+    -------
+    Sweep
 
     Raises
     ------
     InputError
         As in `solver.slide`, for every value out of range.
+
+    Examples
+    --------
+    >>> pulse = [0.0, 4.0, -4.0, 0.0, 0.0, 0.0]
+    >>> swept = sweep(pulse, 0.1, slopes_rad=[0.0, 0.05], mus=[0.2, 0.3], scales=[1.0])
+    >>> swept.to_frame()["prd_m"].unstack("slope_rad").round(4)
+    slope_rad    0.00    0.05
+    mu  scale
+    0.2 1.0    0.0049  0.0117
+    0.3 1.0    0.0007  0.0030
     """
     problems: list[str] = []
-    ax = checked_record("ax_mps2", ax_mps2, problems)
-    az = None if az_mps2 is None else checked_record("az_mps2", az_mps2, problems)
-    if az is not None and az.shape != ax.shape:
-        problems.append(f"az_mps2 has shape {az.shape}; give the shape of ax_mps2, {ax.shape}")
+    records, step_s, factor = unpacked({"ax_mps2": ax_mps2, "az_mps2": az_mps2}, dt_s, problems)
+    if records.get("ay_mps2") is not None:
+        problems.append("the motion has two horizontal components; give one, or call solver.study")
+    ax = checked_record("ax_mps2", records["ax_mps2"], problems)
+    az = None
+    if records["az_mps2"] is not None:
+        az = checked_record("az_mps2", records["az_mps2"], problems)
+        if az.shape != ax.shape:
+            problems.append(f"az_mps2 has shape {az.shape}; give the shape of ax_mps2, {ax.shape}")
     axes = [
-        _axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
-        _axis("mus", mus, -math.ulp(0.0), math.inf, problems),
-        _axis("scales", scales, -math.inf, math.inf, problems),
+        axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
+        axis("mus", mus, -math.ulp(0.0), math.inf, problems),
+        axis("scales", scales, -math.inf, math.inf, problems),
     ]
-    for name, value in (("dt_s", dt_s), ("g_mps2", g_mps2)):
+    dt, g = (
         checked_number(name, value, "a number above 0", _is_size, problems)
+        for name, value in (("dt_s", step_s), ("g_mps2", g_mps2))
+    )
     if problems:
         raise InputError(problems)
     _, mu, scale = (float(np.abs(axis).max()) for axis in axes)
+    scale *= abs(factor)
     largest = Scene(
         ax_mps2=ax,
         ay_mps2=NO_RECORD,
         az_mps2=NO_RECORD if az is None else az,
-        dt_s=float(dt_s),
+        dt_s=dt,
         slope_rad=0.0,
         friction=coulomb(mu),
         scale=scale,
-        g_mps2=float(g_mps2),
+        g_mps2=g,
     )
     if faults := overflow(largest):
         raise InputError(faults)
-    return _run(ax, az, float(dt_s), float(g_mps2), axes, progress or (lambda share: None))
+    return _run(ax, az, dt, g, axes, factor, progress or (lambda share: None))
 
 
 def _is_size(value: float) -> bool:
     return 0.0 < value < math.inf
 
 
-def _axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:
+def axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:
+    """Return the values of an axis, between two limits, adding a problem for what is not."""
     try:
         given = np.atleast_1d(np.asanyarray(values))
     except (TypeError, ValueError, OverflowError):
@@ -138,13 +188,13 @@ def _axis(name: str, values: ArrayLike, above: float, below: float, problems: li
     if given.dtype.kind not in "fiu" or np.ma.is_masked(given):
         problems.append(f"{name} is not a row of real numbers; give values that `slide` accepts")
         return np.empty(0)
-    axis = np.asarray(given, dtype=np.float64)
-    if axis.ndim != 1 or axis.size == 0:
-        problems.append(f"{name} has shape {axis.shape}; give one row of values")
-    wrong = axis[~((axis > above) & (axis < below))]
+    found = np.asarray(given, dtype=np.float64)
+    if found.ndim != 1 or found.size == 0:
+        problems.append(f"{name} has shape {found.shape}; give one row of values")
+    wrong = found[~((found > above) & (found < below))]
     if wrong.size:
         problems.append(f"{name} has {wrong[0]}; give values that `slide` accepts")
-    return axis
+    return found
 
 
 def _run(
@@ -153,11 +203,12 @@ def _run(
     dt: float,
     g: float,
     axes: list[Floats],
+    factor: float,
     progress: Callable[[float], None],
 ) -> Sweep:
     slopes, mus, scales = axes
     x, z = one_axis.bounds(ax), None if az is None else one_axis.bounds(az)
-    grid = np.meshgrid(slopes, mus, scales, indexing="ij")
+    grid = np.meshgrid(slopes, mus, factor * scales, indexing="ij")
     scenes = np.stack([values.ravel() for values in grid], axis=-1)
     outcomes = np.empty((len(scenes), 4))
     for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):

@@ -6,7 +6,7 @@ and heading, so that a part is a range of cases. Runs nothing (`runs` does). Rea
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
@@ -58,7 +58,7 @@ class Cases:
 
 
 def grid(
-    buildings: int, slopes_rad: Sequence[float], mus: Sequence[float], intensities: Sequence[float]
+    buildings: int, slopes_rad: Iterable[float], mus: Iterable[float], intensities: Iterable[float]
 ) -> Cases:
     """Return all combinations, the intensity varying fastest."""
     return cases_of(list(product(range(buildings), slopes_rad, mus, intensities)))

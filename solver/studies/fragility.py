@@ -91,6 +91,11 @@ class Fragility:
     p_value: float
     critical: float
 
+    def __repr__(self) -> str:
+        fit = f"median {self.fitted.theta:.4g}, dispersion {self.fitted.beta:.3g}"
+        motions = f"{self.capacities.intensity.size} motions"
+        return f"Fragility: {fit}, {motions}, {self.capacities.is_censored.sum()} censored"
+
 
 Range = tuple[float, float]
 UNKNOWN_RANGE = (math.nan, math.nan)

@@ -86,6 +86,10 @@ def make_suite(
 ) -> list[SuiteMotion]:
     """Generate motions of two horizontal components and a vertical component each.
 
+    Sinusoids under an envelope, matched in frequency and then in time (Gasparini and Vanmarcke,
+    MIT R76-4, 1976; Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824), as in
+    `solver.synthesis.synthesize`.
+
     Motion k of a seed is the same for any count. Every component alone satisfies the rows of
     `solver.records.acceptance` where its target is given and the duration has three cycles: it is
     scaled so that its spectrum touches the target at the lowest point of `GRIDS` grids of 1/6
@@ -127,6 +131,15 @@ def make_suite(
     ------
     InputError
         If an argument is invalid, or no motion is found that meets the target.
+
+    Examples
+    --------
+    >>> from solver import EDITIONS, ac156_horizontal, ac156_vertical
+    >>> horizontal = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0)
+    >>> vertical = ac156_vertical(s_ds_g=1.2)
+    >>> (made,) = make_suite(horizontal.corners, vertical.corners, count=1, seed=1)
+    >>> made.x
+    Record('motion-01-x', 6001 samples at 0.005 s)
     """
     if count < 1 or seed < 0:
         raise InputError(f"suite: count {count} and seed {seed}; give at least 1 and at least 0")

@@ -10,6 +10,7 @@ import scipy.linalg
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import solver
 from solver.building.beam import floor_stiffness
 from solver.building.roof import (
     FINENESS,
@@ -347,3 +348,28 @@ def test_modes_that_do_not_match_are_refused():
 def test_what_cannot_be_a_motion_is_refused(a, dt_s, share, said):
     with pytest.raises(InputError, match=said):
         to_roof(a, dt_s, building_of_periods([1.0]), share=share)
+
+
+class TestWholeMotion:
+    def test_each_component_is_carried_by_its_building_and_the_vertical_is_kept(self, noise):
+        along, across = (building_of_periods([period], stories=1) for period in (0.3, 0.6))
+        ground = solver.motion(noise, 0.5 * noise[::-1], 0.2 * noise, dt_s=0.01, id="G", scale=1.5)
+        roof = solver.at_roof(ground, along, across)
+        assert (roof.id, roof.scale, roof.signs) == ("G", 1.5, ground.signs)
+        assert roof.source == f"at the roof of: {along.words}"
+        for mine, theirs, building in (
+            (roof.ax_mps2, ground.ax_mps2, along),
+            (roof.ay_mps2, ground.ay_mps2, across),
+        ):
+            alone = to_roof(theirs, ground.dt_s, building)
+            assert roof.dt_s == alone.dt_s
+            np.testing.assert_array_equal(mine[: alone.a_mps2.size], alone.a_mps2)
+            assert not mine[alone.a_mps2.size :].any()
+        np.testing.assert_array_equal(roof.az_mps2[: noise.size], ground.az_mps2)
+
+    def test_one_building_is_that_of_both_directions(self, noise):
+        building = building_of_periods([0.3], stories=1)
+        ground = solver.motion(noise, noise, dt_s=0.01)
+        roof = solver.at_roof(ground, building)
+        np.testing.assert_array_equal(roof.ax_mps2, roof.ay_mps2)
+        assert not solver.at_roof(solver.motion(noise, dt_s=0.01), building).has_transverse

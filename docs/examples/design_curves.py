@@ -1,0 +1,48 @@
+# %% [markdown]
+# # Design curves
+#
+# The mean PRD of seven motions over friction, slope and intensity. Each motion is run with each
+# horizontal component along the slope, in both polarities; the largest of these counts.
+
+# %%
+import numpy as np
+
+import solver
+
+records = "projects/example/records"
+motions = [
+    solver.motion(
+        solver.read_record(f"{records}/RM{k}-x.csv"),
+        z=solver.read_record(f"{records}/RM{k}-z.csv"),
+        id=f"RM{k}",
+    )
+    for k in range(1, 8)
+]
+runs = solver.study(
+    motions,
+    slopes_rad=np.radians([0.0, 2.0, 5.0]),
+    mus=np.linspace(0.3, 0.9, 13),
+    intensities=[0.5, 1.0],
+)
+print(runs)
+
+# %% [markdown]
+# Every run is a row; the mean over the motions is a curve for each slope.
+
+# %%
+print(runs.to_frame().tail(3))
+
+# %%
+import pandas as pd
+
+means = runs.statistics().mean_m[:, :, -1]
+curves = pd.DataFrame(means.T, index=pd.Index(runs.mus, name="friction coefficient"))
+curves.columns = [f"{slope:.0f} deg" for slope in np.degrees(runs.slopes_rad)]
+axes = curves.plot(marker="o", ylabel="mean PRD [m]", title="Design curves")
+axes.figure.savefig("design-curves.png")
+
+# %% [markdown]
+# A steeper roof needs more friction: at every friction coefficient the mean PRD rises with slope.
+
+# %%
+assert (np.diff(curves.dropna(), axis=1) >= 0.0).all()

@@ -1,0 +1,246 @@
+"""A study in memory, for a notebook: every slope, friction and intensity under every motion.
+
+Workbooks, parts on disk and clusters are those of `report.study`. Read `study`, then `StudyRuns`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numba import get_num_threads
+from numpy.typing import ArrayLike, NDArray
+
+from solver.model import Floats, InputError, Motion, Status
+from solver.records.frames import dataset
+from solver.sliding.least_model import Model
+from solver.sliding.sweep import axis
+from solver.studies import curves
+from solver.studies.campaign import Campaign, grid
+from solver.studies.capacity import Curve, capacities
+from solver.studies.curves import Statistics, statistics
+from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+    from solver.studies.fragility import Fragility
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StudyRuns:
+    """The runs of a study; arrays of results have the shape (slopes, mus, intensities, runs).
+
+    A run is a motion in one orientation: `runs` names them, each component along the slope in each
+    polarity.
+
+    Attributes
+    ----------
+    motions : tuple of Motion
+    slopes_rad, mus, intensities : array, shape (p,), (q,), (r,)
+    runs : tuple of (str, str)
+        Motion and orientation, such as ``("RM1", "record +")``.
+    lengths : array, shape (5, p, q, r, runs)
+        PRD, excursions downslope, upslope and cross-slope, and displacement at the end [m], as in
+        `SlideResult`; NaN for none.
+    status : array of uint8
+        Index into `tuple(Status)`.
+    model : array of uint8
+        The simplest adequate `Model`.
+    """
+
+    motions: tuple[Motion, ...]
+    slopes_rad: Floats
+    mus: Floats
+    intensities: Floats
+    runs: tuple[tuple[str, str], ...]
+    lengths: Floats
+    status: NDArray[np.uint8]
+    model: NDArray[np.uint8]
+
+    def __repr__(self) -> str:
+        lost = int((self.status != STATUSES.index(Status.OK)).sum())
+        return (
+            f"StudyRuns: {self.status.size} runs, {lost} without a final value; slopes "
+            f"{self.slopes_rad.size}, friction coefficients {self.mus.size}, intensities "
+            f"{self.intensities.size}, motions {len(self.motions)}"
+        )
+
+    @property
+    def prd_m(self) -> Floats:
+        """PRD of each motion, the largest of its orientations [m], shape (p, q, r, motions).
+
+        NaN where a run of the motion has no final value.
+        """
+        final = np.where(self.status == STATUSES.index(Status.OK), self.lengths[0], np.nan)
+        ends = np.cumsum([len(motion.orientations) for motion in self.motions])
+        return np.stack([run.max(axis=-1) for run in np.split(final, ends[:-1], axis=-1)], axis=-1)
+
+    def statistics(self) -> Statistics:
+        """Return mean, 84th percentile and largest PRD over the motions, shape (p, q, r)."""
+        return statistics(self.prd_m)
+
+    def minimum_friction(self, allowed_m: float) -> Floats:
+        """Return the least friction from which on the mean PRD is allowed, shape (p, r).
+
+        Interpolated between the coefficients run; NaN where the largest is not enough. A rule set
+        multiplies the mean: divide `allowed_m` by that factor.
+        """
+        mean = self.statistics().mean_m
+        return np.array(
+            [
+                [curves.minimum_friction(self.mus, of_level, allowed_m) for of_level in of_slope.T]
+                for of_slope in mean
+            ]
+        )
+
+    def fragility(self, limit_m: float, *, slope_rad: float, mu: float, seed: int = 1) -> Fragility:
+        """Return the lognormal fragility of a limit on the PRD of a motion.
+
+        The capacity of each motion is searched by runs of its own up to the greatest intensity; a
+        run without a final value exceeds the limit. Needs scipy; see `solver.studies.fragility`.
+        """
+        from solver.studies.fragility import fragility
+
+        tracks = iter(Runner(_campaign(self.motions, (slope_rad,), (mu,), (1.0,))).tracks[0])
+        found = [
+            Curve(tracks=[next(tracks) for _ in motion.orientations], slope_rad=slope_rad, mu=mu)
+            for motion in self.motions
+        ]
+        prd_m = np.array([curve.prd_m(self.intensities) for curve in found])
+        (searched,) = capacities(found, [limit_m], self.intensities, is_censoring=False)
+        counted = np.ones(prd_m.shape, dtype=bool)
+        return fragility(self.intensities, ~(prd_m <= limit_m), counted, searched, seed=seed)
+
+    def to_frame(self) -> pd.DataFrame:
+        """Return the runs as a table with one row each.
+
+        Index: `slope_rad`, `mu`, `intensity`, `motion`, `orientation`; columns: `prd_m`, `down_m`,
+        `up_m`, `across_m`, `residual_m`, `status`, `model`.
+        """
+        import pandas as pd
+
+        axes = (self.slopes_rad.tolist(), self.mus.tolist(), self.intensities.tolist(), self.runs)
+        rows = [(*case, *run) for *case, run in product(*axes)]
+        names = ("slope_rad", "mu", "intensity", "motion", "orientation")
+        return pd.DataFrame(
+            {name: values.ravel() for name, values in self._columns().items()},
+            index=pd.MultiIndex.from_tuples(rows, names=names),
+        )
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return the runs with the axes `slope_rad`, `mu`, `intensity`, `run`.
+
+        `motion` and `orientation` are coordinates of `run`.
+
+        Raises
+        ------
+        ImportError
+            Where xarray is not installed.
+        """
+        motion, orientation = zip(*self.runs, strict=True)
+        axes = {
+            "slope_rad": self.slopes_rad,
+            "mu": self.mus,
+            "intensity": self.intensities,
+            "run": np.arange(len(self.runs)),
+        }
+        made = dataset(axes, self._columns())
+        return made.assign_coords(
+            motion=("run", list(motion)), orientation=("run", list(orientation))
+        )
+
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        words = {
+            "status": np.array([status.value for status in STATUSES])[self.status],
+            "model": np.array([model.title for model in Model])[self.model],
+        }
+        return dict(zip(LENGTHS, self.lengths, strict=True)) | words
+
+
+def study(
+    motions: Sequence[Motion],
+    *,
+    slopes_rad: ArrayLike,
+    mus: ArrayLike,
+    intensities: ArrayLike = (1.0,),
+) -> StudyRuns:
+    """Run every slope, friction and intensity under every motion.
+
+    Each motion is run in all its orientations. Each run is that of `solver.solve`, to the bit. The
+    runs are distributed over all cores.
+
+    Parameters
+    ----------
+    motions : sequence of Motion
+        With different names.
+    slopes_rad : array_like, shape (p,)
+        Increasing roof slopes [rad], |slope| < pi/2.
+    mus : array_like, shape (q,)
+        Increasing friction coefficients, > 0.
+    intensities : array_like, shape (r,)
+        Increasing factors on the motions, > 0.
+
+    Returns
+    -------
+    StudyRuns
+
+    Raises
+    ------
+    InputError
+        With every argument that is not as above.
+
+    Examples
+    --------
+    >>> from solver import motion
+    >>> pulse = motion([0.0, 4.0, -4.0, 0.0, 0.0, 0.0], dt_s=0.1, id="pulse")
+    >>> runs = study([pulse], slopes_rad=[0.0], mus=[0.2, 0.25, 0.3])
+    >>> runs
+    StudyRuns: 6 runs, 0 without a final value; slopes 1, friction
+    coefficients 3, intensities 1, motions 1
+    >>> runs.minimum_friction(0.002).round(3)
+    array([[0.256]])
+    """
+    problems = [] if motions else ["motions is empty; give one or more"]
+    if len({motion.id for motion in motions}) < len(motions):
+        problems.append("two motions have one name; give solver.motion an id")
+    axes = [
+        axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
+        axis("mus", mus, 0.0, math.inf, problems),
+        axis("intensities", intensities, 0.0, math.inf, problems),
+    ]
+    if any((np.diff(values) <= 0.0).any() for values in axes):
+        problems.append("slopes_rad, mus, intensities: give each value once, in increasing order")
+    if problems:
+        raise InputError(problems)
+    campaign = _campaign(motions, *axes)
+    with ThreadPoolExecutor(get_num_threads()) as pool:
+        parts = list(pool.map(partial(run_part, Runner(campaign)), campaign.parts))
+    shape = (*(values.size for values in axes), len(campaign.columns))
+    names = ((motions[number].id, each.name) for number, each in campaign.columns)
+    return StudyRuns(
+        motions=tuple(motions),
+        slopes_rad=axes[0],
+        mus=axes[1],
+        intensities=axes[2],
+        runs=tuple(names),
+        lengths=np.concatenate([p.lengths for p in parts], axis=1).reshape(len(LENGTHS), *shape),
+        status=np.concatenate([p.status for p in parts]).reshape(shape),
+        model=np.concatenate([p.model for p in parts]).reshape(shape),
+    )
+
+
+def _campaign(
+    motions: Sequence[Motion],
+    slopes: Iterable[float],
+    mus: Iterable[float],
+    intensities: Iterable[float],
+) -> Campaign:
+    return Campaign(motions=(tuple(motions),), cases=grid(1, slopes, mus, intensities))

@@ -1,0 +1,169 @@
+"""Records and motions are taken as they are: the same runs as from their arrays, to the bit."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import solver
+from solver import METHODS, InputError, Model, Motion, Outcome, Record, Settings, Status
+
+DT_S = 0.01
+SCENE = {"slope_rad": 0.03, "mu": 0.3}
+
+
+@pytest.fixture
+def components(noise):
+    return tuple(
+        Record(name=name, dt_s=DT_S, a_mps2=factor * np.roll(noise, shift))
+        for name, factor, shift in (("x", 1.0, 0), ("y", 0.8, 300), ("z", 0.3, 700))
+    )
+
+
+def of_arrays(components):
+    x, y, z = (record.a_mps2 for record in components)
+    return {"ax_mps2": x, "ay_mps2": y, "az_mps2": z, "dt_s": DT_S}
+
+
+def test_a_record_is_its_samples_with_their_step(components):
+    x, y, z = components
+    for run in (solver.slide, solver.scene):
+        by_array = run(x.a_mps2, DT_S, **SCENE)
+        assert repr(run(x, **SCENE)) == repr(by_array)
+    together = solver.slide(x, ay_mps2=y, az_mps2=z, **SCENE)
+    assert together == solver.slide(**of_arrays(components), **SCENE)
+    assert together.prd_m > 0.0
+
+
+def test_a_motion_is_its_components_with_its_scale(components):
+    motion = solver.motion(*components, scale=1.5)
+    assert solver.slide(motion, scale=0.8, **SCENE) == solver.slide(
+        **of_arrays(components), scale=0.8 * 1.5, **SCENE
+    )
+    history = solver.slide_history(motion, **SCENE)
+    assert history.result == solver.slide(motion, **SCENE)
+
+
+def test_a_sweep_takes_a_record_and_a_motion_of_one_axis(components):
+    x, _, z = components
+    axes = {"slopes_rad": [0.0, 0.03], "mus": [0.2, 0.3], "scales": [0.5, 1.0]}
+    from_arrays = solver.sweep(x.a_mps2, DT_S, az_mps2=z.a_mps2, **axes)
+    from_records = solver.sweep(x, az_mps2=z, **axes)
+    from_motion = solver.sweep(solver.motion(x, z=z, scale=2.0), **axes | {"scales": [0.25, 0.5]})
+    for swept in (from_records, from_motion):
+        np.testing.assert_array_equal(swept.prd_m, from_arrays.prd_m)
+    with pytest.raises(InputError, match="two horizontal components"):
+        solver.sweep(solver.motion(*components), **axes)
+
+
+def test_what_a_record_or_a_motion_contradicts_is_refused(components):
+    x, y, _ = components
+    coarse = replace(y, dt_s=0.02)
+    whole = solver.motion(x)
+    with pytest.raises(InputError, match="dt_s is given beside a record"):
+        solver.slide(x, DT_S, **SCENE)
+    with pytest.raises(InputError, match=r"steps of 0\.01 s and 0\.02 s"):
+        solver.slide(x, ay_mps2=coarse, **SCENE)
+    with pytest.raises(InputError, match="further components"):
+        solver.slide(whole, ay_mps2=y, **SCENE)
+    with pytest.raises(InputError, match="one component"):
+        solver.slide(x, ay_mps2=whole, **SCENE)
+    with pytest.raises(InputError, match="dt_s is None"):
+        solver.slide(x.a_mps2, **SCENE)
+
+
+class TestMotion:
+    def test_it_has_the_name_of_its_record_and_both_polarities(self, components):
+        motion = solver.motion(components[0])
+        assert (motion.id, motion.signs, motion.scale) == ("x", (1, -1), 1.0)
+        assert not motion.has_transverse
+        assert [each.name for each in motion.orientations] == ["record +", "record −"]
+
+    def test_a_motion_is_scaled_and_named_anew(self, components):
+        first = solver.motion(*components, id="A", source="made", scale=2.0)
+        again = solver.motion(first, scale=1.5)
+        assert isinstance(again, Motion)
+        assert (again.id, again.source, again.scale) == ("A", "made", 3.0)
+        assert solver.motion(first, id="B").id == "B"
+
+    def test_lengths_and_signs_are_checked(self, components):
+        x, y, _ = components
+        with pytest.raises(InputError, match="give the shape of ax_mps2"):
+            solver.motion(x, replace(y, a_mps2=y.a_mps2[:-1]))
+        for signs in ((), (2,)):
+            with pytest.raises(InputError, match="signs is"):
+                solver.motion(x, signs=signs)
+
+
+class TestWords:
+    def test_a_result_is_one_line(self, components):
+        x, y, z = components
+        result = solver.slide(x, **SCENE)
+        assert repr(result) == (
+            f"SlideResult: PRD {1e3 * result.prd_m:.1f} mm at {result.t_prd_s:.2f} s, "
+            f"{1e3 * result.residual_m:+.1f} mm at the end, {result.n_stops} stops, ok"
+        )
+        both = solver.slide(x, ay_mps2=y, az_mps2=z, **SCENE)
+        assert f"{1e3 * both.residual_across_m:+.1f} mm cross-slope at the end" in repr(both)
+        assert repr(solver.slide(x, slope_rad=0.0, mu=9.0)) == "SlideResult: no slip"
+        lifted = solver.slide([0.0, 0.0], 0.1, az_mps2=[0.0, -20.0], **SCENE)
+        assert repr(lifted) == f"SlideResult: {Status.UPLIFT.sentence}"
+
+    def test_a_solution_is_three_lines(self, components):
+        scene = solver.scene(components[0], az_mps2=components[2], **SCENE)
+        for settings in (Settings(), Settings(forced=Model.ONE_AXIS)):
+            solution = solver.solve(scene, settings)
+            about, result, beyond = repr(solution).splitlines()
+            assert about == f"Solution: {solution.model.title}; {solution.reason}"
+            assert result == repr(solution.result)
+            assert f"demand {solution.friction_demand:.3f}; " in beyond
+        assert f"more than {1e3 * solution.next_effect_m:.2g} mm" in beyond
+
+    def test_a_history_and_a_motion_are_one_line(self, components):
+        motion = solver.motion(*components, id="A", scale=2.0)
+        assert repr(motion) == "Motion: A, x and y and z, 2000 samples of 0.01 s, scale 2"
+        history = solver.slide_history(components[0], **SCENE)
+        told = f"2000 samples, {len(history.events)} events; {history.result.words}"
+        assert repr(history) == f"SlideHistory: {told}"
+
+
+class TestOwnMethod:
+    def test_it_is_run_beside_the_eight(self, components):
+        def follow(scene, parameters, samples):
+            u_m = scene.mu * scene.dt * parameters["factor"]
+            return Outcome(True, u_m, 0.0, u_m, 0.0, 1.0, 3)
+
+        mine = replace(METHODS["paper"], name="mine", parameters={"factor": 2.0}, follow=follow)
+        result = solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine)
+        assert (result.prd_m, result.n_stops) == (0.3 * DT_S * 2.0, 3)
+        assert math.isnan(result.error_m)
+        half = solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor=1.0)
+        assert half.prd_m == 0.5 * result.prd_m
+        with pytest.raises(InputError, match="factor is 'x'; give a finite number"):
+            solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor="x")
+
+    def test_one_that_is_called_exact_states_no_error(self, components):
+        mine = replace(METHODS["frozen-normal"], name="exact")
+        history = solver.slide_history(components[0], **SCENE, method=mine)
+        assert math.isnan(history.result.error_m)
+        assert history.events == ()
+
+
+def test_labeled_arrays_are_those_of_the_sweep(components):
+    pytest.importorskip("xarray")
+    axes = {"slopes_rad": [0.0, 0.03], "mus": [0.2, 0.3, 0.4], "scales": [1.0]}
+    swept = solver.sweep(components[0], **axes)
+    made = swept.to_xarray()
+    assert dict(made.sizes) == {"slope_rad": 2, "mu": 3, "scale": 1}
+    np.testing.assert_array_equal(made["prd_m"].values, swept.prd_m)
+    assert float(made["prd_m"].sel(slope_rad=0.03, mu=0.3, scale=1.0)) == swept.prd_m[1, 1, 0]
+    frame = made.to_dataframe()
+    assert frame["status"].tolist() == swept.to_frame()["status"].tolist()
+
+
+def test_without_xarray_it_is_said_what_to_install(components, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "xarray", None)
+    swept = solver.sweep(components[0], slopes_rad=[0.0], mus=[0.3], scales=[1.0])
+    with pytest.raises(ImportError, match="pip install xarray"):
+        swept.to_xarray()

@@ -1,0 +1,52 @@
+"""`import roofslip` offers what `solver` and `report` do, and no file of the reader hides them."""
+
+import re
+import subprocess
+import sys
+
+import report
+import roofslip
+import solver
+from places import ROOT
+
+SLID = (
+    "import roofslip; print(roofslip.slide([0, 4, -4, 0, 0, 0], 0.1, slope_rad=0, mu=0.2).status)"
+)
+
+
+def run(folder, program):
+    """Run a program in a folder, whose modules it finds first."""
+    path = [folder, ROOT]
+    told = f"import sys; sys.path[:0] = {list(map(str, path))}; {program}"
+    command = [sys.executable, "-P", "-c", told]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_it_offers_every_public_name():
+    assert set(dir(roofslip)) == {*solver.__all__, *report.__all__}
+    for package in (solver, report):
+        for name in package.__all__:
+            assert getattr(roofslip, name) is getattr(package, name), name
+
+
+def test_a_file_beside_a_notebook_hides_neither_package(tmp_path):
+    for name in ("solver", "report"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit('the wrong one')\n")
+    assert "the wrong one" in run(tmp_path, "import solver").stderr
+    assert run(tmp_path, SLID).stdout == "ok\n"
+
+
+def test_a_package_that_is_hidden_already_is_named(tmp_path):
+    (tmp_path / "solver.py").write_text("")
+    done = run(tmp_path, f"import solver; {SLID}")
+    assert f"{tmp_path / 'solver.py'} is loaded and hides a package of Roofslip" in done.stderr
+    assert done.returncode == 1
+
+
+def test_the_launcher_looks_for_no_package_where_it_is_called():
+    calls = re.findall(
+        r'"\$venv/bin/python" (?:-P )?(?:-m|"\$venv)', (ROOT / "roofslip").read_text()
+    )
+    assert len(calls) == 3
+    assert all(" -P " in call for call in calls)
+    assert '"$venv/bin/roofslip" "$@"' in (ROOT / "roofslip").read_text()
