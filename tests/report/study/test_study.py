@@ -242,6 +242,7 @@ def test_a_dry_run_prints_and_writes_nothing(tmp_path):
 
 @pytest.mark.parametrize("missing", ["pyarrow", "pyarrow.parquet"])
 def test_without_the_extra_the_command_says_what_to_type(tmp_path, monkeypatch, missing):
+    monkeypatch.delitem(sys.modules, "pyarrow.parquet", raising=False)  # of another test
     monkeypatch.setitem(sys.modules, missing, None)
     done = command(tmp_path)
     assert done.exit_code == 2
