@@ -118,7 +118,8 @@ def _results() -> Iterator[str]:
     yield "All quantities are SI; a key ends with its unit. As JSON schema: `./roofslip schema`.\n"
     for name, model in ({"results.json": schema} | schema["$defs"]).items():
         if "properties" in model:
-            yield f"## {name}\n\n{_text(model.get('description', ''))}\n"
+            told = model.get("description", "").partition("\n\nAttributes\n")[0]
+            yield f"## {name}\n\n{_text(told)}\n"
             yield "| key | type | meaning |\n|---|---|---|"
             for key, field in model["properties"].items():
                 yield f"| `{key}` | {_text(_type(field))} | {_text(_meaning(key, field))} |"
