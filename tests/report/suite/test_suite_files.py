@@ -142,7 +142,8 @@ def test_the_table_states_target_tail_seed_and_the_fit_of_each_component(made):
         "6 of 6 components have spectra of 0.90 to 1.30 times the target and a mean ratio within 7"
         " % of 1 (1/12 octave, from 0.1 Hz to 33.3 Hz, 5 % damping)" in made[1]
     )
-    assert lines[-1].endswith("suite: 6 records, suite.json, suite.png; seed 5")
+    assert lines[-3].endswith("suite: 6 records, suite.json, suite.png; seed 5")
+    assert lines[-1] == "then run: roofslip check DIR"
 
 
 @pytest.mark.nightly
