@@ -3,13 +3,15 @@
     .venv/bin/python docs/make.py
 
 `commands.md` is the command line's own help, `workbook-fields.md` the schema of the input sheets
-and `results-json.md` that of results.json; `examples.md` lists the scripts of `docs/examples` with
-their own first words. A test compares the pages with what this would write.
+and `results-json.md` that of results.json, each with its further pages; `examples.md` lists the
+scripts of `docs/examples` with their own first words. A test compares the pages with what this
+would write.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import chain, starmap
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +20,7 @@ import click
 from report.cli.main import main
 from report.entities import results
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import Entry, SheetSection, entries
+from report.sheet.schema.fields import Entry, entries
 
 HERE = Path(__file__).resolve().parent
 
@@ -28,25 +30,58 @@ EXAMPLES = (
 )  # fmt: skip
 
 
+MOST_LINES = 244
+"""Of a page; what is longer goes on with the next one."""
+
+COMMANDS = "As `./roofslip COMMAND --help` prints them."
+FIELDS = "Every sheet, block and table of the input workbook, as the reader checks them."
+RESULTS = "All quantities are SI; a key ends with its unit. As JSON schema: `./roofslip schema`."
+
+Parts = Iterator[tuple[str, str]]
+"""Headings, each with what is below it; `{Name}` is a link to the heading Name."""
+
+
 def pages() -> Mapping[Path, str]:
     """Return every page that is made."""
-    made = {
-        "commands.md": _commands,
-        "examples.md": _examples,
-        "workbook-fields.md": _fields,
-        "results-json.md": _results,
-    }
-    return {HERE / name: "\n".join(lines()) for name, lines in made.items()}
+    long = (
+        ("commands", "Commands", COMMANDS, _commands()),
+        ("workbook-fields", "Fields of the workbook", FIELDS, _fields()),
+        ("results-json", "results.json", RESULTS, _results()),
+    )
+    made = dict(chain.from_iterable(starmap(_paged, long)))
+    return {HERE / "examples.md": "\n".join(_examples())} | made
 
 
-def _commands() -> Iterator[str]:
-    yield "# Commands\n"
-    yield "As `./roofslip COMMAND --help` prints them.\n"
+def _paged(name: str, title: str, about: str, parts: Parts) -> Iterator[tuple[Path, str]]:
+    """Yield the pages of a long text, none longer than it may be."""
+    made: list[list[tuple[str, str]]] = [[]]
+    for part in parts:
+        if sum(text.count("\n") + 4 for _, text in (*made[-1], part)) > MOST_LINES:
+            made.append([])
+        made[-1].append(part)
+    files: list[str] = []
+    titles: list[str] = []
+    links: dict[str, str] = {}
+    for count, page in enumerate(made, start=1):
+        first, last = (heading.partition(":")[0] for heading, _ in (page[0], page[-1]))
+        files.append(f"{name}-{count}.md" if count > 1 else f"{name}.md")
+        titles.append(f"{title}, {first} to {last}" if count > 1 else title)
+        links |= {f"{{{each}}}": f"[{each}]({files[-1]}#{each.lower()})" for each, _ in page}
+    listed = [f"[{title}]({file})" for title, file in zip(titles, files, strict=True)]
+    for file, title, page in zip(files, titles, made, strict=True):
+        goes_on = f"{about} It goes on in {', '.join(listed[1:])}."
+        head = goes_on if file == files[0] else f"Begins in {listed[0]}."
+        text = "\n".join(f"## {heading}\n\n{text}\n" for heading, text in page)
+        for mark, link in links.items():
+            text = text.replace(mark, link)
+        yield HERE / file, f"# {title}\n\n{head}\n\n{text}"
+
+
+def _commands() -> Parts:
     for words, command in _named(main, ("roofslip",)):
         settings = main.context_settings | {"terminal_width": 96}
         context = click.Context(command, info_name=" ".join(words), **settings)
-        name = " ".join(words[1:]) or "roofslip"
-        yield f"## {name}\n\n```text\n{command.get_help(context)}\n```\n"
+        yield " ".join(words[1:]) or "roofslip", f"```text\n{command.get_help(context)}\n```"
 
 
 def _named(command: click.Command, words: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
@@ -75,19 +110,15 @@ def _first_cell(path: Path) -> list[str]:
     return [title.removeprefix("# "), *words]
 
 
-def _fields() -> Iterator[str]:
-    yield "# Fields of the workbook\n"
-    yield "Every sheet, block and table of the input workbook, as the reader checks them.\n"
-    yield from map(_section, SECTIONS)
-
-
-def _section(section: SheetSection) -> str:
-    place = "a table" if section.is_table else "single cells"
-    rows = "\n".join(map(_field, entries(section.model)))
-    return (
-        f"## {section.sheet}: {section.title}\n\n{_text(section.instruction)} ({place})\n\n"
-        f"| field | need | unit | accepted | meaning |\n|---|---|---|---|---|\n{rows}\n"
-    )
+def _fields() -> Parts:
+    for section in SECTIONS:
+        place = "a table" if section.is_table else "single cells"
+        rows = "\n".join(map(_field, entries(section.model)))
+        yield (
+            f"{section.sheet}: {section.title}",
+            f"{_text(section.instruction)} ({place})\n\n"
+            f"| field | need | unit | accepted | meaning |\n|---|---|---|---|---|\n{rows}",
+        )
 
 
 def _field(entry: Entry) -> str:
@@ -112,18 +143,17 @@ def _range(entry: Entry) -> str:
     return "; ".join(said) if entry.bounds.words() else ""
 
 
-def _results() -> Iterator[str]:
+def _results() -> Parts:
     schema = results.schema()
-    yield "# results.json\n"
-    yield "All quantities are SI; a key ends with its unit. As JSON schema: `./roofslip schema`.\n"
-    for name, model in ({"results.json": schema} | schema["$defs"]).items():
+    models = schema["$defs"]
+    for name, model in (("results.json", schema), *models.items()):
         if "properties" in model:
             told = model.get("description", "").partition("\n\nAttributes\n")[0]
-            yield f"## {name}\n\n{_text(told)}\n"
-            yield "| key | type | meaning |\n|---|---|---|"
-            for key, field in model["properties"].items():
-                yield f"| `{key}` | {_text(_type(field))} | {_text(_meaning(key, field))} |"
-            yield ""
+            rows = "\n".join(
+                f"| `{key}` | {_type(field, models)} | {_text(_meaning(key, field))} |"
+                for key, field in model["properties"].items()
+            )
+            yield name, f"{_text(told)}\n\n| key | type | meaning |\n|---|---|---|\n{rows}"
 
 
 def _meaning(key: str, field: Mapping[str, Any]) -> str:
@@ -133,15 +163,17 @@ def _meaning(key: str, field: Mapping[str, Any]) -> str:
     return "" if title == made else title
 
 
-def _type(field: Mapping[str, Any]) -> str:
+def _type(field: Mapping[str, Any], models: Mapping[str, Any]) -> str:
+    """Return what a field holds; a link where that is described on its own."""
     if "$ref" in field:
-        return str(field["$ref"]).rpartition("/")[2]
+        name = str(field["$ref"]).rpartition("/")[2]
+        return f"{{{name}}}" if "properties" in models[name] else _type(models[name], models)
     if "anyOf" in field:
-        return " or ".join(map(_type, field["anyOf"]))
+        return " or ".join(_type(each, models) for each in field["anyOf"])
     if "enum" in field:
-        return "one of " + ", ".join(map(str, field["enum"]))
+        return "one of " + ", ".join(f"`{value}`" for value in field["enum"])
     if "items" in field:
-        return f"list of {_type(field['items'])}"
+        return f"list of {_type(field['items'], models)}"
     kind = field.get("const", field.get("type", "any"))
     return " or ".join(kind) if isinstance(kind, list) else str(kind)
 

@@ -110,8 +110,8 @@ def test_no_tracked_file_names_a_registry_or_a_path_of_one_machine(tracked):
 @pytest.fixture
 def launched(tmp_path):
     """A function that runs the launcher where nothing is installed, and returns what it prints."""
-    for name in ("roofslip", "docs/commands.md", "pyproject.toml", "requirements.lock"):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
+    shutil.copytree(ROOT / "docs", tmp_path / "docs")
+    for name in ("roofslip", "pyproject.toml", "requirements.lock"):
         shutil.copy(ROOT / name, tmp_path / name)
 
     def run(*words, program="./roofslip", path=os.environ["PATH"]):
@@ -141,7 +141,7 @@ def launched(tmp_path):
     ],
 )
 def test_help_needs_nothing_installed(launched, words, command):
-    pages = (ROOT / "docs" / "commands.md").read_text()
+    pages = "".join(path.read_text() for path in sorted((ROOT / "docs").glob("commands*.md")))
     (text,) = re.findall(rf"^## {command}\n\n```text\n(.*?)```", pages, re.DOTALL | re.MULTILINE)
     assert launched(*words) == text.replace("Usage: roofslip", "Usage: ./roofslip")
 
