@@ -26,9 +26,9 @@ def main() -> None:
         said = f"; error of the PRD {errors.median():.2g} % in the median, "
         said += f"{errors.max():.3g} % at most"
         figure(
-            f"{method.label}{at}; {len(runs)} runs",
+            f"{method.label}{at}",
             runs["time per run [s]"].median() * 1e3,
-            "ms" + said * (name != "exact"),
+            f"ms in {len(runs)} runs" + said * (name != "exact"),
         )
 
 
