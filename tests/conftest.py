@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+import report.web.worker  # takes WorkerProcess as it is, before a fixture replaces it
 import report.workers  # before any test loads openpyxl: the package decides what that reads with
 from browsing import chromium
 from places import RECORDS, SAMPLES
