@@ -174,8 +174,8 @@ class SlideResult:
         if self.residual_across_m:
             end += f" and {1e3 * self.residual_across_m:+z.1f} mm cross-slope"
         return (
-            f"PRD {1e3 * self.prd_m:.1f} mm{when}, {end} at the end, {self.n_stops} stops, "
-            f"{self.status}"
+            f"PRD {1e3 * self.prd_m:.1f} mm{when}, {end} at the end, {self.n_stops} "
+            f"{'stop' if self.n_stops == 1 else 'stops'}, {self.status}"
         )
 
     def __eq__(self, other: object) -> bool:

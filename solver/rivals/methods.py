@@ -1,6 +1,6 @@
 """The one-axis methods by name: description, parameters, limitations, and how each runs a scene.
 
-Checks no input (`solver.sliding.checked`), builds no results (`solver.sliding.one_axis`) and
+Checks no input (`solver.sliding.arguments`), builds no results (`solver.sliding.one_axis`) and
 integrates nothing itself (`solver.kernels.one_axis`, `solver.kernels.rivals`,
 `solver.rivals.regularized`). Read `METHODS` first.
 """

@@ -116,11 +116,11 @@ class Solution:
 
     @property
     def _beyond(self) -> str:
-        demand = f"Friction demand {self.friction_demand:.3f}"
+        required = f"Required friction coefficient {self.friction_demand:.3f}"
         if self.next_model is self.model:
-            return f"{demand}; no more complete model applies"
+            return f"{required}; no more complete model applies"
         effect = f"changes no displacement by more than {1e3 * self.next_effect_m:.2g} mm"
-        return f"{demand}; the model '{self.next_model.title}' {effect}"
+        return f"{required}; the model '{self.next_model.title}' {effect}"
 
     def __getattr__(self, name: str) -> Any:
         """Return a value by its name of 0.2, which this version still knows."""

@@ -1,6 +1,6 @@
 """Models 1 and 2: one block along the slope, by the exact method or another one.
 
-Checks no input (`solver.sliding.checked`) and computes no physics (`solver.kernels.one_axis`,
+Checks no input (`solver.sliding.arguments`) and computes no physics (`solver.kernels.one_axis`,
 `solver.rivals`). Read `run` first.
 """
 

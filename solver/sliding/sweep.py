@@ -20,7 +20,13 @@ from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Statu
 from solver.records.frames import dataset
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
-from solver.sliding.checked import Given, checked_number, checked_record, overflow, unpacked
+from solver.sliding.arguments import (
+    Given,
+    checked_number,
+    checked_record,
+    overflow,
+    unpacked,
+)
 
 if TYPE_CHECKING:
     import pandas as pd

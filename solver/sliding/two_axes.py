@@ -1,7 +1,7 @@
 """Models 3 and 4: a block in two axes, friction constant or by velocity, to a tolerance.
 
 Computes no physics itself (see `solver.kernels.two_axes`) and checks no input
-(`solver.sliding.checked` does). Read `solver.model.Scene`, then `follow`.
+(`solver.sliding.arguments` does). Read `solver.model.Scene`, then `follow`.
 """
 
 from __future__ import annotations

@@ -502,7 +502,7 @@ def test_a_scene_is_checked_and_solved(noise):
 
 def test_a_result_that_is_not_finite_is_a_status(noise, monkeypatch):
     # The border lets nothing pass that could do it: so the border is taken away.
-    monkeypatch.setattr("solver.sliding.checked.overflow", lambda scene: [])
+    monkeypatch.setattr("solver.sliding.arguments.overflow", lambda scene: [])
     result = slide(noise, 1e200, slope_rad=0.0, mu=0.2)
     assert result.status is Status.DIVERGED
     assert math.isnan(result.prd_m)

@@ -87,6 +87,11 @@ class TestMotion:
         assert (again.id, again.source, again.scale) == ("A", "made", 3.0)
         assert solver.motion(first, id="B").id == "B"
 
+    def test_a_motion_keeps_its_polarities_unless_others_are_given(self, components):
+        one_way = solver.motion(components[0], signs=(1,))
+        assert solver.motion(one_way, scale=0.5).signs == (1,)
+        assert solver.motion(one_way, signs=(1, -1)).signs == (1, -1)
+
     def test_lengths_and_signs_are_checked(self, components):
         x, y, _ = components
         with pytest.raises(InputError, match="give the shape of ax_mps2"):
@@ -117,7 +122,7 @@ class TestWords:
             about, result, beyond = repr(solution).splitlines()
             assert about == f"Solution: {solution.model.title}; {solution.reason}"
             assert result == repr(solution.result)
-            assert f"demand {solution.friction_demand:.3f}; " in beyond
+            assert f"coefficient {solution.friction_demand:.3f}; " in beyond
         assert f"more than {1e3 * solution.next_effect_m:.2g} mm" in beyond
 
     def test_a_history_and_a_motion_are_one_line(self, components):

@@ -1,0 +1,242 @@
+"""Checks what a run is given: records, motions, friction, numbers, the method and its parameters.
+
+Every error is collected before one is raised. Runs nothing: see `solver.sliding.checked`. Read
+`checked_scene`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from numbers import Real
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
+from solver.records.record import Record, read_only
+from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
+from solver.sliding import two_axes
+
+Given = ArrayLike | Record | Motion
+"""Shaking as it is: a row of accelerations with a step beside it, a record, or a whole motion."""
+
+_LARGEST = 1e120
+"""Largest accelerations [m/s2] and distances [m] accepted: their squares are finite."""
+
+
+def checked_scene(
+    given: Mapping[str, Given | None],
+    dt_s: float | None,
+    slope_rad: float,
+    mu: float | Friction,
+    scale: float,
+    g_mps2: float,
+    method: str | Method,
+    parameters: Parameters,
+) -> Scene:
+    """Return the scene with read-only contiguous records, or raise with every error found."""
+    problems: list[str] = []
+    records, dt_s, factor = unpacked(given, dt_s, problems)
+    ax, ay, az = _checked_records(records, problems)
+    friction = checked_friction("mu", mu, problems)
+    numbers = {
+        name: checked_number(name, value, wanted, fits, problems)
+        for name, value, wanted, fits in (
+            ("dt_s", dt_s, "a number of seconds above 0", lambda v: 0.0 < v < math.inf),
+            ("slope_rad", slope_rad, "an angle between -pi/2 and pi/2", is_slope),
+            ("scale", scale, "a finite factor", math.isfinite),
+            ("g_mps2", g_mps2, "a number of m/s2 above 0", lambda v: 0.0 < v < math.inf),
+        )
+    }
+    if not isinstance(method, Method) and not (isinstance(method, str) and method in METHODS):
+        problems.append(f"method is {shown(method)}; give one of {', '.join(METHODS)}")
+    elif records["ay_mps2"] is not None or not friction.is_constant:
+        problems += _plane_faults(method, parameters)
+    else:
+        problems += _faults(method_of(method), parameters, records["az_mps2"] is not None)
+    if problems:
+        raise InputError(problems)
+    numbers["scale"] *= factor
+    run = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
+    if faults := overflow(run):
+        raise InputError(faults)
+    return run
+
+
+def method_of(method: str | Method) -> Method:
+    """Return a method, by its name or as it is."""
+    return method if isinstance(method, Method) else METHODS[method]
+
+
+def unpacked(
+    given: Mapping[str, Given | None], dt_s: float | None, problems: list[str]
+) -> tuple[dict[str, ArrayLike | None], float | None, float]:
+    """Return components as arrays, their step and their factor, from records or a motion.
+
+    Parameters
+    ----------
+    given : mapping
+        By the names of the arguments, that along the slope first, which alone may be a motion.
+    """
+    along, *others = given.values()
+    steps = {each.dt_s for each in given.values() if isinstance(each, Record | Motion)}
+    if steps and dt_s is not None:
+        problems.append("dt_s is given beside a record or a motion, which has its own; omit it")
+    if len(steps) > 1:
+        shown = " and ".join(f"{step:g} s" for step in sorted(steps))
+        problems.append(f"the components have steps of {shown}; give components of one step")
+    dt_s = max(steps, default=dt_s)
+    if any(isinstance(each, Motion) for each in others):
+        problems.append("a motion is given as one component; give it first and alone")
+    if not isinstance(along, Motion):
+        return {name: _samples(each) for name, each in given.items()}, dt_s, 1.0
+    if any(each is not None for each in others):
+        problems.append("a motion is given with further components; give it alone")
+    components = {name: getattr(along, name) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
+    return {n: a if a.size else None for n, a in components.items()}, dt_s, along.scale
+
+
+def _samples(given: Given | None) -> ArrayLike | None:
+    if isinstance(given, Record):
+        return given.a_mps2
+    return None if isinstance(given, Motion) else given
+
+
+def overflow(scene: Scene) -> list[str]:
+    """Return an error if squared accelerations, their rates or the distances would overflow."""
+    records = (scene.ax_mps2, scene.ay_mps2, scene.az_mps2)
+    peak = scene.scale * max(float(np.abs(record).max()) for record in records if record.size)
+    lasts = scene.dt_s * (scene.ax_mps2.size - 1)
+    mus = scene.friction.mu_slow, scene.friction.mu_fast, scene.friction.mu_static
+    push = (abs(peak) + scene.g_mps2) * (1.0 + max(mus))
+    rate = scene.dt_s * _LARGEST
+    if push < min(_LARGEST, rate) and push * lasts * lasts < _LARGEST:
+        return []
+    return [
+        f"accelerations of {push:.2g} m/s2, scaled and with gravity and friction, over {lasts:.2g} "
+        f"s in steps of {scene.dt_s:.2g} s exceed the floating-point range; change scale, dt_s, mu "
+        "or g_mps2"
+    ]
+
+
+def is_slope(value: float) -> bool:
+    """Whether the value is a possible roof slope [rad]."""
+    return abs(value) < math.pi / 2
+
+
+def checked_number(
+    name: str, value: object, wanted: str, fits: Callable[[float], bool], problems: list[str]
+) -> float:
+    """Return the value as a float, or NaN with a problem added; text and booleans are refused."""
+    # A difference of dates is a number to numpy.
+    wrong = isinstance(value, bool | np.bool_ | np.timedelta64)
+    if isinstance(value, Real | np.number) and not wrong:
+        try:
+            number = float(value)
+        except (OverflowError, TypeError):
+            number = math.nan
+        if fits(number):
+            return number
+    problems.append(f"{name} is {shown(value)}; give {wanted}")
+    return math.nan
+
+
+def checked_friction(name: str, mu: float | Friction, problems: list[str]) -> Friction:
+    """Return the friction law for a coefficient or a law, adding a problem for every error."""
+    wanted = "a friction coefficient of 0 or more"
+    if not isinstance(mu, Friction):
+        return coulomb(checked_number(name, mu, wanted, _is_coefficient, problems))
+    checked = Friction(
+        mu_slow=checked_number("mu_slow", mu.mu_slow, wanted, _is_coefficient, problems),
+        mu_fast=checked_number("mu_fast", mu.mu_fast, wanted, _is_coefficient, problems),
+        rate_s_per_m=checked_number(
+            "rate_s_per_m", mu.rate_s_per_m, "a number of s/m, 0 or more", _is_coefficient, problems
+        ),
+        mu_static=checked_number("mu_static", mu.mu_static, wanted, _is_coefficient, problems),
+    )
+    if checked.mu_static < checked.mu_slow:
+        problems.append(
+            f"mu_static is {checked.mu_static:g}; give mu_slow, {checked.mu_slow:g}, or more"
+        )
+    return checked
+
+
+def _is_coefficient(value: float) -> bool:
+    return 0.0 <= value < math.inf
+
+
+def shown(value: object) -> str:
+    """Return the value given, shortened to one line."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]) -> list[Floats]:
+    checked = {
+        name: NO_RECORD
+        if values is None and name != "ax_mps2"
+        else checked_record(name, values, problems)
+        for name, values in records.items()
+    }
+    shape = checked["ax_mps2"].shape
+    problems += [
+        f"{name} has shape {checked[name].shape}; give the shape of ax_mps2, {shape}"
+        for name, values in records.items()
+        if values is not None and checked[name].shape != shape
+    ]
+    return list(checked.values())
+
+
+def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
+    """Return the arguments that the two-axes solver does not accept."""
+    problems: list[str] = []
+    if method != "exact":
+        problems.append(
+            f"method is {shown(method)}; two axes and velocity-dependent friction need 'exact': "
+            "omit ay_mps2 and give one coefficient, or omit the method"
+        )
+    low, high = two_axes.TOLERANCES
+    wanted = f"a number from {low:g} to {high:g}"
+    for name, value in parameters.items():
+        if name != "tolerance":
+            problems.append(f"two axes have no parameter {name!r}; the only one is tolerance")
+        else:
+            checked_number(name, value, wanted, lambda v: low <= v <= high, problems)
+    return problems
+
+
+def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list[str]:
+    """Return the arguments that a method does not accept, and parameter values out of range."""
+    problems: list[str] = []
+    if with_vertical and not method.takes_vertical:
+        problems.append(f"method {method.name!r} takes horizontal shaking only; omit az_mps2")
+    for name, value in parameters.items():
+        if name not in method.parameters:
+            known = ", ".join(method.parameters) or "none"
+            problems.append(f"method {method.name!r} has no parameter {name!r}; it has {known}")
+        else:
+            checked_number(name, value, *WANTED.get(name, ANY_NUMBER), problems)
+    return problems
+
+
+def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> Floats:
+    """Return a read-only float64 view: numba would compile a second version for writable arrays."""
+    wanted = f"{name} is not a row of real numbers; give a sequence of accelerations"
+    try:
+        given = np.asanyarray(values)
+    except (TypeError, ValueError, OverflowError):
+        problems.append(wanted)
+        return NO_RECORD
+    if given.dtype.kind not in "fiu" or (np.ma.isMaskedArray(given) and np.ma.is_masked(given)):
+        what = "has masked samples" if given.dtype.kind in "fiu" else f"is of type {given.dtype}"
+        problems.append(f"{name} {what}; give a sequence of accelerations, all real numbers")
+        return NO_RECORD
+    record = np.ascontiguousarray(given, dtype=np.float64)
+    if record.ndim != 1 or record.size < 2:
+        problems.append(f"{name} has shape {record.shape}; give one row of 2 samples or more")
+        return NO_RECORD
+    if not np.isfinite(record).all():
+        first = int(np.flatnonzero(~np.isfinite(record))[0])
+        problems.append(f"{name}[{first}] is {record[first]}; give finite accelerations")
+    return read_only(record)
