@@ -149,11 +149,15 @@ def _results() -> Parts:
     for name, model in (("results.json", schema), *models.items()):
         if "properties" in model:
             told = model.get("description", "").partition("\n\nAttributes\n")[0]
-            rows = "\n".join(
-                f"| `{key}` | {_type(field, models)} | {_text(_meaning(key, field))} |"
+            keys = [
+                (f"`{key}`", _type(field, models), _text(_meaning(key, field)))
                 for key, field in model["properties"].items()
-            )
-            yield name, f"{_text(told)}\n\n| key | type | meaning |\n|---|---|---|\n{rows}"
+            ]
+            # The last column is left out where it would be empty.
+            width = 3 if any(meaning for *_, meaning in keys) else 2
+            rows = [("key", "type", "meaning"), ("---",) * 3, *keys]
+            table = "\n".join(f"| {' | '.join(row[:width])} |" for row in rows)
+            yield name, f"{_text(told)}\n\n{table}"
 
 
 def _meaning(key: str, field: Mapping[str, Any]) -> str:
