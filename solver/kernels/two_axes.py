@@ -46,13 +46,13 @@ from functools import partial
 import numpy as np
 from numba import njit
 
-from solver.kernels.compiler import KEPT, UNCOUNTED
+from solver.kernels.compiler import INNER, KEPT
 
 # Division by zero gives infinity, as in IEEE arithmetic: numba adds no test and raises nothing.
 # Without `_nrt` no reference is counted: every function but `slide_plane` borrows its arrays, and
 # locked counters took a tenth of the time.
 ieee = partial(njit, error_model="numpy")
-jit = partial(ieee, **UNCOUNTED)
+jit = partial(ieee, **INNER)
 
 # How a run ends.
 FOLLOWED = 0
