@@ -10,6 +10,7 @@ would write.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from itertools import chain, starmap
 from pathlib import Path
@@ -36,6 +37,8 @@ MOST_LINES = 244
 COMMANDS = "As `./roofslip COMMAND --help` prints them."
 FIELDS = "Every sheet, block and table of the input workbook, as the reader checks them."
 RESULTS = "All quantities are SI; a key ends with its unit. As JSON schema: `./roofslip schema`."
+
+ATTRIBUTES = "\n\nAttributes\n----------\n"
 
 Parts = Iterator[tuple[str, str]]
 """Headings, each with what is below it; `{Name}` is a link to the heading Name."""
@@ -148,23 +151,26 @@ def _results() -> Parts:
     models = schema["$defs"]
     for name, model in (("results.json", schema), *models.items()):
         if "properties" in model:
-            told = model.get("description", "").partition("\n\nAttributes\n")[0]
+            told, _, attributes = model.get("description", "").partition(ATTRIBUTES)
+            said = dict(_attributes(attributes))
             keys = [
-                (f"`{key}`", _type(field, models), _text(_meaning(key, field)))
+                (f"`{key}`", _type(field, models), _text(_meaning(key, field, said)))
                 for key, field in model["properties"].items()
             ]
-            # The last column is left out where it would be empty.
-            width = 3 if any(meaning for *_, meaning in keys) else 2
             rows = [("key", "type", "meaning"), ("---",) * 3, *keys]
-            table = "\n".join(f"| {' | '.join(row[:width])} |" for row in rows)
+            table = "\n".join(f"| {' | '.join(row)} |" for row in rows)
             yield name, f"{_text(told)}\n\n{table}"
 
 
-def _meaning(key: str, field: Mapping[str, Any]) -> str:
-    """Return the heading or label under which a field is shown, where it has one."""
-    made = key.replace("_", " ").title()  # what pydantic makes of the key
-    title = str(field.get("title", made))
-    return "" if title == made else title
+def _attributes(section: str) -> Iterator[tuple[str, str]]:
+    """Yield the names of a section Attributes, each with its text, or its type if it has none."""
+    for names, kind, text in re.findall(r"^(\S.*?) : (.*)((?:\n    .*)*)", section, re.M):
+        yield from ((name, text or kind) for name in names.split(", "))
+
+
+def _meaning(key: str, field: Mapping[str, Any], said: Mapping[str, str]) -> str:
+    """Return what a field says of itself, or the heading or label under which it is shown."""
+    return str(field.get("description") or said.get(key) or field["title"])
 
 
 def _type(field: Mapping[str, Any], models: Mapping[str, Any]) -> str:

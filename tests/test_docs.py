@@ -242,6 +242,21 @@ def test_every_page_is_in_the_contents_and_none_is_long():
     assert len(README.split()) <= 1500
 
 
+def test_every_key_of_results_json_has_a_meaning_that_is_more_than_its_name():
+    rows = [
+        row
+        for path, text in make_docs.pages().items()
+        if path.name.startswith("results-json")
+        for row in re.findall(r"^\| `(\w+)` \| .*? \| (.*?) \|$", text, re.MULTILINE)
+    ]
+    assert len(rows) > 400
+    named = [
+        key for key, meaning in rows if "_" in key and key.replace("_", " ").title() == meaning
+    ]
+    assert named == []
+    assert all(meaning for _, meaning in rows)
+
+
 def test_pages_that_the_program_makes_are_as_it_would_make_them():
     for path, text in make_docs.pages().items():
         assert DOCS[path] == text, f"python docs/make.py writes {path.name} anew"

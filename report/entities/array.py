@@ -69,6 +69,7 @@ class Displacements(Entity):
         Told(),
     ]
     computed_basis: Annotated[Basis, at("analysis.basis")]
+    """How the displacement by analysis follows from the peaks of the motions."""
     mean_prd_m: Annotated[
         Number,
         at("analysis.mean_m"),
@@ -84,6 +85,7 @@ class Displacements(Entity):
         Told(),
     ]
     prd_variation: Annotated[Number, at("variation")]
+    """Coefficient of variation of the PRDs of the motions; null for one motion."""
     prescriptive_m: Annotated[
         float,
         at("prescriptive.value_m"),
@@ -92,9 +94,11 @@ class Displacements(Entity):
         Told(),
     ]
     prescriptive_governs: Annotated[PrescriptiveBasis, at("prescriptive.governs")]
+    """What gives the prescriptive displacement: formula, minimum or SDC."""
     floor_m: Annotated[
         float, length("Floor"), Column("[in]", 2, "={floor_share}*{prescriptive_m}"), Told()
     ]
+    """Least design displacement after an analysis; 0 where peer review removes it."""
     design_m: Annotated[
         Number,
         length("Design"),
@@ -102,9 +106,13 @@ class Displacements(Entity):
         Column("[mm]", 1, _DESIGN_MM),
         Told(ChangeKind.DESIGN, "Array {row.id}"),
     ]
+    """Design displacement; null where no permitted route gives one."""
     design_is_overridden: Annotated[bool, at("design_mark"), BeforeValidator(bool)]
+    """Whether a number of the rule set behind it is overridden."""
     design_governs: Annotated[DesignBasis, at("governs")]
+    """What gives the design displacement."""
     design_permitted: Annotated[bool, at("is_permitted")]
+    """Whether the limits permit the route by which it was obtained."""
 
     @property
     def is_refused(self) -> bool:
@@ -134,6 +142,7 @@ class LowVelocityResult(Displacements):
 
     id: Annotated[str, words("Array", 1.1), Column()]
     mu: Annotated[float, at("array.mu")]
+    """Friction coefficient at low velocity."""
 
 
 class DirectionResult(Entity):
@@ -142,27 +151,39 @@ class DirectionResult(Entity):
     mean_m: Annotated[Number, Column("Mean of peaks [in]", 2, "=AVERAGE({peaks})")]
     largest_m: Annotated[Number, Column("Largest peak [in]", 2, "=MAX({peaks})")]
     computed_m: Annotated[Number, at("value_m"), Column("Computed [in]", 2, _TOWARD)]
+    """Displacement by analysis in this direction."""
     design_m: Annotated[Number, Column("In this direction [in]", 2, "=MAX({computed_m},{floor_m})")]
+    """Design displacement in this direction, with its floor."""
     design_by_chosen_model_m: Number
+    """The same, by the model that the workbook chooses for the array."""
 
 
 class TippingResult(Entity):
     """Tipping of an array, for the run nearest to it."""
 
     demand: float
+    """Largest shear over normal force without slip; null where the array lifts off."""
     capacity: float
+    """Shear over normal force at which it begins to tip, b / (2 h)."""
     held_ratio: Annotated[float, at("at_rest_ratio")]
+    """At rest: lesser of demand and static friction coefficient / capacity."""
     sliding_ratio: float
+    """While it slides: kinetic friction coefficient / capacity; 0 without slip."""
     ok: Annotated[bool, at("is_ok")]
+    """Whether the array never begins to tip."""
 
 
 class UpliftResult(Entity):
     """Uplift of an array, for the run with the smallest normal force."""
 
     n_min_g: float
+    """Least normal force / weight; negative with uplift."""
     t_first_s: Number
+    """Time when the normal force first falls below zero; null if it never does."""
     duration_s: float
+    """Total time with a negative normal force."""
     times: int
+    """Number of times that the normal force falls below zero."""
 
 
 class ArrayResult(LowVelocityResult):
@@ -183,24 +204,41 @@ class ArrayResult(LowVelocityResult):
         Column(),
         Told(ChangeKind.VERDICT, "Array {row.id}", of_gone=True),
     ]
+    """Verdict on the array, with the clearances beside it."""
     slope_rad: Annotated[float, at("array.slope_rad")]
+    """Roof slope."""
     friction: Annotated[Friction, at("array.friction")]
+    """Friction law as entered."""
     friction_as_run: Annotated[str, Shown(head="μ")]
+    """Friction coefficient in words, as printed."""
     model_asked_for: Annotated[ModelChoice, at("array.model")]
+    """Model that the workbook chooses."""
     model_is_enough: Annotated[bool, at("is_model_enough")]
+    """Whether the adequate models require no larger displacement than that model."""
     directions: Mapping[Direction, DirectionResult]
+    """Displacements by direction."""
     peaks: tuple[PeakResult, ...]
+    """Largest displacements by motion."""
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
+    """Largest sliding velocity of all runs."""
     interconnection_n: Annotated[
         float, _weight("Required"), Column("Interconnection required [lb]", 0, _STRENGTH)
     ]
+    """Strength required of the connections within the array."""
     tipping: TippingResult
+    """Tipping, for the run nearest to it."""
     uplift: UpliftResult
+    """Uplift, for the run with the least normal force."""
     route: Route
+    """Route by which the design displacement was obtained."""
     checks: tuple[LimitResult, ...]
+    """Limits that apply to both routes."""
     analysis_checks: tuple[LimitResult, ...]
+    """Limits on the route by analysis."""
     prescriptive_checks: tuple[LimitResult, ...]
+    """Limits on the prescriptive route."""
     runs: tuple[RunResult, ...]
+    """All runs."""
     source: Annotated[str, words("Governs", 1.55)] = printed("")
     limits: Annotated[Verdict, at("limits_verdict"), centered("Limits", 0.85)] = printed(
         Verdict.NONE

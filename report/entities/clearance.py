@@ -51,16 +51,22 @@ class ClearanceResult(Entity):
     array: Annotated[str, at("clearance.array"), words("From", 0.9), Column("Array")]
     object: Annotated[str, at("clearance.object"), words("To", 1.3), Column("Object")]
     direction: Annotated[Direction, at("clearance.direction"), Column("Direction")]
+    """Direction of the clearance from the array; any where none is entered."""
     neighbor: Annotated[Neighbor, Column("Condition")]
+    """Kind of neighbor, which gives the separation factor."""
     governing_array: Annotated[str, words("Array", 0.75)]
+    """Array whose displacement governs."""
     governing_direction: Annotated[Direction, words("Direction", 1.05)]
+    """Direction of its displacement that governs."""
     design_m: Annotated[
         Number, length("Displ.", 0.8), Column("Design [in]", 2, "={largest}", is_always=True)
     ]
     importance: Annotated[float, Column("Importance factor", 2, "={inputs[i_e]}", is_input=True)]
+    """Importance factor in the required separation."""
     factor: Annotated[
         float, plain("Factor", share=0.75), Column("", 2, "={rule_factor}*{importance}")
     ]
+    """Separation factor of the rule set, with the importance factor."""
     required_m: Annotated[
         Number,
         length("Required", 0.8),
@@ -71,6 +77,7 @@ class ClearanceResult(Entity):
         ),
     ]
     required_is_overridden: Annotated[bool, at("mark"), BeforeValidator(bool)]
+    """Whether a number of the rule set behind it is overridden."""
     provided_m: Annotated[
         float,
         at("clearance.provided_m"),
@@ -83,12 +90,14 @@ class ClearanceResult(Entity):
         Shown(head="D/C", text=ratio, share=0.75),
         Column("", 2, _RATIO, value=_as_printed, is_always=True),
     ]
+    """Required / provided separation."""
     verdict: Annotated[
         Verdict,
         centered("Verdict", 0.95),
         Column("Result", formula=_OK, is_always=True),
         Told(ChangeKind.VERDICT, "Clearance {row.array} to {row.object}"),
     ]
+    """OK, NG, or none where the required separation is not known."""
     count: Annotated[int, Shown(head="No.", share=0.42)] = printed(0)
     clause: Annotated[str, words("Clause", 2.1)] = printed("")
 

@@ -27,101 +27,157 @@ class RemedyResult(Entity):
     """A change that would satisfy a clearance or an array, under the keys of its unit."""
 
     quantity: RemedyKind
+    """What would have to change."""
     clearance: str | None
+    """Number of the clearance; null for the runs of an array."""
     array: str
+    """Array whose friction or displacement it is."""
     exists: bool
+    """Whether a value satisfies."""
     given: OfUnit
+    """Value entered: friction coefficient."""
     given_m: OfUnit
+    """Value entered: separation."""
     given_g: OfUnit
+    """Value of the project: S_DS."""
     value: OfUnit
+    """Least friction coefficient that satisfies."""
     value_m: OfUnit
+    """Least separation that satisfies."""
     value_g: OfUnit
+    """Largest S_DS that satisfies."""
     resolution: OfUnit
+    """Step of the search."""
     resolution_m: OfUnit
+    """Step of the search; 0 where the value follows from the runs."""
     resolution_g: OfUnit
+    """Step of the search."""
     verified: RangeOfUnit
+    """Range in which every value tried satisfied."""
     verified_m: RangeOfUnit
+    """Range in which every value tried satisfied."""
     verified_g: RangeOfUnit
+    """Range in which every value tried satisfied."""
     n_values: int
+    """Number of values tried in that range."""
     basis: str
+    """What was varied, or why no value satisfies."""
 
 
 class GivenResult(Entity):
     """A clearance given for a neighbor."""
 
     cell: str
+    """Cell of the clearance in the workbook."""
     provided_m: Annotated[float, at("clearance.provided_m")]
+    """Separation entered there."""
 
 
 class NeighborResult(Entity):
     """What the plan shows near an array, and the clearances that contradict it."""
 
     array: str
+    """Id of the array."""
     other: str
+    """Id of the array or object across the gap; words for an edge."""
     kind: NearbyKind
+    """What is across the gap."""
     gap_m: float
+    """Least distance in plan; negative if they overlap."""
     reach_m: Number
+    """Distance within which a clearance is needed."""
     is_missing: bool
+    """Whether it is that near and has no clearance."""
     add_to: Annotated[str, at("to_add")]
+    """Cell to which a missing row is to be added."""
     given: tuple[GivenResult, ...]
+    """Clearances between the two."""
     contradictions: Annotated[tuple[str, ...], BeforeValidator(_cells)]
+    """Cells of clearances that differ from the distance in plan."""
 
 
 class SurfaceResult(Entity):
     """The mean PRD of an array over friction and slope."""
 
     array: Annotated[str, at("array.id")]
+    """Array that is varied."""
     mus: tuple[float, ...]
+    """Friction coefficients at low velocity of the grid."""
     slopes_rad: tuple[float, ...]
+    """Slopes of the grid."""
     mean_prd_m: tuple[tuple[Number, ...], ...]
+    """Mean PRD of the motions: a row by slope, a value by friction coefficient."""
     n_unfinished: int
+    """Runs that still slide at the end of their record."""
     n_runs: int
+    """Runs on the grid."""
 
 
 class MarginResult(Entity):
     """The margin of a clearance in friction."""
 
     clearance: Annotated[str, at("number"), BeforeValidator(str)]
+    """Number of the clearance."""
     array: Annotated[str, at("array.id")]
+    """Array whose friction is varied."""
     mu: Annotated[float, at("array.array.mu")]
+    """Friction coefficient entered."""
     least_mu: Annotated[Number, at("minimum_mu")]
+    """Least friction coefficient at which the clearance is satisfied."""
     lowest_mu_tried: Annotated[Number, at("lowest_tried")]
+    """Friction coefficient at which the search ends."""
     is_beyond: bool
+    """Whether the clearance is satisfied throughout."""
     required_m: Number
+    """Required separation at the least friction coefficient."""
 
 
 class TurnedResult(Entity):
     """A run with the horizontal components turned."""
 
     angle_deg: float
+    """Angle of the pair, counterclockwise; at 0 the record acts downslope."""
     prd_m: Annotated[Number, at("result.prd_m")]
+    """PRD."""
     status: Annotated[Status, at("result.status")]
+    """Outcome."""
 
 
 class AnglesResult(Entity):
     """Directions of shaking that are not run for the design."""
 
     motion: Annotated[str, at("motion.motion.id")]
+    """Governing motion."""
     prd_m: Annotated[Number, at("motion.governing.result.prd_m")]
+    """PRD used for the design."""
     turned: tuple[TurnedResult, ...]
+    """Runs with the pair turned."""
     vertical_reversed_prd_m: Annotated[Number, at("reversed_m")]
+    """PRD with the vertical component reversed; null without one."""
 
 
 class UncertaintyResult(Entity):
     """How sure the displacements are."""
 
     surface: SurfaceResult
+    """Mean PRD over friction and slope."""
     margins: tuple[MarginResult, ...]
+    """Margin of each clearance in friction."""
     angles: AnglesResult
+    """Other directions of the same shaking."""
 
 
 class CumulativeResult(Entity):
     """The sums of the PRDs of the design event and of smaller ones, by motion."""
 
     array: Annotated[str, at("array.id")]
+    """Id of the array."""
     sums_m: Mapping[str, Number]
+    """Sum of the PRDs by motion."""
     mean_m: Number
+    """Mean of the sums."""
     largest_m: Number
+    """Largest of the sums."""
 
 
 def remedy_result(item: Remedy) -> RemedyResult:

@@ -43,6 +43,7 @@ class LinkedRunResult(OrientedResult):
 
     status: Annotated[Status, at("row.status"), Column("Outcome", value=attrgetter("sentence"))]
     rigid_status: Annotated[Status, at("rigid.status")]
+    """Outcome as one block."""
     rigid_prd_m: Annotated[Number, at("rigid.prd_m"), Column("PRD, rigid [in]")]
     prd_m: Annotated[
         tuple[Number, ...],
@@ -50,6 +51,7 @@ class LinkedRunResult(OrientedResult):
         Column("PRD of blocks, from the upslope end [in]", value=_listed),
     ]
     residual_m: Annotated[tuple[Number, ...], at("row.residual_m")]
+    """Residual displacement of each block, from the upslope end."""
     stretch_m: Annotated[Number, at("row.stretch_m"), Column("Largest link elongation [in]")]
     link_force_n: Annotated[Number, Column("Largest link force [lb]")]
     error_m: Annotated[Number, at("row.error_m"), Column("Error bound [in]")]
@@ -73,6 +75,7 @@ class LinkedResult(Entity):
 
     array: Annotated[str, at("design.id"), words("Array", 0.9), Column()]
     mus: Annotated[tuple[float, ...], at("row.mus")]
+    """Friction coefficient of each block, from the upslope end."""
     stiffness_n_per_m: Annotated[
         float,
         at("links.stiffness_n_per_m"),
@@ -95,12 +98,15 @@ class LinkedResult(Entity):
     design_m: Annotated[
         Number, at("design.design_m"), Column("Design used [in]", 3, "={design.design_m}")
     ]
+    """Design displacement of the array as one rigid block."""
     estimated_m: Annotated[
         Number, length("Design, with links"), Column("Design with links [in]", 3, _DESIGN)
     ]
     link_force_n: Annotated[Number, Shown(head="Link force", quantity=Quantity.WEIGHT, share=0.9)]
     rigid_is_enough: Annotated[bool, at("is_rigid_enough")]
+    """Whether one rigid block is adequate."""
     runs: tuple[LinkedRunResult, ...]
+    """All runs."""
     permitted_m: Annotated[Number, at("design.permitted_m"), length("Design, used")] = printed(
         math.nan
     )

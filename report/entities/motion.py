@@ -26,6 +26,7 @@ class RecordResult(Entity):
     name: Annotated[str, Column("Record")]
     format: Annotated[str, Column("Format")]
     notes: tuple[str, ...]
+    """What was read or assumed beyond the plain numbers."""
     sha256: Annotated[str, Column("SHA-256")]
     npts: Annotated[int, Column("Samples")]
     dt_s: Annotated[float, Column("Time step [s]")]
@@ -36,12 +37,19 @@ class RoofResult(Entity):
     """A component of a ground motion, carried to the roof."""
 
     words: Annotated[str, at("building.words")]
+    """The building in words."""
     n_modes: int
+    """Number of modes included."""
     next_mode_share: Annotated[float, at("next_share")]
+    """Contribution of the first neglected mode / peak at the roof."""
     left_out_share: float
+    """Contribution of all neglected modes / peak at the roof."""
     ground_peak_mps2: float
+    """Peak acceleration at the ground."""
     roof_peak_mps2: float
+    """Peak acceleration at the roof."""
     pad_s: float
+    """Free vibration after the end of the ground record."""
 
 
 class MotionResult(Entity):
@@ -53,9 +61,13 @@ class MotionResult(Entity):
     scaling: Annotated[str, Column("Scaling")]
     scale: Annotated[float, Column("Factor")]
     dt_s: float
+    """Time step."""
     npts: int
+    """Number of samples."""
     components: Annotated[Mapping[str, Measures], at("measures")]
+    """Measures of each component."""
     building: Annotated[Mapping[str, RoofResult], at("roof")]
+    """How each component was carried to the roof; empty for roof motions."""
 
 
 def motion_result(motion: Motion, prepared: PreparedMotion) -> MotionResult:

@@ -23,10 +23,15 @@ class FindingResult(Entity):
     """A warning or note on the input."""
 
     level: Level
+    """Warning or note."""
     id: str
+    """Name by which a warning is acknowledged; empty where none can be."""
     cell: str
+    """Cell of the workbook."""
     text: str
+    """What was found."""
     reason: str
+    """Why a warning is acknowledged; empty if it is not."""
 
 
 class RequirementRow(Entity):
@@ -45,14 +50,23 @@ class _FoundAndLimit(Entity):
     """A value found and its limit, each under the key of its unit."""
 
     title: str
+    """The limit in words."""
     found: OfUnit
+    """Value found: a count or a ratio."""
     found_deg: OfUnit
+    """Value found: an angle."""
     found_m: OfUnit
+    """Value found: a length."""
     found_s: OfUnit
+    """Value found: a time."""
     limit: OfUnit
+    """Limit: a count or a ratio."""
     limit_deg: OfUnit
+    """Limit: an angle."""
     limit_m: OfUnit
+    """Limit: a length."""
     limit_s: OfUnit
+    """Limit: a time."""
 
     @model_validator(mode="before")
     @classmethod
@@ -68,19 +82,28 @@ class LimitResult(_FoundAndLimit):
     """A limit of the rule set, with the value found."""
 
     clause: Annotated[str, at("provision.clause")]
+    """Clause that states it."""
     is_overridden: Annotated[bool, at("provision.reason"), BeforeValidator(bool)]
+    """Whether the workbook overrides its number."""
     ok: bool
+    """Whether the value is permitted."""
     by_exception: Annotated[bool, at("passes_by_exception")]
+    """Whether it is permitted beyond the limit."""
 
 
 class AcceptanceResult(_FoundAndLimit):
     """A limit on the motions, with the value found."""
 
     is_at_least: bool
+    """Whether the limit is the least value accepted, not the largest."""
     worst: str
+    """Motion, component and frequency of the value found; empty for that of all."""
     is_in_no_code: Annotated[bool, at("is_program_limit")]
+    """Whether it is a limit of this program alone."""
     ok: bool
+    """Whether the value is within the limit."""
     consequence: Consequence
+    """What follows if it is not."""
 
 
 def finding_results(

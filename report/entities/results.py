@@ -44,7 +44,9 @@ class WorkbookResult(Entity):
     """The workbook that was assessed."""
 
     name: Annotated[str, at("path.name")]
+    """Name of the file."""
     sha256: str
+    """SHA-256 of the file."""
 
 
 def _in_order(gaps: Any) -> tuple[Any, ...]:
@@ -55,20 +57,30 @@ class LowVelocity(Entity):
     """Arrays with their low-velocity friction coefficients alone, and clearances beside them."""
 
     arrays: tuple[LowVelocityResult, ...]
+    """Arrays whose friction depends on velocity."""
     clearances: Annotated[tuple[ClearanceResult, ...], BeforeValidator(_in_order)]
+    """Clearances beside them."""
 
 
 class Compared(Entity):
     """What a later revision is compared with."""
 
     roofslip_version: str
+    """Version that wrote the file."""
     records: Annotated[tuple[RecordResult, ...], at("shaking.records")]
+    """Records as read."""
     input: Annotated[ProjectInput, at("project")]
+    """Content of the workbook."""
     rule_set: Annotated[str, at("rules.name")]
+    """Name of the rule set."""
     verdict: Verdict
+    """Verdict on the project."""
     requirements: Annotated[tuple[Requirement, ...], at("rows")]
+    """Requirements besides the numeric limits."""
     arrays: tuple[ArrayResult, ...]
+    """Arrays in the order of the workbook."""
     clearances: tuple[ClearanceResult, ...]
+    """Clearances in the order of the workbook."""
 
 
 class Results(Compared):
@@ -80,20 +92,35 @@ class Results(Compared):
     )  # fmt: skip
 
     schema_version: int
+    """Raised where a key changes its name or meaning."""
     workbook: Annotated[WorkbookResult, at("sheet")]
+    """The file that was assessed."""
     motions: tuple[MotionResult, ...]
+    """Motions as run."""
     s_ds_g: Annotated[float, at("project.site.s_ds")]
+    """S_DS used."""
     sdc_is_confirmed: bool
+    """Whether the workbook states all that the seismic design category needs."""
     warnings: tuple[str, ...]
+    """Warnings of the runs, as sentences."""
     findings: tuple[FindingResult, ...]
+    """Warnings and notes on the input."""
     building_checks: tuple[LimitResult, ...]
+    """Limits on the building."""
     low_velocity: LowVelocity
+    """The same with friction at low velocity alone."""
     linked: tuple[LinkedResult, ...]
+    """Arrays as rows of linked blocks."""
     acceptance: Annotated[tuple[AcceptanceResult, ...], at("acceptance.rows")]
+    """Limits on the motions."""
     neighbors: tuple[NeighborResult, ...]
+    """Pairs in plan that are near or have a clearance."""
     remedies: tuple[RemedyResult, ...]
+    """Changes that would satisfy what is NG."""
     certainty: UncertaintyResult
+    """Margins in friction, slope and direction."""
     cumulative: tuple[CumulativeResult, ...]
+    """Cumulative displacement; empty where it is not asked for."""
 
 
 def schema() -> dict[str, Any]:

@@ -40,6 +40,7 @@ class OrientedResult(Entity):
     motion: Annotated[str, Column("Motion")]
     along: Annotated[str, at("orientation.component"), Column("Component along slope")]
     polarity: Annotated[int, at("orientation.polarity"), Column("Polarity", value=_polarity_words)]
+    """1 as recorded, -1 reversed."""
 
 
 class RunResult(OrientedResult):
@@ -47,8 +48,10 @@ class RunResult(OrientedResult):
 
     scale: Annotated[float, at("scene.scale"), Column("Scale")]
     dt_s: Annotated[float, at("scene.dt_s")]
+    """Time step."""
     status: Annotated[Status, at("result.status"), Column("Outcome", value=attrgetter("sentence"))]
     prd_m: Annotated[Number, at("result.prd_m"), Column("PRD [in]"), Column("PRD [mm]")]
+    """Peak relative displacement in plan; null without a final value."""
     residual_m: Annotated[
         Number, at("result.residual_m"), Column("Residual [in]"), Column("Residual [mm]")
     ]
@@ -61,20 +64,27 @@ class RunResult(OrientedResult):
     t_prd_s: Annotated[Number, at("result.t_prd_s"), Column("Time of PRD [s]")]
     n_stops: Annotated[int, at("result.n_stops"), Column("Stops")]
     n_min_g: Annotated[Number, at("result.n_min_g"), Column("Minimum N/(m g)")]
+    """Least normal force / weight."""
     t_uplift_s: Annotated[Number, at("result.t_uplift_s")]
+    """Time of the first uplift; null without uplift."""
     end_speed_mps: Annotated[Number, at("result.end_speed_mps")]
+    """Sliding velocity at the end of the record."""
     peak_speed_mps: Annotated[
         Number, at("result.peak_speed_mps"), Column("Largest velocity [in/s]")
     ]
     error_m: Annotated[Number, at("result.error_m"), Column("Error bound [in]")]
     rung: Annotated[int, at("solution.model"), Column("Model", value=_model_words)]
+    """Number of the model used, from 0, no slip, to 5, a row of linked blocks."""
     model: Annotated[str, at("solution.model.title")]
+    """Model used, in words."""
     reason: Annotated[str, at("solution.reason"), Column("Reason")]
     next_rung: Annotated[int, at("solution.next_model"), Column("Next model", value=_model_words)]
+    """Number of the next model, run to see its effect; that of this one if none is."""
     next_effect_m: Annotated[
         Number, at("solution.next_effect_m"), Column("Effect of next model [in]")
     ]
     friction_demand: Annotated[Number, at("solution.friction_demand"), Column("Friction demand")]
+    """Required friction coefficient: largest shear over normal force without slip."""
 
 
 def peak_result(motion: MotionRun) -> PeakResult:

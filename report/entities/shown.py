@@ -26,6 +26,7 @@ from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
 from report.entities.cells import Column
 from report.entities.columns import TableColumn, UnitFormat
+from report.sheet.schema.fields import docstrings
 from report.words.units import Quantity, Show, measured, number
 
 _Mark = TypeVar("_Mark")
@@ -199,7 +200,19 @@ class Entity(BaseModel):
 
 
 class WrittenSchema(GenerateJsonSchema):
-    """The JSON schema of what is written: without fields that are only printed."""
+    """The JSON schema of what is written: without fields that are only printed.
+
+    The docstring of a field is its description.
+    """
+
+    def model_schema(self, schema: Any) -> dict[str, Any]:
+        """Return the schema of a model, each field with its docstring or that of a base class."""
+        found = super().model_schema(schema)
+        for base in schema["cls"].__mro__[: schema["cls"].__mro__.index(BaseModel)]:
+            said = docstrings(base)
+            for name in said.keys() & found["properties"].keys():
+                found["properties"][name].setdefault("description", said[name])
+        return found
 
     def field_is_present(self, field: Any) -> bool:
         """Return whether a field is written."""

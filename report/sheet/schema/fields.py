@@ -133,7 +133,7 @@ class SheetSection:
     @property
     def instruction(self) -> str:
         """One line of instruction: the docstring of its field of `whole`."""
-        return _docstrings(self.whole)[self.key]
+        return docstrings(self.whole)[self.key]
 
     @property
     def table_name(self) -> str:
@@ -215,7 +215,7 @@ class Entry:
     @property
     def help(self) -> str:
         """The message shown when the cell is selected."""
-        return self.cell.help or _docstrings(self.model)[self.name]
+        return self.cell.help or docstrings(self.model)[self.name]
 
     @property
     def need(self) -> str:
@@ -262,7 +262,8 @@ def entries(model: type[Frozen]) -> tuple[Entry, ...]:
 
 
 @cache
-def _docstrings(model: type[BaseModel]) -> Mapping[str, str]:
+def docstrings(model: type[BaseModel]) -> Mapping[str, str]:
+    """Return the docstrings of the fields that a model itself has."""
     # As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.
     (definition,) = ast.parse(inspect.getsource(model)).body
     assert isinstance(definition, ast.ClassDef)
