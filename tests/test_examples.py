@@ -31,7 +31,6 @@ def dear_at_night(names):
 def test_an_example_runs_and_saves_what_it_shows(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
-    (tmp_path / "projects").symlink_to(ROOT / "projects")
     runpy.run_path(str(EXAMPLES / f"{name}.py"))
     pyplot.close("all")
     assert capsys.readouterr().out

@@ -5,15 +5,17 @@
 # horizontal component along the slope, in both polarities; the largest of these counts.
 
 # %%
+from pathlib import Path
+
 import numpy as np
 
 import solver
 
-records = "projects/example/records"
+records = Path(solver.__file__).parents[1] / "projects/example/records"
 motions = [
     solver.motion(
-        solver.read_record(f"{records}/RM{k}-x.csv"),
-        z=solver.read_record(f"{records}/RM{k}-z.csv"),
+        solver.read_record(records / f"RM{k}-x.csv"),
+        z=solver.read_record(records / f"RM{k}-z.csv"),
         id=f"RM{k}",
     )
     for k in range(1, 8)

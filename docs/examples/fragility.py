@@ -8,14 +8,18 @@
 # a loss estimate use records, or let `roofslip study` combine the dispersions that you state.
 
 # %%
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 
 import solver
 
+records = Path(solver.__file__).parents[1] / "projects/example/records"
+
 peaks = []
 for k in range(1, 8):
-    record = solver.read_record(f"projects/example/records/RM{k}-x.csv")
+    record = solver.read_record(records / f"RM{k}-x.csv")
     to_one_g = 9.80665 / abs(record.a_mps2).max()
     peaks.append(solver.motion(record, id=f"RM{k}", scale=to_one_g))
 ppa_g = np.linspace(0.1, 2.0, 20)

@@ -5,12 +5,15 @@
 # of four stories. What the ground would do to an array and what the roof does differ much.
 
 # %%
+from pathlib import Path
+
 import pandas as pd
 
 import solver
 
-records = [solver.read_record(f"projects/example/records/RM2-{name}.csv") for name in "xyz"]
-ground = solver.motion(*records, id="RM2", scale=0.3)
+records = Path(solver.__file__).parents[1] / "projects/example/records"
+components = [solver.read_record(records / f"RM2-{name}.csv") for name in "xyz"]
+ground = solver.motion(*components, id="RM2", scale=0.3)
 building = solver.building_of_periods([0.5], damping=[0.05], stories=4)
 roof = solver.at_roof(ground, building)
 print(building)

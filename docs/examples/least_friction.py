@@ -5,13 +5,15 @@
 # design value by response history is here 1.1 times the mean PRD of seven motions.
 
 # %%
+from pathlib import Path
+
 import numpy as np
 
 import solver
 
-records = "projects/example/records"
+records = Path(solver.__file__).parents[1] / "projects/example/records"
 motions = [
-    solver.motion(solver.read_record(f"{records}/RM{k}-x.csv"), id=f"RM{k}") for k in range(1, 8)
+    solver.motion(solver.read_record(records / f"RM{k}-x.csv"), id=f"RM{k}") for k in range(1, 8)
 ]
 slopes_deg, allowed_m = [0.0, 1.0, 2.0, 3.0], 0.3
 runs = solver.study(

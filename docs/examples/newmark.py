@@ -7,6 +7,7 @@
 
 # %%
 import math
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -43,7 +44,8 @@ assert abs(one_way(pulse, a_c, dt)[-1] / closed_m - 1.0) < 1e-3
 # the normal force frozen; and then no slip upslope, with the step of the record.
 
 # %%
-record = solver.read_record("projects/example/records/RM1-x.csv")
+records = Path(solver.__file__).parents[1] / "projects/example/records"
+record = solver.read_record(records / "RM1-x.csv")
 mu, slopes_deg = 0.4, [0.0, 1.0, 2.0, 3.0, 5.0]
 
 

@@ -8,6 +8,7 @@
 
 # %%
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -44,7 +45,8 @@ mine = replace(
 )
 
 # %%
-record = solver.read_record("projects/example/records/RM1-x.csv")
+records = Path(solver.__file__).parents[1] / "projects/example/records"
+record = solver.read_record(records / "RM1-x.csv")
 exact = solver.slide(record, slope_rad=0.03, mu=0.4)
 rows = {
     method.title: solver.slide(record, slope_rad=0.03, mu=0.4, method=method).prd_m

@@ -5,9 +5,12 @@
 # the record as given, linear between its samples.
 
 # %%
+from pathlib import Path
+
 import solver
 
-record = solver.read_record("projects/example/records/RM1-x.csv")
+records = Path(solver.__file__).parents[1] / "projects/example/records"
+record = solver.read_record(records / "RM1-x.csv")
 history = solver.slide_history(record, slope_rad=0.03, mu=0.4)
 print(history.result)
 

@@ -6,10 +6,12 @@
 
 # %%
 from math import hypot
+from pathlib import Path
 
 import solver
 
-x, y, z = (solver.read_record(f"projects/example/records/RM1-{name}.csv") for name in "xyz")
+records = Path(solver.__file__).parents[1] / "projects/example/records"
+x, y, z = (solver.read_record(records / f"RM1-{name}.csv") for name in "xyz")
 motion = solver.motion(x, y, z, id="RM1")
 both = solver.slide_history(motion, slope_rad=0.03, mu=0.4)
 along = solver.slide(x, az_mps2=z, slope_rad=0.03, mu=0.4)

@@ -5,11 +5,13 @@
 # every requirement as objects.
 
 # %%
+from pathlib import Path
+
 import pandas as pd
 
 import roofslip
 
-assessment = roofslip.assess_project("projects/conditions")
+assessment = roofslip.assess_project(Path(roofslip.__file__).parent / "projects/conditions")
 print(assessment)
 
 # %%
