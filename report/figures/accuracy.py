@@ -10,39 +10,40 @@ from collections.abc import Sequence
 from matplotlib.axes import Axes
 
 from report.assessment.sensitivity import MethodRun, Rivals
-from report.entities.columns import UnitFormat
-from report.figures.base import framed, labeled, style, svg_text
+from report.figures.base import ACCENT, framed, labeled, style, svg_text
 from report.figures.methods import LOOKS
-from report.figures.scales import decades, ticks
+from report.figures.scales import powers, ticks
 from report.memoized import memoized
+from report.words.letters import lettered
+from solver.rivals.methods import METHODS
 
 FLOOR = 1e-16  # an error of zero is drawn here: the resolution of a double
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 
 @memoized
-def work_precision(rivals: Rivals, us_first: bool) -> str:
-    """Return the error in PRD against steps per sampling interval, one line per method."""
-    unit = UnitFormat(us_first).units()[0]
+def work_precision(rivals: Rivals) -> str:
+    """Return the error in PRD against steps per sampling interval, one line per method.
+
+    Methods have the names of the table below the chart, and its order.
+    """
+    exact = METHODS["exact"]
     with style():
         figure, axes = framed(1.95, 0.62, 2.75, 0.1, 0.5)
+        floor = 100.0 * max(rivals.doubled, FLOOR)
+        look = LOOKS["exact"] | {"color": ACCENT, "markerfacecolor": ACCENT, "markersize": 11}
+        axes.plot([1.0], [floor], **look | {"label": exact.title})
+        axes.annotate(
+            f"{exact.title}: rounding error",
+            (1.0, floor),
+            (11, -3),
+            textcoords="offset points",
+            color=ACCENT,
+            weight="semibold",
+        )
         for name in dict.fromkeys(run.method.name for run in rivals.runs):
             _draw(axes, [run for run in rivals.runs if run.method.name == name and not run.failed])
-        floor = max(rivals.doubled, FLOOR)
-        axes.plot([1.0], [100.0 * floor], **LOOKS["exact"] | {"markersize": 9})
-        axes.annotate(
-            "exact method: rounding error",
-            (1.0, 100.0 * floor),
-            (9, 3),  # clear of the axis below
-            textcoords="offset points",
-        )
         _axes(axes, max(run.steps for run in rivals.runs))
-        peak = rivals.exact.prd_m / unit.si
-        other = axes.secondary_yaxis(
-            "right", functions=(lambda e: e * peak / 100.0, lambda u: u * 100.0 / peak)
-        )
-        other.set_ylabel(f"Error in PRD [{unit.symbol}]")
-        decades(other.yaxis)
         figure.legend(loc="center right", bbox_to_anchor=(1.0, 0.56), handlelength=3.2)
         return svg_text(figure)
 
@@ -51,12 +52,13 @@ def _draw(axes: Axes, runs: Sequence[MethodRun]) -> None:
     """Draw one method; its default setting is on the line like any other."""
     if not runs:
         return
-    look = LOOKS[runs[0].method.name]
-    if not runs[0].method.knob:  # the error does not depend on a number of steps
+    method = runs[0].method
+    look = LOOKS[method.name] | {"label": lettered(method.title)}
+    if not method.knob:  # the error does not depend on a number of steps
         axes.axhline(100.0 * runs[0].error, color=look["color"], linewidth=1.6, label=look["label"])
         return
     ordered = sorted(runs, key=lambda run: (run.steps, run.error))
-    if runs[0].method.knob != "substeps":  # several stiffnesses have the same steps
+    if method.knob != "substeps":  # several stiffnesses have the same steps
         ordered = sorted(
             (run for run in runs if not run.is_default),
             key=lambda run: list(run.parameters.values()),
@@ -71,5 +73,5 @@ def _axes(axes: Axes, maximum: float) -> None:
     axes.set_xlim(0.82, 1.25 * maximum)
     axes.set_ylim(1e-15, 300.0)
     ticks(axes.xaxis, _STEPS)
-    decades(axes.yaxis)
+    powers(axes.yaxis, range(-14, 3, 4))
     labeled(axes, "Steps per sampling interval", "Error in PRD [%]")

@@ -136,8 +136,9 @@ def draw_family(axes: Axes, x: Floats, family: Iterable[tuple[str, Floats]], **l
     """Draw a line for each member of a family; line and marker tell them apart without color."""
     for count, (label, y) in enumerate(family):
         axes.plot(
-            x, y, linestyle=LINES[count % 4], marker=MARKERS[count % 8], markersize=3.2,
-            linewidth=0.9, color=INK if count % 2 == 0 else ACCENT, label=label, **look,
+            x, y, linestyle=LINES[count % 4], marker=MARKERS[count % 8], markersize=4.0,
+            markerfacecolor="white", markeredgewidth=0.8, linewidth=0.9,
+            color=INK if count % 2 == 0 else ACCENT, label=label, **look,
         )  # fmt: skip
 
 

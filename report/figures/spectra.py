@@ -14,12 +14,22 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from report.assessment.spectra import Spectra
-from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, Broken, bare, style, svg_text
+from report.figures.base import (
+    ACCENT,
+    GRAY,
+    INK,
+    PALE,
+    WIDTH_IN,
+    Broken,
+    bare,
+    style,
+    svg_text,
+)
 from report.memoized import memoized
 from solver.model import Floats
 
-_ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.92, 0.26, 0.5, 0.24
-_LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 2.1, 0.52, 0.1
+_ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 1.15, 0.26, 0.5, 0.24
+_LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 1.6, 0.52, 0.1
 _FEW_S, _MANY_S = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0), (0.03, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _LEVELS = tuple(step * 10.0**power for power in range(-4, 2) for step in (1, 2, 5))
 _FACTOR = 3.0  # a ratio beyond it is drawn on a logarithmic axis
@@ -37,8 +47,9 @@ _THIN = 2  # the narrow panel shows every second period: the wide one has all of
 def spectra(parts: Sequence[Spectra]) -> str:
     """Return a row per component: spectra over period, and their ratio to the target.
 
-    Every motion is a thin line, the mean a thick one, the target dashed. A component without a
-    target has no ratio.
+    Every motion is a thin line, the mean a thick one, the target dashed. Of the ratios, a band is
+    drawn from the smallest to the largest motion: lines as close as these cannot be told apart. A
+    component without a target has no ratio.
     """
     height = _TOP_IN + (_ROW_IN + _TITLE_IN) * len(parts) + _FOOT_IN
     ratio_in = WIDTH_IN - _LEFT_IN - _FIRST_IN - _APART_IN - _RIGHT_IN
@@ -58,8 +69,12 @@ def spectra(parts: Sequence[Spectra]) -> str:
                 axes = panel(_LEFT_IN + _FIRST_IN + _APART_IN, ratio_in, row)
                 _ratios(axes, part)
                 _finish(axes, part, _MANY_S, is_last=row == len(parts) - 1)
-        marks, names = figure.axes[0].get_legend_handles_labels()
-        figure.legend(marks, names, loc="upper right", ncols=3, borderaxespad=0.1)
+        named = {
+            name: mark
+            for axes in figure.axes
+            for mark, name in zip(*axes.get_legend_handles_labels(), strict=True)
+        }
+        figure.legend(named.values(), named, loc="upper right", ncols=4, borderaxespad=0.1)
         return svg_text(figure)
 
 
@@ -86,7 +101,9 @@ def _label(axis: Axis, values: Sequence[float]) -> None:
 
 def _ratios(axes: Axes, part: Spectra) -> None:
     ratios = part.sa_g / part.target_g
-    _lines(axes, part.periods_s, ratios)
+    band = {"facecolor": PALE, "edgecolor": GRAY, "linewidth": 0.5, "label": "smallest to largest"}
+    axes.fill_between(part.periods_s, ratios.min(axis=0), ratios.max(axis=0), **band)
+    _mean(axes, part.periods_s, ratios)
     axes.axhline(1.0, color=INK, linewidth=1.4, linestyle=_DASHES)
     low, high = np.nanmin(ratios), np.nanmax(ratios)
     if high > _FACTOR:
@@ -109,6 +126,10 @@ def _lines(axes: Axes, periods_s: Floats, rows: Floats) -> None:
     for row in rows:
         each.add(periods_s, row)
     axes.plot(each.x, each.y, color=GRAY, linewidth=0.6, label="each motion")
+    _mean(axes, periods_s, rows)
+
+
+def _mean(axes: Axes, periods_s: Floats, rows: Floats) -> None:
     axes.plot(periods_s, rows.mean(axis=0), color=ACCENT, linewidth=1.8, label="mean")
 
 

@@ -13,7 +13,7 @@ from report.assessment.spectra import LEAST_MEAN, Spectra
 from report.document.tables import Column, Table, listed, stamp
 from report.entities.marks import dagger
 from report.entities.shown import plain, text, words
-from report.pages.parts import PackageData
+from report.pages.parts import MOTION_ROWS, PackageData
 from report.sheet.schema import MotionInput
 from report.typeset.equations import symbol
 from report.words.units import number
@@ -88,7 +88,8 @@ def strength_table(package: PackageData) -> Table:
             lambda motion: number(motion.hold_s, 1) if motion.is_generated else "record",
         ),
     )
-    return listed(package.assessment.acceptance.motions, columns, package.fmt, kind="compact")
+    motions = package.assessment.acceptance.motions
+    return listed(motions, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 
 def event_table(package: PackageData) -> Table:
@@ -105,7 +106,7 @@ def event_table(package: PackageData) -> Table:
         (text(symbol("V_s30"), "m/s"), lambda row: given(row.v_s30_mps)),
     )
     rows = filter(_has_event, package.data.motions)
-    return listed(rows, columns, package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 
 def _has_event(row: MotionInput) -> bool:

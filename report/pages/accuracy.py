@@ -19,6 +19,7 @@ from report.pages.parts import PackageData
 from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Status
+from solver.rivals.methods import METHODS
 from solver.sliding.least_model import Model
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
@@ -48,7 +49,7 @@ def _decade_ms(seconds: float) -> float:
 
 
 def _methods(package: PackageData, rivals: Rivals) -> Table:
-    exact = ("Exact, event by event", "none", rivals.exact.prd_m, "rounding error")
+    exact = (METHODS["exact"].title, "none", rivals.exact.prd_m, "rounding error")
     others = [
         (
             lettered(run.method.title),

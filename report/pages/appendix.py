@@ -15,7 +15,7 @@ from report.document.tables import Table, TableRow, listed
 from report.entities.columns import TableColumn
 from report.entities.shown import plain, words
 from report.motions.components import RecordFile
-from report.pages.parts import BAR, PackageData
+from report.pages.parts import BAR, MOTION_ROWS, PackageData
 from report.provenance.software import sbom_sha256
 from report.sheet.reading.read import IGNORED, EchoRow
 from report.words.formats import shortened
@@ -31,8 +31,8 @@ LIBRARIES = (
     "jinja2",
     "weasyprint",
 )
-WIDEST = 125.0
-"""Width of a table of the workbook, in letters."""
+WIDEST = 112.0
+"""Width of a table of the workbook, in letters: wide enough that a column holds its numbers."""
 
 MOST_LETTERS = 24
 """Width of a column at most, in letters: a longer entry has several lines."""
@@ -249,7 +249,7 @@ def records(package: PackageData) -> Table:
         (words("File", 1.04), lambda row: row.name),
         (words("SHA-256", 4.15 - 0.55 * len(own)), lambda row: row.sha256),
     )
-    return listed(rows, columns, package.fmt, kind="compact digest")
+    return listed(rows, columns, package.fmt, kind="compact digest", whole_rows=MOTION_ROWS)
 
 
 _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from report.document.tables import Table, listed
 from report.entities.shown import plain, text, words
 from report.motions.history import first_period_s
-from report.pages.parts import PackageData
+from report.pages.parts import MOTION_ROWS, PackageData
 from report.words.units import G_MPS2, number
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M
 from solver.building.roof import Building, RoofMotion
@@ -109,4 +109,4 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
         ),
         (plain("Extended by", 1, "s", 0.9), lambda item: item.roof.pad_s),
     )
-    return listed(components, columns, package.fmt, kind="compact")
+    return listed(components, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)

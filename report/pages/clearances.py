@@ -6,27 +6,48 @@ from collections.abc import Mapping
 
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
+from report.document.tables import Table, listed
+from report.entities.shown import length, words
 from report.pages.parts import PackageData
 from report.pages.remedies import answers
 from report.sheet.schema import ObjectKind
+from solver.rules.provisions import Neighbor
 
 
 def clearances(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
-    objects = {item.id: item for item in package.data.objects}
-    arrays = {array.id: array for array in package.data.arrays}
-    gaps = [
-        (gap, objects[gap.clearance.object], arrays[gap.clearance.array])
-        for gap in package.assessment.clearances
-        if gap.clearance.object in objects
-    ]
     return {
         "friction": mus_words(package.data.arrays),
-        "parapets": [
-            gap
-            for gap in gaps
-            if gap[1].kind is ObjectKind.EDGE_WITH_PARAPET and gap[1].height_m is not None
-        ],
+        "parapets": _parapets(package),
         "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),
         "remedies": answers(package, evidence.remedies),
     }
+
+
+def _parapets(package: PackageData) -> Table:
+    """Return the parapet of each clearance to an edge that has one, and whether it qualifies."""
+    edges = {
+        item.id: item.height_m
+        for item in package.data.objects
+        if item.kind is ObjectKind.EDGE_WITH_PARAPET and item.height_m is not None
+    }
+    arrays = {array.id: array.cg_height_m for array in package.data.arrays}
+    columns = (
+        (words("Parapet"), lambda row: row[0].object),
+        (words("Beside"), lambda row: row[0].array),
+        (length("Top above the roof"), lambda row: row[1]),
+        (length("Center of gravity"), lambda row: row[2]),
+        (length("Top above it"), lambda row: row[1] - row[2]),
+        (words("Result", 1.3), lambda row: row[3]),
+    )
+    rows = [
+        (
+            gap.clearance,
+            edges[gap.clearance.object],
+            arrays[gap.clearance.array],
+            "qualifies" if gap.neighbor is Neighbor.PARAPET else "does not qualify",
+        )
+        for gap in package.assessment.clearances
+        if gap.clearance.object in edges
+    ]
+    return listed(rows, columns, package.fmt, kind="compact")

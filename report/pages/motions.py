@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -13,13 +14,13 @@ from report.assessment.conditions import DRIFT_M, drifts
 from report.assessment.evidence import Evidence
 from report.assessment.highpass import Beyond
 from report.assessment.spectra import PRINTED_S, Spectra, departures
-from report.document.tables import Column, Table, TableRow, Wide, listed
+from report.document.tables import Column, Table, TableRow, Wide, by_name, listed
 from report.entities.columns import TableColumn
 from report.entities.shown import centered, length, plain, text, words
 from report.motions.history import PreparedMotion
 from report.pages.acceptance import acceptance_table, event_table, lowest_between, strength_table
 from report.pages.building import building_part
-from report.pages.parts import PackageData
+from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
 from report.words.units import G_MPS2, Unit, number
 from solver.model import Floats, Motion
@@ -40,12 +41,21 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     )
 
 
-def _motion_table(package: PackageData) -> Table:
+def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
+    """Return the motions of each source; nothing where every motion has a source of its own."""
+    found = by_name(motions, lambda motion: motion.source or "not given")
+    if len(found) == len(motions) > 1:
+        return {}
+    return {source: [motion.id for motion in of] for source, of in found.items()}
+
+
+def _motion_table(package: PackageData, *, has_sources: bool) -> Table:
     shaking = package.assessment.shaking
+    source: Column = (words("Source", 3.5), lambda row: with_symbols(row[0].source))
     place: Column = (words("Given at", 1.25), lambda row: row[1].recorded_at.value)
     columns = (
         (words("Motion", 0.9), lambda row: row[0].id),
-        (words("Source", 3.5), lambda row: with_symbols(row[0].source or "—")),
+        *([source] if has_sources else []),
         *([place] if package.has_ground else []),
         (plain("Peak [g]", 3, "record"), lambda row: _peak_g(row[0].ax_mps2, row[0].scale)),
         (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0].ay_mps2, row[0].scale)),
@@ -57,7 +67,7 @@ def _motion_table(package: PackageData) -> Table:
         (centered("Polarity"), lambda row: _polarity(row[0])),
     )
     rows = zip(shaking.motions, shaking.prepared, strict=True)
-    return listed(rows, columns, package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 
 def _peak_g(values: Floats, scale: float) -> float:
@@ -92,7 +102,7 @@ def _drift_table(package: PackageData, unit: Unit) -> Table:
         ),
     )
     prepared = package.assessment.shaking.prepared
-    return listed(prepared, columns, package.fmt, kind="compact")
+    return listed(prepared, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 
 def _final(prepared: PreparedMotion, name: str, end: str, si: float) -> float:
@@ -122,7 +132,7 @@ def _highpass_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
         (length("Without it", 1.3), lambda run: run.unfiltered_m),
         (text("Removed", "%", 1.2), lambda run: number(100.0 * run.share, 0)),
     )
-    return listed(beyond, columns, package.fmt, kind="compact")
+    return listed(beyond, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 
 def spectrum_table(spectra: Sequence[Spectra]) -> Table:
@@ -145,19 +155,20 @@ def _spectrum_rows(part: Spectra) -> Sequence[TableRow]:
     target, sa = part.target_g[at], part.sa_g[:, at]
     count = f"{len(part.ids)} motion{'s' if len(part.ids) > 1 else ''}"
     title = Markup("<b>{}</b>").format(part.title)
-    head = TableRow(cells=(Wide(title, 1 + len(PRINTED_S)),), kind="total group")
-    mean = _ordinates(f"Mean of {count} [g]", sa.mean(axis=0))
-    if not part.target.name:
-        return head, mean
-    share = sa / target
-    return (
-        head,
-        _ordinates(f"Target, {part.target.name} [g]", target),
-        mean,
-        _ordinates("Mean / target", share.mean(axis=0), decimals=2),
-        _ordinates("Smallest motion / target", share.min(axis=0), decimals=2),
-        _ordinates("Largest motion / target", share.max(axis=0), decimals=2),
-    )
+    rows = [
+        TableRow(cells=(Wide(title, 1 + len(PRINTED_S)),), kind="total"),
+        _ordinates(f"Mean of {count} [g]", sa.mean(axis=0)),
+    ]
+    if part.target.name:
+        share = sa / target
+        rows[1:1] = [_ordinates(f"Target, {part.target.name} [g]", target)]
+        rows += [
+            _ordinates("Mean / target", share.mean(axis=0), decimals=2),
+            _ordinates("Smallest motion / target", share.min(axis=0), decimals=2),
+            _ordinates("Largest motion / target", share.max(axis=0), decimals=2),
+        ]
+    # A component stays on one sheet.
+    return [*(replace(row, kind=f"{row.kind} group".lstrip()) for row in rows[:-1]), rows[-1]]
 
 
 def _ordinates(name: str, values: Floats, *, decimals: int = 3) -> TableRow:
@@ -215,9 +226,10 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
     shaking, spectra = package.assessment.shaking, evidence.spectra
-    unit = package.fmt.units()[0]
+    unit, sources = package.fmt.units()[0], _sources(shaking.motions)
     return {
-        "table": _motion_table(package),
+        "table": _motion_table(package, has_sources=not sources),
+        "sources": sources,
         "notes": dict.fromkeys(
             (row.motion_id, note.rstrip(".")) for row in shaking.records for note in row.notes
         ),

@@ -27,6 +27,8 @@ from solver.rules.provisions import Basis
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
 OK, NG = "OK", "NG"
+MOTION_ROWS = 22
+"""A table of motions with as many rows stays on one sheet: eleven pairs of components."""
 
 
 def nan_is_worst(value: float) -> float:

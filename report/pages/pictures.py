@@ -125,7 +125,7 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
         "motions-spectra": [
             figures.spectra(parts) for parts in ((roof, ground) if ground else (roof,))
         ],
-        "accuracy": [work_precision(rivals, us_first)] if rivals.runs else [],
+        "accuracy": [work_precision(rivals)] if rivals.runs else [],
         **{
             f"results-{count}": list(_histories(array, followed, us_first))
             for count, (array, followed) in enumerate(runs, start=1)

@@ -13,6 +13,7 @@ from report.document.tables import Table, listed
 from report.entities.shown import text
 from report.study import figures
 from report.study.page_parts import (
+    LOW_G,
     MOST_CUTS,
     MOST_FRICTIONS,
     MOST_LINES,
@@ -20,6 +21,7 @@ from report.study.page_parts import (
     design_length,
     friction_name,
     length,
+    low,
     some,
 )
 from report.study.results import STATISTICS, StudyResults
@@ -42,6 +44,8 @@ def curves(results: StudyResults, building: int) -> Section:
         content={
             "named": {m: friction_name(results, given.mus[m]) for m in shown},
             "sheets": [(name, is_thick) for name, _, is_thick in sheets],
+            "LOW_G": LOW_G,
+            "place": results.plan.motions.buildings[building],
             "middle": given.intensities[len(given.intensities) // 2],
             "displacements": _displacements(results, building),
         },
@@ -68,6 +72,7 @@ def _against_intensity(results: StudyResults, building: int, m: int) -> str:
         [(f"{given.slopes_deg[s]:g}°", values[s, m]) for s in shown],
         length_unit(results),
         along=axis(results),
+        low=low(results),
         beside=[mean[s, m] for s in shown],
     )
 
@@ -81,6 +86,7 @@ def _against_slope(results: StudyResults, building: int, m: int) -> str:
         [(level(results, given.intensities[x]), values[:, m, x]) for x in shown],
         length_unit(results),
         along="Slope [deg]",
+        low=given.slopes_deg[-1],
         beside=[mean[:, m, x] for x in shown],
     )
 

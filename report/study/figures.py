@@ -5,6 +5,7 @@ Computes only the layout; legible in black and white. Read `curves` first.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -28,8 +29,9 @@ from report.figures.base import (
     style,
     svg_text,
 )
+from report.figures.scales import decades
 from report.study.results import LimitState
-from report.words.units import Unit, digits_down
+from report.words.units import Quantity, Unit, digits_down, pair
 from solver.model import Floats
 from solver.studies.uncertainty import Bar
 
@@ -40,6 +42,7 @@ def curves(
     unit: Unit,
     *,
     along: str,
+    low: float = -math.inf,
     limits: Sequence[tuple[str, Floats]] = (),
     beside: Sequence[Floats] = (),
 ) -> str:
@@ -47,26 +50,44 @@ def curves(
 
     Parameters
     ----------
+    low : float, optional
+        Up to here, a panel on the left has the same on a logarithmic axis.
     limits : sequence of (str, array)
         Reference lines, thick.
     beside : sequence of array
         Mean PRD of each member [m], in thin lines.
     """
+    named = [(f"{label}: none" if np.isnan(v).all() else label, v / unit.si) for label, v in family]
+    means = [v / unit.si for v in beside if not np.isnan(v).all()]
     with style():
-        figure, axes = boxed(3.6, (0.085, 0.285, 0.89, 0.69))
-        # A member without any value is named, so that nobody looks for its line.
-        named = [(f"{label}: none" if np.isnan(v).all() else label, v) for label, v in family]
-        draw_family(axes, x, ((label, prd_m / unit.si) for label, prd_m in named))
-        for count, prd_m in enumerate(v for v in beside if not np.isnan(v).all()):
-            label = "_" if count else "mean PRD"  # an underscore: not in the legend
-            axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=0.6, label=label, zorder=1.5)
-        for label, prd_m in limits:
-            axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=2.0, label=label)
-        axes.set_xlim(min(0.0, x[0]), x[-1])
-        axes.set_ylim(0.0, None)
-        labeled(axes, along, f"Displacement [{unit.symbol}]")
-        legend_below(axes, 0.16, 5)
+        margins = {"left": 0.085, "right": 0.985, "above": 0.22, "below": 1.0}
+        figure, (row,) = panels(1, 1 + (low > x[0]), 3.5, **margins, wspace=0.2)
+        for axes in row:
+            # A member without any value is named, so that nobody looks for its line.
+            draw_family(axes, x, named)
+            for count, prd in enumerate(means):
+                label = "_" if count else "mean PRD"  # an underscore: not in the legend
+                axes.plot(x, prd, color=GRAY, linewidth=0.6, label=label, zorder=1.5)
+            for label, prd_m in limits:
+                axes.plot(x, prd_m / unit.si, color=GRAY, linewidth=2.0, label=label)
+            labeled(axes, along)
+            axes.set_xlim(min(0.0, x[0]), x[-1])
+            axes.set_ylim(0.0, None)
+        if low > x[0]:
+            _log(row[0], np.array([v[x <= low] for _, v in named]))
+            row[0].set_xlim(x[0], min(low, x[-1]))
+        row[0].set_ylabel(f"Displacement [{unit.symbol}]")
+        lines, labels = row[0].get_legend_handles_labels()
+        figure.legend(lines, labels, loc="lower center", ncols=5, handlelength=3.4)
         return svg_text(figure)
+
+
+def _log(axes: Axes, values: Floats) -> None:
+    """Set a logarithmic scale over the largest three decades of some values."""
+    top = float(np.nanmax(values, initial=1e-3))
+    axes.set_yscale("log", nonpositive="mask")
+    axes.set_ylim(1e-3 * top, 1.3 * top)
+    decades(axes.yaxis)
 
 
 def contours(
@@ -89,7 +110,7 @@ def contours(
         NaN for none.
     """
     with style():
-        figure, axes = boxed(7.6, (0.085, 0.075, 0.89, 0.91))
+        figure, axes = boxed(6.7, (0.085, 0.08, 0.89, 0.9))
         grid, levels = (x, slopes_deg), _levels(unit)
         allowed = allowed_m / unit.si
         others = [value for value in levels if value != round(allowed, 6)]
@@ -123,7 +144,7 @@ def _contour(
         drawn = axes.contour(*grid, shown, found, **look)
         labels = axes.clabel(
             drawn,
-            fmt=lambda value: f"{value:g} {unit.symbol}",
+            fmt=lambda v: pair(v * unit.si, Quantity.DISPLACEMENT, unit.symbol == "in"),
             inline_spacing=2,
             manual=list(_places(drawn, grid, height)),
         )

@@ -15,6 +15,8 @@ MOST_LINES = 8
 MOST_FRICTIONS = 4
 """Friction coefficients with pages of their own; a grid of more is drawn over friction."""
 MOST_CUTS = 3
+LOW_G = 0.8
+"""Intensity [g] below which displacements are small and drawn on a logarithmic axis as well."""
 
 
 def some(values: Sequence[float], maximum: int) -> list[int]:
@@ -33,6 +35,11 @@ def friction_name(results: StudyResults, mu: float) -> str:
 def axis(results: StudyResults) -> str:
     """Return the name of the measure of intensity."""
     return results.plan.input.study.intensity.value
+
+
+def low(results: StudyResults) -> float:
+    """Return the intensity up to which curves are also drawn on a logarithmic axis."""
+    return LOW_G if results.plan.input.study.intensity.unit == "g" else -math.inf
 
 
 def length(results: StudyResults, value_m: float) -> str:

@@ -17,7 +17,7 @@ from report.document.tables import Table, listed
 from report.entities.shown import centered, text, words
 from report.pages.symbols import with_symbols
 from report.study import figures
-from report.study.page_parts import MOST_FRICTIONS, MOST_LINES, axis, friction_name, some
+from report.study.page_parts import MOST_FRICTIONS, MOST_LINES, axis, friction_name, low, some
 from report.study.results import StudyResults
 from report.study.tables import length_unit
 from report.study.words import on_building
@@ -114,6 +114,7 @@ def _chart(results: StudyResults, building: int, m: int) -> str:
         ],
         length_unit(results),
         along=axis(results),
+        low=low(results),
         limits=((rule.rules.name, rule.prescriptive_m),),
     )
 

@@ -79,8 +79,11 @@ def test_a_drift_over_its_limit_prints_larger():
 def test_a_parapet_that_is_too_low_does_not_qualify():
     edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
     package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
-    text = printed(package, "clearances").line("Parapet N beside A3")
-    assert text.endswith(": it does not qualify, an edge without a parapet.")
+    row = printed(package, "clearances").table("Parapets").row("N")
+    assert (row["Beside"], row["Result"]) == ("A3", "does not qualify")
+    assert row["Top above the roof [in]"] == "20.0"
+    of_center = float(row["Center of gravity [in]"])
+    assert float(row["Top above it [in]"]) == pytest.approx(20.0 - of_center, abs=0.05)
 
 
 @pytest.mark.parametrize(
