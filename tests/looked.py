@@ -21,8 +21,8 @@ COLUMNS = 5
 TOP_PT, FOOT_PT = 0.9 * 72, 0.95 * 72  # margins, as in templates/package.css
 DRAWING_PT = 200.0  # a picture that is wider is a drawing, a narrower one an equation
 
-# A line of a cell ends within a number, and the next goes on with it.
-_BROKEN = re.compile(r"[\d.\-−/]\n[\d.]")
+# A line of a cell ends within a number, and the next goes on with it; a clause (13.6.12) does not.
+_BROKEN = re.compile(r"[\d.\-−/]\n(?!\d+\.\d+\.\d)[\d.]")
 _HASH = re.compile(r"[0-9a-f]{12}")
 _KINDS = ("H1", "H2", "P", "LI", "Caption", "Figure", "Table", "TH", "TD")
 
@@ -55,7 +55,7 @@ class Sheet:
 
     @property
     def begins_part(self) -> bool:
-        """Whether it begins with the heading of a part, or has none of the package's parts."""
+        """Whether it begins with the heading of a part."""
         return bool(self.blocks) and self.blocks[0].kind == "H1"
 
     def heads(self, last: bool) -> tuple[str, ...]:
@@ -78,8 +78,8 @@ def sheets(path: Path) -> list[Sheet]:
         return [_sheet(page, number) for number, page in enumerate(pdf, start=1)]
 
 
-def contact_sheet(path: Path, to: Path) -> Path:
-    """Draw all sheets of a PDF into one PNG in a folder, and return its path."""
+def contact_sheet(path: Path, to: Path) -> None:
+    """Draw all sheets of a PDF into one PNG."""
     with pypdfium2.PdfDocument(path) as pdf:
         images = [page.render(scale=0.75).to_pil() for page in pdf]
     wide, tall = (max(image.size[axis] for image in images) + 6 for axis in (0, 1))
@@ -87,10 +87,8 @@ def contact_sheet(path: Path, to: Path) -> Path:
     whole = Image.new("RGB", (COLUMNS * wide, rows * tall), "gray")
     for count, image in enumerate(images):
         whole.paste(image, (count % COLUMNS * wide, count // COLUMNS * tall))
-    to.mkdir(parents=True, exist_ok=True)
-    drawn = to / f"{path.parent.name}-{path.stem}.png"
-    whole.save(drawn)
-    return drawn
+    to.parent.mkdir(parents=True, exist_ok=True)
+    whole.save(to)
 
 
 def broken_numbers(found: Sequence[Sheet]) -> list[tuple[int, str]]:

@@ -6,7 +6,7 @@ Computes only the layout; legible in black and white. Read `curves` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,7 +31,7 @@ from report.figures.base import (
 )
 from report.figures.scales import decades
 from report.study.results import LimitState
-from report.words.units import Quantity, Unit, digits_down, pair
+from report.words.units import Quantity, Unit, digits_down, measured
 from solver.model import Floats
 from solver.studies.uncertainty import Bar
 
@@ -112,15 +112,20 @@ def contours(
     with style():
         figure, axes = boxed(6.7, (0.085, 0.08, 0.89, 0.9))
         grid, levels = (x, slopes_deg), _levels(unit)
+        us, si = Quantity.DISPLACEMENT.us, Quantity.DISPLACEMENT.si
+        second = si if unit == us else us
+        both = {"other": lambda v: f" ({measured(v, second)} {second.symbol})"}
         allowed = allowed_m / unit.si
         others = [value for value in levels if value != round(allowed, 6)]
         axes.set_xlim(x[0], x[-1])
         axes.set_ylim(slopes_deg[0], slopes_deg[-1])
         thin = {"colors": GRAY, "linewidths": 0.5, "linestyles": ":"}
-        _contour(axes, grid, mean_m, levels, unit, height=0.1, **thin)
-        _contour(axes, grid, design_m, others, unit, height=0.6, colors=INK, linewidths=0.8)
+        _contour(axes, grid, mean_m, levels, unit, height=0.08, **thin)
+        _contour(
+            axes, grid, design_m, others, unit, height=0.47, colors=INK, linewidths=0.8, **both
+        )
         thick = {"colors": ACCENT, "linewidths": 2.2}
-        _contour(axes, grid, design_m, (allowed,), unit, height=0.85, **thick)
+        _contour(axes, grid, design_m, (allowed,), unit, height=0.9, **thick, **both)
         labeled(axes, along, "Slope [deg]")
         return svg_text(figure)
 
@@ -133,9 +138,13 @@ def _contour(
     unit: Unit,
     *,
     height: float,
+    other: Callable[[float], str] = lambda _: "",
     **look: Any,
 ) -> None:
-    """Draw the contours that a sheet has, with their labels from a share of its height on."""
+    """Draw the contours that a sheet has, with their labels from a share of its height on.
+
+    `other` follows a label: the same in the other system of units.
+    """
     shown = lengths_m / unit.si
     if np.isnan(shown).all():
         return
@@ -144,7 +153,7 @@ def _contour(
         drawn = axes.contour(*grid, shown, found, **look)
         labels = axes.clabel(
             drawn,
-            fmt=lambda v: pair(v * unit.si, Quantity.DISPLACEMENT, unit.symbol == "in"),
+            fmt=lambda v: f"{v:g} {unit.symbol}{other(v * unit.si)}",
             inline_spacing=2,
             manual=list(_places(drawn, grid, height)),
         )
@@ -164,7 +173,7 @@ def _places(
         shares = (_dense(max(lines, key=len)) - low) / span
         inside = shares[((shares > 0.04) & (shares < 0.96)).all(axis=1)]
         if inside.size:
-            nearest = np.abs(inside[:, 1] - height - 0.1 * (count % 3)).argmin()
+            nearest = np.abs(inside[:, 1] - height - 0.145 * (count % 3)).argmin()
             x, y = low + span * inside[nearest]
             yield float(x), float(y)
 

@@ -157,7 +157,7 @@ def test_in_the_charts_of_a_study(drawn):
     design = 0.05 * (1.0 + slopes[:, None]) * levels**3
     family = [(f"{slope:g}°", design[k]) for k, slope in enumerate(slopes)]
     family[-1] = family[-1][0], np.full_like(levels, math.nan)
-    study.curves(levels, family, inch, along="PPA [g]", beside=list(design / 1.1))
+    study.curves(levels, family, inch, along="PPA [g]", low=0.8, beside=list(design / 1.1))
     study.contours(
         levels, slopes, design, design / 1.1, inch, along="PPA [g]", allowed_m=24 * inch.si
     )
@@ -187,7 +187,8 @@ def test_in_the_charts_of_a_study(drawn):
     assert len(drawn.figures) == 7
     curves, _, contours, *_ = ([text for text, *_ in texts] for texts, _ in drawn.figures)
     assert "7°: none" in curves
-    assert sum(text.endswith(" in") for text in contours) > 8, contours
+    assert sum(text.endswith((" in", " mm)")) for text in contours) > 8, contours
+    assert {"2 in", "2 in (51 mm)", "24 in (610 mm)"} <= set(contours)
     assert not list(faults(drawn))
 
 
