@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from report.assessment.sensitivity import MethodRun, Rivals
 from report.figures.base import ACCENT, framed, labeled, style, svg_text
 from report.figures.methods import LOOKS
-from report.figures.scales import powers, ticks
+from report.figures.scales import ticks
 from report.memoized import memoized
-from report.words.letters import lettered
+from report.words.letters import lettered, power_of_ten
 from solver.rivals.methods import METHODS
 
 FLOOR = 1e-16  # an error of zero is drawn here: the resolution of a double
@@ -33,14 +33,8 @@ def work_precision(rivals: Rivals) -> str:
         floor = 100.0 * max(rivals.doubled, FLOOR)
         look = LOOKS["exact"] | {"color": ACCENT, "markerfacecolor": ACCENT, "markersize": 11}
         axes.plot([1.0], [floor], **look | {"label": exact.title})
-        axes.annotate(
-            f"{exact.title}: rounding error",
-            (1.0, floor),
-            (11, -3),
-            textcoords="offset points",
-            color=ACCENT,
-            weight="semibold",
-        )
+        bold = {"textcoords": "offset points", "color": ACCENT, "weight": "semibold"}
+        axes.annotate(f"{exact.title}: rounding error", (1.0, floor), (11, -3), **bold)
         for name in dict.fromkeys(run.method.name for run in rivals.runs):
             _draw(axes, [run for run in rivals.runs if run.method.name == name and not run.failed])
         _axes(axes, max(run.steps for run in rivals.runs))
@@ -73,5 +67,7 @@ def _axes(axes: Axes, maximum: float) -> None:
     axes.set_xlim(0.82, 1.25 * maximum)
     axes.set_ylim(1e-15, 300.0)
     ticks(axes.xaxis, _STEPS)
-    powers(axes.yaxis, range(-14, 3, 4))
+    powers = range(-14, 3, 4)
+    axes.set_yticks([10.0**power for power in powers], map(power_of_ten, powers))
+    axes.minorticks_off()
     labeled(axes, "Steps per sampling interval", "Error in PRD [%]")

@@ -35,15 +35,6 @@ def decades(axis: Axis, maximum: int = 9) -> None:
     axis.set_minor_locator(NullLocator())
 
 
-def powers(axis: Axis, exponents: Sequence[int]) -> None:
-    """Label given powers of ten on a logarithmic axis, each as a power."""
-    axis.set_major_locator(FixedLocator([10.0**exponent for exponent in exponents]))
-    axis.set_major_formatter(
-        FuncFormatter(lambda value, _: letters.power_of_ten(round(math.log10(value))))
-    )
-    axis.set_minor_locator(NullLocator())
-
-
 def logarithmic(axes: Axes, across: int, up: int) -> None:
     """Make both axes logarithmic, each with at most so many powers of ten."""
     axes.set_xscale("log")

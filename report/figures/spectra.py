@@ -6,6 +6,7 @@ Computes only the layout; legible in gray (line style and width carry the meanin
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,17 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from report.assessment.spectra import Spectra
-from report.figures.base import (
-    ACCENT,
-    GRAY,
-    INK,
-    PALE,
-    WIDTH_IN,
-    Broken,
-    bare,
-    style,
-    svg_text,
-)
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, style, svg_text
 from report.memoized import memoized
 from solver.model import Floats
 
@@ -47,9 +38,8 @@ _THIN = 2  # the narrow panel shows every second period: the wide one has all of
 def spectra(parts: Sequence[Spectra]) -> str:
     """Return a row per component: spectra over period, and their ratio to the target.
 
-    Every motion is a thin line, the mean a thick one, the target dashed. Of the ratios, a band is
-    drawn from the smallest to the largest motion: lines as close as these cannot be told apart. A
-    component without a target has no ratio.
+    The motions are a band from the smallest to the largest: lines as close as these cannot be told
+    apart. The mean is thick, the target dashed. A component without a target has no ratio.
     """
     height = _TOP_IN + (_ROW_IN + _TITLE_IN) * len(parts) + _FOOT_IN
     ratio_in = WIDTH_IN - _LEFT_IN - _FIRST_IN - _APART_IN - _RIGHT_IN
@@ -69,12 +59,8 @@ def spectra(parts: Sequence[Spectra]) -> str:
                 axes = panel(_LEFT_IN + _FIRST_IN + _APART_IN, ratio_in, row)
                 _ratios(axes, part)
                 _finish(axes, part, _MANY_S, is_last=row == len(parts) - 1)
-        named = {
-            name: mark
-            for axes in figure.axes
-            for mark, name in zip(*axes.get_legend_handles_labels(), strict=True)
-        }
-        figure.legend(named.values(), named, loc="upper right", ncols=4, borderaxespad=0.1)
+        marks, names = figure.axes[0].get_legend_handles_labels()
+        figure.legend(marks, names, loc="upper right", ncols=3, borderaxespad=0.1)
         return svg_text(figure)
 
 
@@ -84,7 +70,7 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
     low, high = (0.85 * seen.min(), 1.3 * seen.max()) if seen.size else (0.1, 1.0)
     axes.set_ylim(low, high)
     axes.set_yscale("log", nonpositive="mask")
-    _lines(axes, part.periods_s[::_THIN], part.sa_g[:, ::_THIN])
+    _band(axes, part.periods_s[::_THIN], part.sa_g[:, ::_THIN])
     axes.plot(
         part.periods_s, part.target_g, color=INK, linewidth=1.4, linestyle=_DASHES, label="target"
     )
@@ -101,9 +87,7 @@ def _label(axis: Axis, values: Sequence[float]) -> None:
 
 def _ratios(axes: Axes, part: Spectra) -> None:
     ratios = part.sa_g / part.target_g
-    band = {"facecolor": PALE, "edgecolor": GRAY, "linewidth": 0.5, "label": "smallest to largest"}
-    axes.fill_between(part.periods_s, ratios.min(axis=0), ratios.max(axis=0), **band)
-    _mean(axes, part.periods_s, ratios)
+    _band(axes, part.periods_s, ratios)
     axes.axhline(1.0, color=INK, linewidth=1.4, linestyle=_DASHES)
     low, high = np.nanmin(ratios), np.nanmax(ratios)
     if high > _FACTOR:
@@ -120,16 +104,11 @@ def _ratios(axes: Axes, part: Spectra) -> None:
         axes.text(_CORNER_S, 1.03, "1.3 Hz", transform=axes.get_xaxis_transform(), ha="left")
 
 
-def _lines(axes: Axes, periods_s: Floats, rows: Floats) -> None:
-    """Draw every motion, as one line with gaps, and the mean."""
-    each = Broken()
-    for row in rows:
-        each.add(periods_s, row)
-    axes.plot(each.x, each.y, color=GRAY, linewidth=0.6, label="each motion")
-    _mean(axes, periods_s, rows)
-
-
-def _mean(axes: Axes, periods_s: Floats, rows: Floats) -> None:
+def _band(axes: Axes, periods_s: Floats, rows: Floats) -> None:
+    """Draw the extent of the motions, and their mean."""
+    ends = rows.min(axis=0), rows.max(axis=0)
+    look: Any = {"facecolor": PALE, "edgecolor": GRAY, "linewidth": 0.5}
+    axes.fill_between(periods_s, *ends, **look, label="smallest to largest motion")
     axes.plot(periods_s, rows.mean(axis=0), color=ACCENT, linewidth=1.8, label="mean")
 
 

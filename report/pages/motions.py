@@ -155,20 +155,23 @@ def _spectrum_rows(part: Spectra) -> Sequence[TableRow]:
     target, sa = part.target_g[at], part.sa_g[:, at]
     count = f"{len(part.ids)} motion{'s' if len(part.ids) > 1 else ''}"
     title = Markup("<b>{}</b>").format(part.title)
-    rows = [
-        TableRow(cells=(Wide(title, 1 + len(PRINTED_S)),), kind="total"),
-        _ordinates(f"Mean of {count} [g]", sa.mean(axis=0)),
-    ]
-    if part.target.name:
-        share = sa / target
-        rows[1:1] = [_ordinates(f"Target, {part.target.name} [g]", target)]
-        rows += [
-            _ordinates("Mean / target", share.mean(axis=0), decimals=2),
-            _ordinates("Smallest motion / target", share.min(axis=0), decimals=2),
-            _ordinates("Largest motion / target", share.max(axis=0), decimals=2),
-        ]
+    head = TableRow(cells=(Wide(title, 1 + len(PRINTED_S)),), kind="total group")
+    mean = _ordinates(f"Mean of {count} [g]", sa.mean(axis=0))
+    if not part.target.name:
+        return head, mean
+    share = sa / target
+    rows = (
+        _ordinates(f"Target, {part.target.name} [g]", target),
+        mean,
+        _ordinates("Mean / target", share.mean(axis=0), decimals=2),
+        _ordinates("Smallest motion / target", share.min(axis=0), decimals=2),
+    )
     # A component stays on one sheet.
-    return [*(replace(row, kind=f"{row.kind} group".lstrip()) for row in rows[:-1]), rows[-1]]
+    return (
+        head,
+        *(replace(row, kind="group") for row in rows),
+        _ordinates("Largest motion / target", share.max(axis=0), decimals=2),
+    )
 
 
 def _ordinates(name: str, values: Floats, *, decimals: int = 3) -> TableRow:

@@ -74,20 +74,15 @@ def curves(
             axes.set_xlim(min(0.0, x[0]), x[-1])
             axes.set_ylim(0.0, None)
         if low > x[0]:
-            _log(row[0], np.array([v[x <= low] for _, v in named]))
+            top = float(np.nanmax([v[x <= low] for _, v in named], initial=1e-3))
+            row[0].set_yscale("log", nonpositive="mask")
+            row[0].set_ylim(1e-3 * top, 1.3 * top)
             row[0].set_xlim(x[0], min(low, x[-1]))
+            decades(row[0].yaxis)
         row[0].set_ylabel(f"Displacement [{unit.symbol}]")
         lines, labels = row[0].get_legend_handles_labels()
         figure.legend(lines, labels, loc="lower center", ncols=5, handlelength=3.4)
         return svg_text(figure)
-
-
-def _log(axes: Axes, values: Floats) -> None:
-    """Set a logarithmic scale over the largest three decades of some values."""
-    top = float(np.nanmax(values, initial=1e-3))
-    axes.set_yscale("log", nonpositive="mask")
-    axes.set_ylim(1e-3 * top, 1.3 * top)
-    decades(axes.yaxis)
 
 
 def contours(
@@ -112,19 +107,18 @@ def contours(
     with style():
         figure, axes = boxed(6.7, (0.085, 0.08, 0.89, 0.9))
         grid, levels = (x, slopes_deg), _levels(unit)
-        us, si = Quantity.DISPLACEMENT.us, Quantity.DISPLACEMENT.si
-        second = si if unit == us else us
-        both = {"other": lambda v: f" ({measured(v, second)} {second.symbol})"}
+        (second,) = {Quantity.DISPLACEMENT.us, Quantity.DISPLACEMENT.si} - {unit}
+        both: Any = {"other": lambda v: f" ({measured(v, second)} {second.symbol})"}
         allowed = allowed_m / unit.si
         others = [value for value in levels if value != round(allowed, 6)]
         axes.set_xlim(x[0], x[-1])
         axes.set_ylim(slopes_deg[0], slopes_deg[-1])
-        thin = {"colors": GRAY, "linewidths": 0.5, "linestyles": ":"}
+        thin: Any = {"colors": GRAY, "linewidths": 0.5, "linestyles": ":"}
         _contour(axes, grid, mean_m, levels, unit, height=0.08, **thin)
         _contour(
             axes, grid, design_m, others, unit, height=0.47, colors=INK, linewidths=0.8, **both
         )
-        thick = {"colors": ACCENT, "linewidths": 2.2}
+        thick: Any = {"colors": ACCENT, "linewidths": 2.2}
         _contour(axes, grid, design_m, (allowed,), unit, height=0.9, **thick, **both)
         labeled(axes, along, "Slope [deg]")
         return svg_text(figure)
@@ -141,10 +135,7 @@ def _contour(
     other: Callable[[float], str] = lambda _: "",
     **look: Any,
 ) -> None:
-    """Draw the contours that a sheet has, with their labels from a share of its height on.
-
-    `other` follows a label: the same in the other system of units.
-    """
+    """Draw the contours that a sheet has, with their labels from a share of its height on."""
     shown = lengths_m / unit.si
     if np.isnan(shown).all():
         return

@@ -185,10 +185,10 @@ def test_in_the_charts_of_a_study(drawn):
     ]
     study.tornado(bars, 0.105, inch)
     assert len(drawn.figures) == 7
-    curves, _, contours, *_ = ([text for text, *_ in texts] for texts, _ in drawn.figures)
+    curves, posted, contours, *_ = ([text for text, *_ in texts] for texts, _ in drawn.figures)
     assert "7°: none" in curves
     assert sum(text.endswith((" in", " mm)")) for text in contours) > 8, contours
-    assert {"2 in", "2 in (51 mm)", "24 in (610 mm)"} <= set(contours)
+    assert {"2 in", "2 in (51 mm)", "24 in (610 mm)"} <= set(posted)
     assert not list(faults(drawn))
 
 
