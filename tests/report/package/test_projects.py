@@ -35,19 +35,6 @@ class Made:
     book: object
 
 
-def read_page(page):
-    """The words of a sheet, and how much of it is above its lowest line, foot and head left out."""
-    heights = []
-
-    def note(text, matrix, at, *_):
-        if text.strip():
-            heights.append(at[4] * matrix[1] + at[5] * matrix[3] + matrix[5])
-
-    words = " ".join(page.extract_text(visitor_text=note).split())
-    top, bottom = float(page.mediabox.height) - 0.9 * 72, 0.95 * 72
-    return words, (top - min(y for y in heights if bottom < y < top)) / (top - bottom)
-
-
 def made(done):
     return Made(
         terminal=done.stdout,
@@ -98,13 +85,6 @@ def test_the_example_has_the_conditions_that_its_friction_tests_leave(example):
     inputs = page("example", "inputs")
     assert "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 4.00 in/s" in inputs
     assert inputs.line("Array A3 with μ = 0.40 at every velocity, all motions rerun")
-
-
-@pytest.mark.parametrize("name", ["example", "school", "conditions"])
-@pytest.mark.nightly
-def test_no_sheet_but_the_letter_and_the_last_is_under_three_fifths_full(name, request):
-    sheets = [read_page(sheet) for sheet in request.getfixturevalue(name).pdf.pages]
-    assert all(share > 0.6 for text, share in sheets[:-1] if "Letter of results" not in text[:120])
 
 
 def script(name):

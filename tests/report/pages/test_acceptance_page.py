@@ -114,3 +114,22 @@ def test_a_limit_that_is_a_condition_is_one_in_each_table():
     assert [row["Verdict"] for row in rows if row["Requirement"] == title] == ["Condition"]
     shown = printed(package, "motions").table("Limits on the motions").rows
     assert [row["Result"] for row in shown if row["Limit"] == title] == ["Condition"]
+
+
+@pytest.mark.parametrize(
+    ("sources", "notes"),
+    [
+        ("XXX", ["Source: X."]),
+        ("XYX", ["Source of M1, M3: X.", "Source of M2: Y."]),
+        ("XYZ", []),
+    ],
+)
+def test_a_source_that_motions_share_is_said_once(sources, notes):
+    assessment = scenes.package().assessment
+    pairs = zip(assessment.shaking.motions, sources, strict=True)
+    motions = tuple(replace(motion, source=source) for motion, source in pairs)
+    given = replace(assessment, shaking=replace(assessment.shaking, motions=motions))
+    table = printed(given, "motions").table("Roof motions as run")
+    assert list(table.notes) == notes
+    assert ("Source" in table.headings) is (not notes)
+    assert "Source" not in table.headings or table.column("Source") == list(sources)
