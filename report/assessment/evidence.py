@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.building_variations import BuildingVariation, building_variations
 from report.assessment.cumulative import Cumulative, cumulative
 from report.assessment.highpass import Beyond, beyond_corners
 from report.assessment.project import Assessment
@@ -39,6 +40,8 @@ class Evidence(Plotted):
     # effects of friction, slope and directions of shaking that are not run
     uncertainty: Uncertainty
     cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
+    # the governing array with other periods and other damping, if the building transfers motions
+    building: tuple[BuildingVariation, ...]
 
 
 def plotted(assessment: Assessment) -> Plotted:
@@ -74,4 +77,5 @@ def support(assessment: Assessment, shown: Plotted | None = None) -> Evidence:
         remedies=remedies(assessment),
         uncertainty=uncertainty(assessment),
         cumulative=cumulative(assessment),
+        building=building_variations(assessment),
     )

@@ -122,6 +122,13 @@ def _motion(
     return motion, {LABELS[field]: response for field, response in roof.items()}
 
 
+def through_building(data: ProjectInput, row: MotionInput, prepared: PreparedMotion) -> Motion:
+    """Return a prepared ground motion at the roof of the building of an input, already scaled."""
+    fields = {field: prepared.scaled.get(label) for field, label in LABELS.items()}
+    records = {field: record for field, record in fields.items() if record is not None}
+    return _motion(data, row, records, 1.0)[0]
+
+
 def _building(data: ProjectInput, field: str) -> Building:
     """Return the building in the direction of a horizontal component."""
     asked = data.building

@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from report.assessment.building_variations import BuildingVariation
 from report.document.tables import Table, listed
-from report.entities.shown import plain, text, words
+from report.entities.shown import length, plain, text, words
 from report.motions.history import first_period_s
 from report.pages.parts import PackageData
 from report.words.units import G_MPS2, number
@@ -37,7 +38,9 @@ class _Transferred:
         return abs(self.scale) * self.roof.roof_peak_mps2 / G_MPS2
 
 
-def building_part(package: PackageData) -> Mapping[str, object]:
+def building_part(
+    package: PackageData, variations: Sequence[BuildingVariation]
+) -> Mapping[str, object]:
     """Return what the page needs on the motion from ground to roof."""
     shaking = package.assessment.shaking
     components = [
@@ -53,6 +56,8 @@ def building_part(package: PackageData) -> Mapping[str, object]:
         "period_s": first_period_s(package.data),
         "modes": _modes(package, components),
         "peaks": _peaks(package, components),
+        "shares": _shares(variations),
+        "variations": _variations(package, variations),
     }
 
 
@@ -110,3 +115,34 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
         (plain("Extended by", 1, "s", 0.9), lambda item: item.roof.pad_s),
     )
     return listed(components, columns, package.fmt, kind="compact")
+
+
+def _shares(variations: Sequence[BuildingVariation]) -> Sequence[float]:
+    """Return the mean PRD of each variation / that as used, which is first; NaN for none."""
+    used_m = variations[0].mean_prd_m
+    return [each.mean_prd_m / used_m if used_m > 0.0 else math.nan for each in variations]
+
+
+def _variations(package: PackageData, variations: Sequence[BuildingVariation]) -> Table:
+    used = variations[0]
+
+    def changed(item: BuildingVariation) -> str:
+        if item is used:
+            return "none, as used"
+        percent = 100.0 * (item.period_s / used.period_s - 1.0)
+        return f"period {percent:+.0f} %".replace("-", "−") if percent else "damping"
+
+    columns = (
+        (words("Change", 1.2), lambda row: changed(row[0])),
+        (text("Period", "s"), lambda row: f"{row[0].period_s:.3g}"),
+        (plain("Damping", 1, "% of critical"), lambda row: row[0].damping_percent),
+        (length("Mean PRD"), lambda row: row[0].mean_prd_m),
+        (plain("Mean PRD", 2, "/ used"), lambda row: row[1]),
+        (length("Largest PRD"), lambda row: row[0].largest_prd_m),
+        (length("Design displacement"), lambda row: row[0].design_m),
+    )
+    rows = zip(variations, _shares(variations), strict=True)
+    return listed(
+        rows, columns, package.fmt, kind="compact", whole_rows=len(variations),
+        style=lambda row: "total" if row[0] is used else "",
+    )  # fmt: skip
