@@ -9,6 +9,8 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import SHIFT
@@ -18,11 +20,13 @@ from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from report.motions.history import PreparedMotion
-from report.sheet.schema import Array, ProjectInput
+from report.motions.targets import targets
+from report.sheet.schema import Array, ProjectInput, RecordedAt
 from report.sheet.schema.fields import Place
 from report.words.counts import lowered
-from report.words.units import Quantity, compared, number, pair, rounding
+from report.words.units import G_MPS2, Quantity, compared, digits_up, number, pair, rounding
 from solver.records.acceptance import Acceptance
+from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
 
 if TYPE_CHECKING:
@@ -33,6 +37,10 @@ DRIFT_M = 0.010
 
 FIRE_LANE_M = 150 * 0.3048
 """Largest plan dimension of an array between fire lanes [m]."""
+
+LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
+"""Periods from which on the mean of the ground motions / their target is compared, and the ratio
+above which a peer reviewer must accept the motions: in no code."""
 
 MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
@@ -47,6 +55,7 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
         *override_rows(data),
         *hazard_rows(data),
         *_drift(data, prepared),
+        *_ground_motions(data, prepared),
         *friction_rows(data),
     )
 
@@ -96,6 +105,39 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
                 "displacement is real.",
                 place=Place("motions", index, "record"),
             )
+
+
+def _ground_motions(
+    data: ProjectInput, prepared: Sequence[PreparedMotion]
+) -> Iterator[Requirement]:
+    """Yield the mean of the ground motions / target at long periods, where there is a target."""
+    target = targets(data).ground
+    periods_s = 1.0 / POINTS_HZ
+    is_long = periods_s >= LONG_PERIOD_S
+    goal_mps2 = G_MPS2 * target.ordinates(periods_s)
+    ground = [item for item in prepared if item.recorded_at is RecordedAt.GROUND]
+    largest = []
+    for name in ("horizontal", "transverse"):
+        records = [item.scaled[name] for item in ground if name in item.scaled]
+        if records and (is_given := is_long & np.isfinite(goal_mps2)).any():
+            spectra = [spectrum_mps2(each.a_mps2.tobytes(), each.dt_s) for each in records]
+            ratios = np.where(is_given, np.mean(spectra, axis=0) / goal_mps2, 0.0)
+            at = int(ratios.argmax())
+            largest.append((float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s"))
+    if largest:
+        ratio, where = max(largest)
+        yield Requirement(
+            id="ground_motions",
+            title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to 10 s",
+            found=f"{digits_up(ratio, 3)} ({where})",
+            limit=f"≤ {number(MOST_LONG_RATIO, 2)}",
+            basis="limit of this program",
+            is_satisfied=ratio <= MOST_LONG_RATIO,
+            consequence=Consequence.CONDITION,
+            remedy="Obtain the peer reviewer's acceptance of the ground motions in writing, or use "
+            "ground motions that match the target at long periods.",
+            place=Place("motions"),
+        )
 
 
 def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requirement, ...]:

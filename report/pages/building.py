@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from report.assessment.building_variations import BuildingVariation
-from report.document.tables import Table, listed
+from report.document.tables import Column, Table, listed
 from report.entities.shown import length, plain, text, words
 from report.motions.history import first_period_s
 from report.pages.parts import PackageData
-from report.words.units import G_MPS2, number
+from report.words.units import G_MPS2
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M
 from solver.building.roof import Building, RoofMotion
 
 SHOWN_MODES = 6
 NAMES = {"horizontal": "record", "transverse": "transverse"}
 """Names of the horizontal components in the tables of runs."""
+SHORT = {"record": "record", "transverse": "transv."}
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +38,10 @@ class _Transferred:
     @property
     def roof_g(self) -> float:
         return abs(self.scale) * self.roof.roof_peak_mps2 / G_MPS2
+
+    @property
+    def amplification(self) -> float:
+        return self.roof_g / self.ground_g if self.ground_g else math.nan
 
 
 def building_part(
@@ -94,27 +100,40 @@ def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
 
 
 def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
-    columns = (
-        (words("Motion", 1.2), lambda item: item.motion),
-        (words("Component", 1.3), lambda item: item.name),
-        (plain("Peak", 3, "ground, g"), lambda item: item.ground_g),
-        (plain("Peak", 3, "roof, g"), lambda item: item.roof_g),
+    """Return the peaks and modes of each motion, its components side by side."""
+    names = dict.fromkeys(component.name for component in components)
+    quantities: Sequence[tuple[str, int, Callable[[_Transferred], float]]] = (
+        ("Ground peak, g", 3, lambda item: item.ground_g),
+        ("Roof peak, g", 3, lambda item: item.roof_g),
         (
-            text("Roof / ground"),
-            lambda item: number(item.roof_g / item.ground_g if item.ground_g else math.nan, 2),
+            "Roof / ground",
+            2,
+            lambda item: item.roof_g / item.ground_g if item.ground_g else math.nan,
         ),
-        (text("Modes included", share=0.9), lambda item: item.roof.n_modes),
-        (
-            plain("Next mode", 1, "% of roof peak", 1.2),
-            lambda item: 100.0 * item.roof.next_share,
-        ),
-        (
-            plain("All omitted", 1, "% of roof peak", 1.2),
-            lambda item: 100.0 * item.roof.left_out_share,
-        ),
-        (plain("Extended by", 1, "s", 0.9), lambda item: item.roof.pad_s),
+        ("Modes included", 0, lambda item: item.roof.n_modes),
+        ("Next mode, % of roof peak", 1, lambda item: 100.0 * item.roof.next_share),
+        ("All omitted, % of roof peak", 1, lambda item: 100.0 * item.roof.left_out_share),
     )
-    return listed(components, columns, package.fmt, kind="compact")
+    columns: Sequence[Column] = (
+        (words("Motion", 1.2), lambda of: next(iter(of.values())).motion),
+        *(
+            (plain(head, decimals, SHORT[name], 0.9), partial(_value, name=name, value=value))
+            for head, decimals, value in quantities
+            for name in names
+        ),
+        (plain("Extended by", 1, "s"), lambda of: max(item.roof.pad_s for item in of.values())),
+    )
+    by_motion: dict[str, dict[str, _Transferred]] = {}
+    for component in components:
+        by_motion.setdefault(component.motion, {})[component.name] = component
+    return listed(by_motion.values(), columns, package.fmt, kind="compact")
+
+
+def _value(
+    of: Mapping[str, _Transferred], name: str, value: Callable[[_Transferred], float]
+) -> float:
+    """Return a value of a component; NaN for one that the motion does not have."""
+    return value(of[name]) if name in of else math.nan
 
 
 def _shares(variations: Sequence[BuildingVariation]) -> Sequence[float]:
@@ -134,7 +153,7 @@ def _variations(package: PackageData, variations: Sequence[BuildingVariation]) -
 
     columns = (
         (words("Change", 1.2), lambda row: changed(row[0])),
-        (text("Period", "s"), lambda row: f"{row[0].period_s:.3g}"),
+        (plain("Period", 3, "s"), lambda row: row[0].period_s),
         (plain("Damping", 1, "% of critical"), lambda row: row[0].damping_percent),
         (length("Mean PRD"), lambda row: row[0].mean_prd_m),
         (plain("Mean PRD", 2, "/ used"), lambda row: row[1]),
