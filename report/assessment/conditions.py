@@ -21,7 +21,7 @@ from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
-from report.sheet.schema import Array, ProjectInput, RecordedAt
+from report.sheet.schema import Array, ProjectInput
 from report.sheet.schema.fields import Place
 from report.words.counts import lowered
 from report.words.units import G_MPS2, Quantity, compared, digits_up, number, pair, rounding
@@ -111,21 +111,19 @@ def _ground_motions(
     data: ProjectInput, prepared: Sequence[PreparedMotion]
 ) -> Iterator[Requirement]:
     """Yield the mean of the ground motions / target at long periods, where there is a target."""
-    target = targets(data).ground
-    periods_s = 1.0 / POINTS_HZ
-    is_long = periods_s >= LONG_PERIOD_S
-    goal_mps2 = G_MPS2 * target.ordinates(periods_s)
-    ground = [item for item in prepared if item.recorded_at is RecordedAt.GROUND]
-    largest = []
+    target, periods_s = targets(data).ground, 1.0 / POINTS_HZ
+    goal_mps2 = np.where(periods_s >= LONG_PERIOD_S, G_MPS2 * target.ordinates(periods_s), math.nan)
+    ratio, where = 0.0, ""
     for name in ("horizontal", "transverse"):
-        records = [item.scaled[name] for item in ground if name in item.scaled]
-        if records and (is_given := is_long & np.isfinite(goal_mps2)).any():
+        records = [item.scaled[name] for item in prepared if item.roof and name in item.scaled]
+        if records and np.isfinite(goal_mps2).any():
             spectra = [spectrum_mps2(each.a_mps2.tobytes(), each.dt_s) for each in records]
-            ratios = np.where(is_given, np.mean(spectra, axis=0) / goal_mps2, 0.0)
-            at = int(ratios.argmax())
-            largest.append((float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s"))
-    if largest:
-        ratio, where = max(largest)
+            ratios = np.mean(spectra, axis=0) / goal_mps2
+            at = int(np.nanargmax(ratios))
+            ratio, where = max(
+                (ratio, where), (float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s")
+            )
+    if where:
         yield Requirement(
             id="ground_motions",
             title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to 10 s",

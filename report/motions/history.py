@@ -123,9 +123,9 @@ def _motion(
 
 
 def through_building(data: ProjectInput, row: MotionInput, prepared: PreparedMotion) -> Motion:
-    """Return a prepared ground motion at the roof of the building of an input, already scaled."""
-    fields = {field: prepared.scaled.get(label) for field, label in LABELS.items()}
-    records = {field: record for field, record in fields.items() if record is not None}
+    """Return a prepared motion, already scaled, at the roof of the building of an input."""
+    named = prepared.scaled
+    records = {field: named[label] for field, label in LABELS.items() if label in named}
     return _motion(data, row, records, 1.0)[0]
 
 

@@ -5,7 +5,6 @@ Owns no content: see the other `report.pages` modules. Read `PackageData`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,11 +26,6 @@ from solver.rules.provisions import Basis
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
 OK, NG = "OK", "NG"
-
-
-def nan_is_worst(value: float) -> float:
-    """Return a sort key in which NaN is the largest."""
-    return math.inf if math.isnan(value) else value
 
 
 def statistic(basis: Basis) -> str:
