@@ -1,4 +1,4 @@
-"""Requirements beside the numeric limits: what is not on file, not stated or close to a limit.
+"""Requirements other than the numeric limits: what is not on file, not stated or close to a limit.
 
 Each row says what its lack leads to. Read `project_rows` and `array_rows`.
 """
@@ -101,8 +101,8 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
                 basis="limit of this program",
                 is_satisfied=False,
                 consequence=Consequence.CONDITION,
-                remedy="Drift of a record becomes slip: correct its baseline, or show that the "
-                "displacement is real.",
+                remedy="Drift of a record is computed as slip: correct its baseline, or show that "
+                "the displacement is real.",
                 place=Place("motions", index, "record"),
             )
 
@@ -165,10 +165,11 @@ def _motion_row(missed: Limit, takes_analysis: bool) -> Requirement:
 
 def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
     if not is_ng:
-        return "Show that the motions are strong for long enough, or replace them."
+        return "Show that the duration of strong motion is sufficient, or replace the motions."
     if takes_analysis:
         return (
-            "Without it the value from analysis is not permitted: replace or complete the motions."
+            "Until it is satisfied, the value from analysis is not permitted: replace or complete "
+            "the motions."
         )
     return "The design displacements are prescriptive; the analysis is for information."
 
@@ -202,7 +203,12 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
 def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
     """Return what is found of a clearance, and what is required."""
     if not neighbor.is_short:
-        return NOT_GIVEN if neighbor.is_missing else "contradicts the plan", "given, as in the plan"
+        if neighbor.is_missing:
+            return NOT_GIVEN, "a clearance, as in the plan"
+        entered = {row.clearance.provided_m for row in neighbor.contradictions}
+        given = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
+        gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
+        return f"differs from the plan: {given} entered, {gap} measured", "as in the plan"
     shown, had = compared(neighbor.required_m, neighbor.gap_m)
     gap = pair(neighbor.gap_m, Quantity.SIZE, us_first, had)
     required = NO_DESIGN
@@ -304,6 +310,7 @@ def less_friction_rows(
             f"The {given.route} route",
             Verdict.OK if given.is_permitted else Verdict.NG,
             Verdict.OK if less.is_permitted else Verdict.NG,
+            "permitted",
             "no route is permitted: confirm the friction coefficient",
         )
         for given, less in zip(arrays, reduced.arrays, strict=True)
@@ -314,18 +321,20 @@ def less_friction_rows(
             f"Clearance {given.clearance.array} to {given.clearance.object}",
             given.verdict,
             less.verdict,
-            "this clearance is NG: confirm the friction coefficient, or provide more clearance",
+            "satisfied",
+            "this clearance is not satisfied: confirm the friction coefficient, or provide more "
+            "clearance",
         )
         for given, less in zip(clearances, reduced.clearances, strict=True)
     )
-    for subject, title, before, after, effect in (*routes, *gaps):
+    for subject, title, before, after, required, effect in (*routes, *gaps):
         if before.is_permitted and not after.is_permitted:
             yield Requirement(
                 id="less_friction",
                 title=f"{title} with {friction}",
                 subject=subject,
-                found=after.value,
-                limit=before.value,
+                found=f"not {required}",
+                limit=required,
                 basis="sensitivity",
                 is_satisfied=False,
                 consequence=Consequence.CONDITION,

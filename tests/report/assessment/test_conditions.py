@@ -1,4 +1,4 @@
-"""Requirements beside the numeric limits, and the three verdicts."""
+"""Requirements other than the numeric limits, and the three verdicts."""
 
 import datetime as dt
 
