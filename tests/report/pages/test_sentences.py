@@ -79,7 +79,7 @@ def test_a_drift_over_its_limit_prints_larger():
 def test_a_parapet_that_is_too_low_does_not_qualify():
     edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
     package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
-    text = printed(package, "clearances").line("Parapet N beside A3")
+    text = printed(package, "clearances").line("Parapet N next to A3")
     assert text.endswith(": it does not qualify, an edge without a parapet.")
 
 
