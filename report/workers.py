@@ -70,7 +70,7 @@ class WorkerProcess(Executor):
     prepare : callable
         What the process calls first, such as for its limits.
     is_trusted : bool
-        Whether what comes back may be unpickled. From a process that reads files of strangers it
+        Whether what comes back may be unpickled. From a process that reads untrusted files it
         may not: results are then JSON, and an exception ends the process.
     told : callable
         Gets what a function tells (`tell`) before its result, in a thread of its own.

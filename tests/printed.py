@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 import packages
+from report.assessment.building_variations import building_variations
 from report.assessment.cumulative import cumulative
 from report.assessment.evidence import plotted
 from report.assessment.highpass import beyond_corners
@@ -130,6 +131,7 @@ class _Evidence:
     remedies = cached_property(lambda self: remedies(self._assessment))
     uncertainty = cached_property(lambda self: uncertainty(self._assessment))
     cumulative = cached_property(lambda self: cumulative(self._assessment))
+    building = cached_property(lambda self: building_variations(self._assessment))
     plotted = cached_property(lambda self: plotted(self._assessment))
     spectra = cached_property(lambda self: self.plotted.spectra)
     histories = cached_property(lambda self: self.plotted.histories)

@@ -92,11 +92,12 @@ def usual() -> Assessment:
     return stand_in.assess_input(stand_in.project(), motions(7))
 
 
-def grounded(data, given, *, vertical: bool = True) -> Book:
+def grounded(data, given, *, vertical: bool = True, transverse: bool = False) -> Book:
     """Return the book of motions that were recorded on the ground, carried through the building."""
     parts = []
     for motion, row in zip(given, data.motions, strict=True):
         components = {"record": motion.ax_mps2} | ({"vertical": motion.az_mps2} if vertical else {})
+        components |= {"transverse": motion.ay_mps2} if transverse else {}
         records = {
             name: Record(name=name, dt_s=motion.dt_s, a_mps2=a) for name, a in components.items()
         }

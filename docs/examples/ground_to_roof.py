@@ -2,7 +2,8 @@
 # # Ground to roof
 #
 # A ground motion is carried through an elastic building to its roof: here a uniform shear building
-# of four stories. What the ground would do to an array and what the roof does differ much.
+# of four stories. The slip of an array under the ground motion and under the roof motion differ
+# considerably.
 
 # %%
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Requirements beside the numeric limits: what is not on file, not stated or close to a limit.
+"""Requirements other than the numeric limits: what is not on file, not stated or close to a limit.
 
 Each row says what its lack leads to. Read `project_rows` and `array_rows`.
 """
@@ -9,6 +9,8 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import SHIFT
@@ -18,11 +20,13 @@ from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
 from report.motions.history import PreparedMotion
+from report.motions.targets import targets
 from report.sheet.schema import Array, ProjectInput
 from report.sheet.schema.fields import Place
 from report.words.counts import lowered
-from report.words.units import Quantity, compared, number, pair, rounding
+from report.words.units import G_MPS2, Quantity, compared, digits_up, number, pair, rounding
 from solver.records.acceptance import Acceptance
+from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
 
 if TYPE_CHECKING:
@@ -33,6 +37,10 @@ DRIFT_M = 0.010
 
 FIRE_LANE_M = 150 * 0.3048
 """Largest plan dimension of an array between fire lanes [m]."""
+
+LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
+"""Periods from which on the mean of the ground motions / their target is compared, and the ratio
+above which a peer reviewer must accept the motions: in no code."""
 
 MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
@@ -47,6 +55,7 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
         *override_rows(data),
         *hazard_rows(data),
         *_drift(data, prepared),
+        *_ground_motions(data, prepared),
         *friction_rows(data),
     )
 
@@ -92,10 +101,41 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
                 basis="limit of this program",
                 is_satisfied=False,
                 consequence=Consequence.CONDITION,
-                remedy="Drift of a record becomes slip: correct its baseline, or show that the "
-                "displacement is real.",
+                remedy="Drift of a record is computed as slip: correct its baseline, or show that "
+                "the displacement is real.",
                 place=Place("motions", index, "record"),
             )
+
+
+def _ground_motions(
+    data: ProjectInput, prepared: Sequence[PreparedMotion]
+) -> Iterator[Requirement]:
+    """Yield the mean of the ground motions / target at long periods, where there is a target."""
+    target, periods_s = targets(data).ground, 1.0 / POINTS_HZ
+    goal_mps2 = np.where(periods_s >= LONG_PERIOD_S, G_MPS2 * target.ordinates(periods_s), math.nan)
+    ratio, where = 0.0, ""
+    for name in ("horizontal", "transverse"):
+        records = [item.scaled[name] for item in prepared if item.roof and name in item.scaled]
+        if records and np.isfinite(goal_mps2).any():
+            spectra = [spectrum_mps2(each.a_mps2.tobytes(), each.dt_s) for each in records]
+            ratios = np.mean(spectra, axis=0) / goal_mps2
+            at = int(np.nanargmax(ratios))
+            ratio, where = max(
+                (ratio, where), (float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s")
+            )
+    if where:
+        yield Requirement(
+            id="ground_motions",
+            title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to 10 s",
+            found=f"{digits_up(ratio, 3)} ({where})",
+            limit=f"≤ {number(MOST_LONG_RATIO, 2)}",
+            basis="limit of this program",
+            is_satisfied=ratio <= MOST_LONG_RATIO,
+            consequence=Consequence.CONDITION,
+            remedy="Obtain the peer reviewer's acceptance of the ground motions in writing, or use "
+            "ground motions that match the target at long periods.",
+            place=Place("motions"),
+        )
 
 
 def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requirement, ...]:
@@ -125,10 +165,11 @@ def _motion_row(missed: Limit, takes_analysis: bool) -> Requirement:
 
 def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
     if not is_ng:
-        return "Show that the motions are strong for long enough, or replace them."
+        return "Show that the duration of strong motion is sufficient, or replace the motions."
     if takes_analysis:
         return (
-            "Without it the value from analysis is not permitted: replace or complete the motions."
+            "Until it is satisfied, the value from analysis is not permitted: replace or complete "
+            "the motions."
         )
     return "The design displacements are prescriptive; the analysis is for information."
 
@@ -162,7 +203,12 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
 def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, str]:
     """Return what is found of a clearance, and what is required."""
     if not neighbor.is_short:
-        return NOT_GIVEN if neighbor.is_missing else "contradicts the plan", "given, as in the plan"
+        if neighbor.is_missing:
+            return NOT_GIVEN, "a clearance, as in the plan"
+        entered = {row.clearance.provided_m for row in neighbor.contradictions}
+        given = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
+        gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
+        return f"differs from the plan: {given} entered, {gap} measured", "as in the plan"
     shown, had = compared(neighbor.required_m, neighbor.gap_m)
     gap = pair(neighbor.gap_m, Quantity.SIZE, us_first, had)
     required = NO_DESIGN
@@ -264,6 +310,7 @@ def less_friction_rows(
             f"The {given.route} route",
             Verdict.OK if given.is_permitted else Verdict.NG,
             Verdict.OK if less.is_permitted else Verdict.NG,
+            "permitted",
             "no route is permitted: confirm the friction coefficient",
         )
         for given, less in zip(arrays, reduced.arrays, strict=True)
@@ -274,18 +321,20 @@ def less_friction_rows(
             f"Clearance {given.clearance.array} to {given.clearance.object}",
             given.verdict,
             less.verdict,
-            "this clearance is NG: confirm the friction coefficient, or provide more clearance",
+            "satisfied",
+            "this clearance is not satisfied: confirm the friction coefficient, or provide more "
+            "clearance",
         )
         for given, less in zip(clearances, reduced.clearances, strict=True)
     )
-    for subject, title, before, after, effect in (*routes, *gaps):
+    for subject, title, before, after, required, effect in (*routes, *gaps):
         if before.is_permitted and not after.is_permitted:
             yield Requirement(
                 id="less_friction",
                 title=f"{title} with {friction}",
                 subject=subject,
-                found=after.value,
-                limit=before.value,
+                found=f"not {required}",
+                limit=required,
                 basis="sensitivity",
                 is_satisfied=False,
                 consequence=Consequence.CONDITION,

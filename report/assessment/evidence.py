@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.building_variations import building_variations
 from report.assessment.cumulative import Cumulative, cumulative
 from report.assessment.highpass import Beyond, beyond_corners
 from report.assessment.project import Assessment
@@ -16,7 +17,9 @@ from report.assessment.remedies import Remedy, remedies
 from report.assessment.sensitivity import Accuracy, accuracy
 from report.assessment.spectra import Spectra, spectra
 from report.assessment.uncertainty import Uncertainty, uncertainty
+from report.sheet.schema import BuildingInput
 from solver.model import SlideHistory
+from solver.rules.provisions import AnalysisValue
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +42,7 @@ class Evidence(Plotted):
     # effects of friction, slope and directions of shaking that are not run
     uncertainty: Uncertainty
     cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
+    building: tuple[tuple[BuildingInput, AnalysisValue], ...]  # with other periods and damping
 
 
 def plotted(assessment: Assessment) -> Plotted:
@@ -74,4 +78,5 @@ def support(assessment: Assessment, shown: Plotted | None = None) -> Evidence:
         remedies=remedies(assessment),
         uncertainty=uncertainty(assessment),
         cumulative=cumulative(assessment),
+        building=building_variations(assessment),
     )

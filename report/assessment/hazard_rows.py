@@ -68,7 +68,7 @@ def _category(site: Site) -> Requirement:
         limit="S_DS, S_1 and S_D1",
         basis=site.edition.clause("sdc"),
         is_satisfied=not lacking,
-        remedy=f"The SDC depends on {missing} too: give {'both' if len(lacking) > 1 else 'it'}.",
+        remedy=f"The SDC also depends on {missing}: enter {'both' if len(lacking) > 1 else 'it'}.",
         place=Place("site", 0, "sdc"),
     )
 

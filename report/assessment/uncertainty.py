@@ -1,4 +1,4 @@
-"""How sure the design values are: friction, slope, and directions of shaking that are not run.
+"""Margins and confidence of the design values: friction, slope, directions that are not run.
 
 Runs the solver and collects numbers; `report.pages.uncertainty` prints them and
 `report.figures.uncertainty` plots them. Read `uncertainty`.
@@ -96,7 +96,7 @@ class RotatedRun:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Uncertainty:
-    """How sure the design values are."""
+    """Margins and confidence of the design values."""
 
     surface: ResponseSurface
     margins: tuple[Margin, ...]  # for each clearance, one for each array that it involves

@@ -45,7 +45,7 @@ class InstallationCheck:
 def doctor() -> None:
     """Check the installation: versions, native libraries, fonts, cores, and a test page.
 
-    The exit code is 1 if something is missing; the command says what to install.
+    It exits with 1 and lists what to install if something is missing.
     """
     if not say([look for check in CHECKS for look in check()]):
         sys.exit(1)

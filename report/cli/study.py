@@ -1,4 +1,4 @@
-"""The command `roofslip study`: curves, fragilities and chances from a study workbook.
+"""The command `roofslip study`: curves, fragilities and probabilities from a study workbook.
 
 Read `make` first: one line for each step from workbook to files.
 """

@@ -157,7 +157,7 @@ class AnglesResult(Entity):
 
 
 class UncertaintyResult(Entity):
-    """How sure the displacements are."""
+    """Margins and confidence of the displacements."""
 
     surface: SurfaceResult
     """Mean PRD over friction and slope."""

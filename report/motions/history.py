@@ -122,6 +122,13 @@ def _motion(
     return motion, {LABELS[field]: response for field, response in roof.items()}
 
 
+def through_building(data: ProjectInput, row: MotionInput, prepared: PreparedMotion) -> Motion:
+    """Return a prepared motion, already scaled, at the roof of the building of an input."""
+    named = prepared.scaled
+    records = {field: named[label] for field, label in LABELS.items() if label in named}
+    return _motion(data, row, records, 1.0)[0]
+
+
 def _building(data: ProjectInput, field: str) -> Building:
     """Return the building in the direction of a horizontal component."""
     asked = data.building

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
-from report.document.tables import Table, listed
-from report.entities.shown import plain, text, words
+from report.document.tables import Column, Table, by_name, listed
+from report.entities.shown import length, plain, text, words
 from report.motions.history import first_period_s
 from report.pages.parts import MOTION_ROWS, PackageData
-from report.words.units import G_MPS2, number
+from report.sheet.schema import BuildingInput
+from report.words.units import G_MPS2
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M
-from solver.building.roof import Building, RoofMotion
+from solver.building.roof import RoofMotion
+from solver.rules.provisions import AnalysisValue
 
 SHOWN_MODES = 6
 NAMES = {"horizontal": "record", "transverse": "transverse"}
 """Names of the horizontal components in the tables of runs."""
+SHORT = {"record": "record", "transverse": "transv."}
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,24 +28,18 @@ class _Transferred:
     """A component of a motion, transferred to the roof."""
 
     motion: str
-    scale: float
+    per_g: float  # scale / g [s2/m]
     name: str
     roof: RoofMotion
 
-    @property
-    def ground_g(self) -> float:
-        return abs(self.scale) * self.roof.ground_peak_mps2 / G_MPS2
 
-    @property
-    def roof_g(self) -> float:
-        return abs(self.scale) * self.roof.roof_peak_mps2 / G_MPS2
-
-
-def building_part(package: PackageData) -> Mapping[str, object]:
+def building_part(
+    package: PackageData, variations: Sequence[tuple[BuildingInput, AnalysisValue]]
+) -> Mapping[str, object]:
     """Return what the page needs on the motion from ground to roof."""
     shaking = package.assessment.shaking
     components = [
-        _Transferred(motion.id, motion.scale, NAMES[name], roof)
+        _Transferred(motion.id, abs(motion.scale) / G_MPS2, NAMES[name], roof)
         for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True)
         for name, roof in prepared.roof.items()
     ]
@@ -53,6 +51,8 @@ def building_part(package: PackageData) -> Mapping[str, object]:
         "period_s": first_period_s(package.data),
         "modes": _modes(package, components),
         "peaks": _peaks(package, components),
+        "means_m": [value.mean_m for _, value in variations],
+        "variations": _variations(package, variations),
     }
 
 
@@ -66,16 +66,11 @@ def _models(components: Sequence[_Transferred]) -> Mapping[str, Sequence[str]]:
 
 def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
     """Return the slowest modes of the building in each direction."""
-    buildings: dict[str, Building] = {}
-    included: dict[str, int] = {}
-    for component in components:
-        name, roof = component.name, component.roof
-        buildings[name] = roof.building
-        included[name] = max(included.get(name, 0), roof.n_modes)
     rows = [
-        (name, building, mode, mode < included[name])
-        for name, building in buildings.items()
-        for mode in range(min(max(SHOWN_MODES, included[name] + 1), building.periods_s.size))
+        (name, of[0].roof.building, mode, mode < included)
+        for name, of in by_name(components, lambda item: item.name).items()
+        for included in (max(item.roof.n_modes for item in of),)
+        for mode in range(min(max(SHOWN_MODES, included + 1), of[0].roof.building.periods_s.size))
     ]
     columns = (
         (words("Direction", 1.3), lambda row: row[0] if row[2] == 0 else ""),
@@ -89,24 +84,51 @@ def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
 
 
 def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
-    columns = (
-        (words("Motion", 1.2), lambda item: item.motion),
-        (words("Component", 1.3), lambda item: item.name),
-        (plain("Peak", 3, "ground, g"), lambda item: item.ground_g),
-        (plain("Peak", 3, "roof, g"), lambda item: item.roof_g),
+    """Return the peaks and modes of each motion, its components side by side."""
+    quantities: Sequence[tuple[str, int, Callable[[_Transferred], float]]] = (
+        ("Ground peak, g", 3, lambda item: item.per_g * item.roof.ground_peak_mps2),
+        ("Roof peak, g", 3, lambda item: item.per_g * item.roof.roof_peak_mps2),
         (
-            text("Roof / ground"),
-            lambda item: number(item.roof_g / item.ground_g if item.ground_g else math.nan, 2),
+            "Roof / ground",
+            2,
+            lambda item: item.roof.roof_peak_mps2 / (item.roof.ground_peak_mps2 or math.nan),
         ),
-        (text("Modes included", share=0.9), lambda item: item.roof.n_modes),
-        (
-            plain("Next mode", 1, "% of roof peak", 1.2),
-            lambda item: 100.0 * item.roof.next_share,
-        ),
-        (
-            plain("All omitted", 1, "% of roof peak", 1.2),
-            lambda item: 100.0 * item.roof.left_out_share,
-        ),
-        (plain("Extended by", 1, "s", 0.9), lambda item: item.roof.pad_s),
+        ("Modes included", 0, lambda item: item.roof.n_modes),
+        ("Next mode, % of roof peak", 1, lambda item: 100.0 * item.roof.next_share),
+        ("All omitted, % of roof peak", 1, lambda item: 100.0 * item.roof.left_out_share),
     )
-    return listed(components, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
+    columns: Sequence[Column] = (
+        (words("Motion", 1.2), lambda of: of[0].motion),
+        *(
+            (plain(head, decimals, SHORT[name], 0.9), partial(_of, name, value))
+            for head, decimals, value in quantities
+            for name in dict.fromkeys(component.name for component in components)
+        ),
+        (plain("Extended by", 1, "s"), lambda of: of[0].roof.pad_s),
+    )
+    by_motion = by_name(components, lambda item: item.motion)
+    return listed(by_motion.values(), columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
+
+
+def _of(
+    name: str, value: Callable[[_Transferred], float], components: Sequence[_Transferred]
+) -> float:
+    """Return a value of one component of a motion; NaN if the motion does not have it."""
+    return next((value(item) for item in components if item.name == name), math.nan)
+
+
+def _variations(
+    package: PackageData, variations: Sequence[tuple[BuildingInput, AnalysisValue]]
+) -> Table:
+    """Return each variation and its ratios to the building as used, which is first."""
+    used, value = variations[0]
+    columns = (
+        (plain("Period", 3, "s"), lambda row: row[0].period_s),
+        (plain("Period", 2, "/ used"), lambda row: row[0].period_s / used.period_s),
+        (plain("Damping", 1, "% of critical"), lambda row: row[0].damping_percent),
+        (length("Mean PRD"), lambda row: row[1].mean_m),
+        (plain("Mean PRD", 2, "/ used"), lambda row: row[1].mean_m / (value.mean_m or math.nan)),
+        (length("Largest PRD"), lambda row: row[1].largest_m),
+        (length("Value from analysis"), lambda row: row[1].value_m),
+    )
+    return listed(variations, columns, package.fmt, kind="compact", whole_rows=len(variations))

@@ -12,12 +12,12 @@ from itertools import groupby
 from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.runs import REQUESTED_MODELS, OrientedRun
+from report.assessment.runs import REQUESTED_MODELS, OrientedRun, nan_is_worst
 from report.document.tables import Table, Wide, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import centered, length, plain, text, words
 from report.pages import links
-from report.pages.parts import PackageData, nan_is_worst, verdict
+from report.pages.parts import PackageData, verdict
 from report.sheet.schema import Direction
 from report.words.letters import below_mm
 from report.words.units import number, ratio

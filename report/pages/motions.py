@@ -241,7 +241,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "drift": _drift_table(package, unit),
         "drift_m": DRIFT_M,
         "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
-        "building": building_part(package) if package.has_ground else None,
+        "building": building_part(package, evidence.building) if package.has_ground else None,
         "tail": Tail(package.data.target.tail).sentence,
         "departures": departures(spectra),
         "achieved": achieved_table(spectra),

@@ -5,7 +5,6 @@ Owns no content: see the other `report.pages` modules. Read `PackageData`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -29,11 +28,6 @@ BAR = "changed"
 OK, NG = "OK", "NG"
 MOTION_ROWS = 22
 """A table of motions with as many rows stays on one sheet: eleven pairs of components."""
-
-
-def nan_is_worst(value: float) -> float:
-    """Return a sort key in which NaN is the largest."""
-    return math.inf if math.isnan(value) else value
 
 
 def statistic(basis: Basis) -> str:

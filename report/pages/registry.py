@@ -80,7 +80,7 @@ PAGES = (
     Page("provisions", "Provisions and overrides", _alone(provisions.provisions)),
     Page("model", "Model used", _alone(model.page)),
     Page("accuracy", "Accuracy and sensitivity", accuracy.page),
-    Page("how-sure", "How sure", uncertainty.page),
+    Page("how-sure", "Margins and confidence", uncertainty.page),
     Page("echo", "Input echo", _alone(appendix.echo_page), is_appendix=True),
     Page("records", "Records and software", _alone(appendix.records_page), is_appendix=True),
     Page("symbols", "Symbols and references", _alone(symbols.page), is_appendix=True),

@@ -1,4 +1,4 @@
-"""How sure: friction and slope, margins of clearances, directions of shaking, smaller events."""
+"""Margins and confidence: friction and slope, clearances, directions, smaller events."""
 
 from __future__ import annotations
 

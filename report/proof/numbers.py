@@ -1,4 +1,4 @@
-"""JSON from a stranger, compared as numbers, and sheets as words. Knows neither PDF nor package."""
+"""Untrusted JSON, compared as numbers, and sheets as words. Knows neither PDF nor package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Opens a package from a stranger: its first revision, and the files that it holds.
+"""Opens an untrusted package: its first revision, and the files that it holds.
 
 Owns the limits on size and on where files may be taken out to; compares nothing. Read
 `open_package`.

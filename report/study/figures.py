@@ -212,7 +212,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
                 )
         axes.set_xlim(0.0, levels[-1])
         axes.set_ylim(0.0, 1.02)
-        labeled(axes, along, "Chance of exceedance")
+        labeled(axes, along, "Probability of exceedance")
         legend_below(axes, 0.22, 3, handlelength=2.0, columnspacing=0.8)
         return svg_text(figure)
 

@@ -159,7 +159,7 @@ class Study(Frozen):
             unit_from=("intensity", lambda text: Intensity(text).unit if text else ""),
         ),
     ] = None
-    """Median; gives the chance that a clearance is exceeded. Blank for none."""
+    """Median; gives the probability that a clearance is exceeded. Blank for none."""
     intensity_beta: Annotated[float, Field(ge=0, le=2), Cell("Dispersion of intensity", 0.2)] = 0.0
     """Standard deviation of its logarithm."""
     slope_tolerance_deg: Annotated[

@@ -87,7 +87,7 @@ def study_xlsx(results: StudyResults) -> bytes:
             _answers(results, given.mus, results.largest_slopes),
         ),
         ("Fragility", _FRAGILITY, _fragilities(results, unit)),
-        ("Chances", _EXCEEDANCES, _exceedances(results, unit)),
+        ("Probabilities", _EXCEEDANCES, _exceedances(results, unit)),
         ("Formula", ("Building", "What", "Value"), _formula(results)),
     ):
         sheet = book.add_worksheet(title)
@@ -183,7 +183,7 @@ def _dispersions(results: StudyResults, one: ArrayStudyResult, state: LimitState
 
 
 _EXCEEDANCES = (
-    "Building", "Array", "Clearance", "Unit", "Chance of exceedance", "5 %", "95 %", "Runs",
+    "Building", "Array", "Clearance", "Unit", "Probability of exceedance", "5 %", "95 %", "Runs",
     "Runs without a value",
 )  # fmt: skip
 

@@ -47,7 +47,7 @@ def acceptance_lines(rows: Sequence[Limit]) -> list[str]:
         + f", {'at least' if row.is_at_least else 'at most'} "
         + f"{row.limit:.4g} {row.measure.unit}".rstrip()
         + f"{f' ({row.worst})' if row.worst else ''}"
-        f"{'; limit of this program, in no code' if row.is_program_limit else ''}"
+        f"{'; not a code requirement, limit set by this program' if row.is_program_limit else ''}"
         for row in rows
     ]
 

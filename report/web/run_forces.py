@@ -26,7 +26,7 @@ Slip = tuple[Event, Event]
 def run_forces(
     run: OrientedRun, history: SlideHistory, slips: Sequence[Slip]
 ) -> tuple[Floats, Floats, Floats]:
-    """Return N / W, friction demand |G| / N and friction used F / N at the samples, as modeled.
+    """Return N / W, required friction |G| / N and friction used F / N at the samples, as modeled.
 
     While the block slips, the friction used is the coefficient at its speed along the surface; at
     rest it is the demand. NaN where the normal force is zero or negative, and the friction used

@@ -1,6 +1,6 @@
 """What the processes of the page do, within which limits: jobs of the sessions, and packages.
 
-They read files of strangers: what they return is JSON, and is never unpickled. Read `answered`,
+They read untrusted files: what they return is JSON, and is never unpickled. Read `answered`,
 then `made`.
 """
 

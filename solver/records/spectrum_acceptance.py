@@ -45,7 +45,7 @@ _IS_SLIDING, _IS_AC156 = _PLACE < N_SLIDING, _PLACE >= N_SLIDING - 1
 _IS_SLOW = _IS_AC156 & (POINTS_HZ <= _PLATEAU)
 _IS_FAST = POINTS_HZ > _PLATEAU
 
-_KEPT = 64  # spectra; up to three of each motion
+_KEPT = 128  # spectra; up to five of each motion
 
 SpectrumAt = Callable[[Floats], Floats]
 """Target acceleration [g] at frequencies [Hz], 5 % damping; NaN where there is no target."""

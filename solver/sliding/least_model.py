@@ -221,8 +221,8 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
     hold, why = scene.friction.mu_static, "requested"
     if model is Model.NO_SLIP and demand > hold:
         raise InputError(
-            f"the model 'no slip' is requested, but the friction demand, {demand:.3g}, exceeds the "
-            f"friction coefficient, {hold:.3g}; request a more complete model"
+            f"the model 'no slip' is requested, but the required friction coefficient, "
+            f"{demand:.3g}, exceeds that given, {hold:.3g}; request a more complete model"
         )
     if model is Model.NO_SLIP:
         return _still(scene, demand)
@@ -254,7 +254,7 @@ def _still(scene: Scene, demand: float) -> Solution:
     hold = scene.friction.mu_static
     return Solution(
         model=Model.NO_SLIP,
-        reason=f"the friction demand, {demand:.2f}, is below the friction coefficient, {hold:.2f}",
+        reason=f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}",
         result=one_axis.run(as_run(scene, Model.NO_SLIP)),
         next_model=Model.NO_SLIP,
         next_effect_m=0.0,

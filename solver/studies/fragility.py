@@ -27,7 +27,7 @@ LILLIEFORS_REPEATS = 20_000
 """Samples of the p-value of the goodness of fit."""
 
 LEVEL = 0.05
-"""Chance that the band of the goodness of fit leaves out a sample that is lognormal."""
+"""Probability that the band of the goodness of fit leaves out a sample that is lognormal."""
 
 REPEATS = 1000
 """Samples drawn where a capacity is censored."""
@@ -35,7 +35,7 @@ REPEATS = 1000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lognormal:
-    """Chance of exceedance Phi(ln(x / theta) / beta); both NaN if the capacities determine none."""
+    """Probability of exceedance Phi(ln(x / theta) / beta); NaN if the capacities determine none."""
 
     theta: float
     beta: float
@@ -46,7 +46,7 @@ class Lognormal:
         return math.isfinite(self.theta)
 
     def at(self, intensity: Floats) -> Floats:
-        """Return the chance of exceedance at intensities above 0, of any shape."""
+        """Return the probability of exceedance at intensities above 0, of any shape."""
         z = np.log(np.asarray(intensity) / self.theta) / self.beta
         return np.array([kernel.normal_cdf(v) for v in z.ravel()]).reshape(z.shape)
 

@@ -1,4 +1,4 @@
-"""Uncertain friction, slope and intensity: samples, chance of exceedance, effect of each variable.
+"""Uncertain friction, slope and intensity: samples, exceedance, effect of each variable.
 
 Runs nothing. Read `Spread`, then `latin_hypercube`, `exceedance` and `tornado`.
 """
@@ -60,7 +60,7 @@ class Spread:
         return self.beta or self.half / math.sqrt(3.0)
 
     def quantile(self, chance: float) -> float:
-        """Return the value that is not exceeded with a chance between 0 and 1."""
+        """Return the value that is not exceeded with a probability between 0 and 1."""
         if self.beta:
             return self.center * math.exp(self.beta * _NORMAL.inv_cdf(chance))
         return self.center + self.half * (2.0 * chance - 1.0)
@@ -86,7 +86,7 @@ def spread_of_tests(values: Sequence[float]) -> Spread:
 def latin_hypercube(spreads: Sequence[Spread], count: int, *, seed: int) -> Floats:
     """Return samples of independent variables, shape (count, variables).
 
-    Each variable has exactly one sample in each of `count` intervals of equal chance (McKay,
+    Each variable has exactly one sample in each of `count` intervals of equal probability (McKay,
     Beckman and Conover 1979, Technometrics 21, 239-245).
     """
     rng = np.random.default_rng(seed)

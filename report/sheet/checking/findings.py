@@ -20,7 +20,7 @@ def warning(name: str, place: Place, text: str) -> Finding:
 
 
 def limit(place: Place, text: str) -> Finding:
-    """Return a warning that no reason lifts."""
+    """Return a warning that cannot be acknowledged."""
     return Finding(level=Level.WARNING, place=place, text=text)
 
 

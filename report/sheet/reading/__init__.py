@@ -1,1 +1,1 @@
-"""From a workbook of a stranger to a checked project: opened, found, converted, checked."""
+"""From an untrusted workbook to a checked project: opened, found, converted, checked."""

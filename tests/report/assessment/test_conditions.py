@@ -1,13 +1,15 @@
-"""Requirements beside the numeric limits, and the three verdicts."""
+"""Requirements other than the numeric limits, and the three verdicts."""
 
 import datetime as dt
 
+import numpy as np
 import pytest
 
 import scenes
 import stand_in
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.verdict import Verdict, worst
+from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
 from stand_in import FOOT
 
@@ -265,3 +267,47 @@ def test_a_route_that_five_percent_less_friction_closes_is_a_condition(mu, is_cl
         assert found.remedy == (
             "With 5 % less friction no route is permitted: confirm the friction coefficient."
         )
+
+
+BUILDING = {"building": {"period_s": 0.5}, "spectrum": [], "target": {"t_l_s": 8.0}}
+
+
+def grounded(scale=1.0, place="ground", **changes):
+    """The requirement on ground motions scaled by a factor."""
+    rows = [
+        {"id": f"M{k}", "record": "x", "transverse": "y", "recorded_at": place}
+        | {"scaling": "factor", "scale_value": scale}
+        for k in (1, 2, 3)
+    ]
+    data = stand_in.project(motions=rows, **BUILDING | changes)
+    book = scenes.grounded(data, scenes.level(), transverse=True, vertical=False)
+    return row(stand_in.assessed(book), "ground_motions")
+
+
+def largest_ratio():
+    """The mean of the ground spectra / the design spectrum, the largest from 1 s to 10 s."""
+    site = stand_in.project().site
+    target = design_spectrum(s_ds_g=site.s_ds, s_d1_g=site.s_d1, t_l_s=8.0)
+    periods_s = np.geomspace(1.0, 10.0, 400)
+    each = [spectrum(motion, periods_s) for motion in scenes.level()]
+    means = [np.mean([one.sa_mps2[axis] for one in each], axis=0) for axis in ("x", "y")]
+    return max((mean / 9.80665 / target(1 / periods_s)).max() for mean in means)
+
+
+def test_the_long_periods_of_ground_motions_are_compared_with_the_design_spectrum():
+    found = float(grounded().found.split()[0])
+    assert found == pytest.approx(largest_ratio(), rel=0.02)  # periods up to 1/24 octave apart
+
+
+@pytest.mark.parametrize(("ratio", "is_met"), [(1.95, True), (2.05, False)])
+def test_ground_motions_far_above_the_design_spectrum_are_a_condition(ratio, is_met):
+    compared = float(grounded().found.split()[0])
+    found = grounded(scale=ratio / compared)
+    assert found.is_satisfied is is_met
+    assert found.consequence is Consequence.CONDITION
+    assert "peer reviewer's acceptance" in found.remedy
+
+
+def test_without_ground_motions_or_without_a_target_nothing_is_compared():
+    assert grounded(place="roof") is None
+    assert grounded(target={}) is None

@@ -194,5 +194,5 @@ def test_the_component_farthest_above_the_target_speaks_for_those_of_one_target(
     assert excess == (
         "Transverse (horizontal likewise): the mean of the motions reaches 1.60 times the target "
         "(AC156) at 1 Hz; it exceeds 1.30 times the target from 1 to 2 Hz. "
-        "The displacements are those of the stronger motions, and are not reduced."
+        "The displacements are those of the stronger motions, without reduction."
     )

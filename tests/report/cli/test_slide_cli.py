@@ -81,7 +81,7 @@ def test_a_file_of_several_channels_gives_each_component():
         (["--slope-deg", "2"], "--mu"),
         ([*PLACE, "--dt", "0.01"], "0.01"),
         ([*PLACE, "--ppa-g", "1", "--factor", "1"], "not both"),
-        ([*PLACE, "--model", "no-slip"], "friction demand"),
+        ([*PLACE, "--model", "no-slip"], "required friction coefficient"),
     ],
 )
 def test_slide_says_what_is_wrong(arguments, message):

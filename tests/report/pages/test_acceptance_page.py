@@ -110,7 +110,7 @@ def test_a_limit_that_is_a_condition_is_one_in_each_table():
     alone = {"arrays": [stand_in.array("A1", 0.5)], "objects": [], "clearances": []}
     package = scenes.package(scenes.motions(2, 4.0), **alone)
     title = "Number of motions"
-    rows = printed(package, "limits").table("Requirements beside").rows
+    rows = printed(package, "limits").table("Other requirements").rows
     assert [row["Verdict"] for row in rows if row["Requirement"] == title] == ["Condition"]
     shown = printed(package, "motions").table("Limits on the motions").rows
     assert [row["Result"] for row in shown if row["Limit"] == title] == ["Condition"]

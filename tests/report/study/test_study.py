@@ -281,7 +281,8 @@ def test_curves_csv_has_every_case(made, results):
 def test_the_workbook_holds_summaries_only(made, results):
     book = load_workbook(made[0] / "out/study/study.xlsx")
     assert book.sheetnames == [
-        "Study", "Curves", "Least friction", "Largest slope", "Fragility", "Chances", "Formula",
+        "Study", "Curves", "Least friction", "Largest slope", "Fragility", "Probabilities",
+        "Formula",
     ]  # fmt: skip
     assert max(sheet.max_row for sheet in book) <= results.curves.mean_m.size * 3 + 1
     curve = sheet_rows(results, "Curves")[11]

@@ -140,7 +140,7 @@ def test_two_axes_forced_with_one_component_give_one_axis():
 
 
 def test_no_slip_forced_on_a_block_that_slips_is_refused():
-    with pytest.raises(InputError, match="friction demand"):
+    with pytest.raises(InputError, match="required friction coefficient"):
         solve(FLAT, Settings(forced=Model.NO_SLIP))
 
 
