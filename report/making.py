@@ -104,7 +104,8 @@ def read(source: Path, out: Path | None, since: Path | None) -> Request:
     folder = out or sheet.path.parent / "out"
     check_letters(sheet)
     check_writable(folder)
-    check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else [])])
+    beside = [sheet.path.parent / document.path for document in sheet.documents]
+    check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else []), *beside])
     return Request(sheet=sheet, folder=folder, former=former, since=since)
 
 

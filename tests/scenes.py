@@ -31,6 +31,7 @@ REVIEW = {
     "peer_reviewer": "Reviewer of record",
     "peer_license": "CA S0000",
     "peer_date": dt.date(2026, 3, 1),
+    "peer_letter": "peer-review.pdf",
 }
 DEPARTURE = {
     "directional": True,

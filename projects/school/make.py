@@ -1,5 +1,7 @@
 """Makes the school: ground motions from seeded noise, and the completed input workbook.
 
+The letter of review beside it is an example as well, and is not made here.
+
 Run from the repository root: .venv/bin/python projects/school/make.py
 """
 
@@ -88,6 +90,9 @@ def project() -> ProjectInput:
                 "hazard_date": dt.date(2026, 11, 2),
                 "force_factor": 1.0,
                 "force_divisor": 1.5,
+                "building_code": "IBC",
+                "building_code_year": 2021,
+                "jurisdiction": "City of Albuquerque",
             },
             "roof": rectangle((0.0, 60.0), (0.0, 34.0), 1.0),
             "arrays": [
@@ -147,6 +152,7 @@ def project() -> ProjectInput:
                 "peer_reviewer": "Reviewer of record",
                 "peer_license": "NM S0000",
                 "peer_date": dt.date(2026, 11, 16),
+                "peer_letter": "peer-review.pdf",
                 "smaller_events": "0.50, 0.50",
             },
             "target": {"t_l_s": T_L_S},

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from report.assessment.arrays import ArrayAssessment, Route
-from report.assessment.clearances import ClearanceCheck
+from report.assessment.clearances import ClearanceCheck, facing
 from report.assessment.friction import SHIFT
 from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
-from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
+from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict, stated
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
 from report.sheet.schema import Array, ProjectInput
@@ -28,6 +28,7 @@ from report.words.units import G_MPS2, Quantity, compared, digits_up, number, pa
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
+from solver.rules.provisions import Neighbor
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
@@ -41,6 +42,7 @@ FIRE_LANE_M = 150 * 0.3048
 LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
 """Periods from which on the mean of the ground motions / their target is compared, and the ratio
 above which a peer reviewer must accept the motions: in no code."""
+_NOISE = 1e-9  # 150 ft given in meters is no more than 150 ft
 
 MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
@@ -51,6 +53,7 @@ NO_DESIGN = "unknown without a permitted design displacement"
 def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Requirement, ...]:
     """Return the requirements on the whole project, its motions and its friction tests."""
     return (
+        _building_code(data),
         *_peer_review(data),
         *override_rows(data),
         *hazard_rows(data),
@@ -60,28 +63,39 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
     )
 
 
+def _building_code(data: ProjectInput) -> Requirement:
+    site = data.site
+    given = ("building code", site.code_text), ("jurisdiction", site.jurisdiction)
+    found, is_complete = stated(given)
+    return Requirement(
+        id="building_code",
+        title="Building code and jurisdiction",
+        found=found,
+        limit="code with its year, and jurisdiction",
+        basis="plan check",
+        is_satisfied=is_complete,
+        consequence=Consequence.CONDITION,
+        remedy="State on the sheet Site the adopted building code and the jurisdiction.",
+        place=Place("site", 0, "building_code"),
+    )
+
+
 def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
     options = data.options
     if not options.peer_reviewed:
         return
-    parts = (
-        ("reviewer", options.peer_reviewer),
-        ("license", options.peer_license),
-        ("date", options.peer_date),
-    )
-    missing = [name for name, value in parts if not value]
+    fields = ("reviewer", "license", "date", "letter")
+    found, is_complete = stated([(name, getattr(options, f"peer_{name}")) for name in fields])
     yield Requirement(
         id="peer_review",
         title="Peer review of the analysis",
-        found=f"{' and '.join(missing)} {NOT_GIVEN}"
-        if missing
-        else f"{options.peer_reviewer}, {options.peer_license}, {options.peer_date}",
-        limit="reviewer, license and date",
+        found=found,
+        limit="reviewer, license, date and letter",
         basis=data.site.rule_set,
-        is_satisfied=not missing,
+        is_satisfied=is_complete,
         consequence=Consequence.CONDITION,
-        remedy="Give reviewer, license and date. Without peer review the floor and the slope limit "
-        "of the analysis route apply.",
+        remedy="Give reviewer, license, date and letter. Without peer review the floor and the "
+        "slope limit of the analysis route apply.",
         place=Place("options", 0, "peer_reviewer"),
     )
 
@@ -234,7 +248,43 @@ def rows_before_runs(
     data: ProjectInput, array: Array, required_n: float
 ) -> tuple[Requirement, ...]:
     """Return the requirements on an array that no run is needed for, with the strength [N]."""
-    return _fire_lanes(data, array), _interconnection(data, array, required_n)
+    known = _fire_lanes(data, array), _interconnection(data, array, required_n)
+    return *known, *_weight(data, array)
+
+
+def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
+    """Yield the weight per plan area beside what the engineers of roof and wind state."""
+    us_first, here_pa = data.project.units_first.is_us, array.weight_pa
+    capacity_pa, wind_pa = array.roof_capacity_pa, array.wind_weight_pa
+    if capacity_pa is not None:
+        shown, had = compared(here_pa, capacity_pa)
+        yield Requirement(
+            id="roof_capacity",
+            title="Weight per plan area",
+            subject=array.id,
+            found=pair(here_pa, Quantity.PRESSURE, us_first, shown),
+            limit=f"≤ {pair(capacity_pa, Quantity.PRESSURE, us_first, had)}"
+            + rounding(here_pa, capacity_pa, Quantity.PRESSURE),
+            basis="roof capacity",
+            is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
+            consequence=Consequence.NG,
+            remedy="Reduce the weight, or have the roof's engineer state a larger capacity.",
+            place=_place(data, array, "roof_capacity_pa"),
+        )
+    if wind_pa is not None:
+        found, here = (pair(value, Quantity.PRESSURE, us_first) for value in (wind_pa, here_pa))
+        yield Requirement(
+            id="wind_weight",
+            title="Weight in wind design",
+            subject=array.id,
+            found=found,
+            limit=f"= {here}",
+            basis="wind, by others",
+            is_satisfied=found.split()[0] == here.split()[0],  # as the first unit prints them
+            consequence=Consequence.CONDITION,
+            remedy="Use one weight with ballast in both: correct it, or the wind design.",
+            place=_place(data, array, "wind_weight_pa"),
+        )
 
 
 def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
@@ -248,7 +298,7 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
         found=pair(largest, Quantity.PLAN, us_first),
         limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, us_first)}",
         basis="fire code†",
-        is_satisfied=largest <= FIRE_LANE_M * (1.0 + 1e-9),  # 150 ft given in meters is no more
+        is_satisfied=largest <= FIRE_LANE_M * (1.0 + _NOISE),
         consequence=Consequence.CONDITION,
         remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
         place=_place(data, array, "x_from_m"),
@@ -297,6 +347,40 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Provide wiring slack of at least the design displacement.",
     )
+
+
+def pathway_rows(
+    data: ProjectInput, arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck]
+) -> Iterator[Requirement]:
+    """Yield what is left of each fire pathway after the arrays beside it have slid into it.
+
+    Arrays that are unlike may slide toward each other: both displacements are subtracted.
+    """
+    us_first = data.project.units_first.is_us
+    for index, gap in enumerate(clearances):
+        row = gap.clearance
+        if row.pathway_m is None:
+            continue
+        slides = [array.permitted_toward_m(toward) for array, toward in facing(data, arrays, row)]
+        if gap.neighbor is Neighbor.LIKE:
+            slides = [gap.design_m]
+        left_m = row.provided_m - math.fsum(slides)
+        shown, had = compared(row.pathway_m, left_m)
+        terms = " − ".join(pair(m, Quantity.SIZE, us_first) for m in (row.provided_m, *slides))
+        found = f"{terms} = {pair(left_m, Quantity.SIZE, us_first, had)}{gap.design_mark}"
+        yield Requirement(
+            id="fire_pathway",
+            title=f"Fire pathway {row.array} to {row.object} after displacement",
+            subject=row.array,
+            found=NO_DESIGN if math.isnan(left_m) else found,
+            limit=f"≥ {pair(row.pathway_m, Quantity.SIZE, us_first, shown)}"
+            + rounding(row.pathway_m, left_m, Quantity.SIZE),
+            basis="fire code, as entered",
+            is_satisfied=left_m >= row.pathway_m * (1.0 - _NOISE),
+            consequence=Consequence.NG,
+            remedy="Widen the clearance, or reduce the displacement.",
+            place=Place("clearances", index, "pathway_m"),
+        )
 
 
 def less_friction_rows(

@@ -42,7 +42,7 @@ def _on_file(data: ProjectInput) -> Requirement:
     )
     return _row(
         title="Friction test report on file",
-        found=found,
+        found=f"{found}; attached" if tests.report_file else found,
         limit="laboratory, report number, date",
         is_satisfied=is_complete,
         remedy="Obtain the friction test report and complete the sheet Friction tests.",

@@ -22,6 +22,7 @@ from report.assessment.conditions import (
     array_rows,
     less_friction_rows,
     motion_rows,
+    pathway_rows,
     plan_rows,
     project_rows,
 )
@@ -340,6 +341,7 @@ def _assess(
             *motion_rows(acceptance, (item.route for item in arrays)),
             *(row for item in arrays for row in array_rows(data, item)),
             *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
+            *pathway_rows(data, arrays, clearances),
             *plan_rows(data, nearby),
             *(less_friction_rows(arrays, clearances, reduced) if reduced else ()),
         ),

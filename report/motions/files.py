@@ -1,7 +1,7 @@
 """Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
 
-Owns which files a workbook may access. `solver.formats` reads the record formats, `pasted` the
-columns.
+`solver.formats` reads the record formats, `pasted` the columns; which files a workbook may access
+is in `report.sheet.reading.beside`.
 """
 
 from __future__ import annotations
@@ -11,25 +11,21 @@ import math
 from collections.abc import Callable, Set
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import chain, islice
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 
 import numpy as np
 
 from report.motions.pasted import heading_on, read_column
 from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.beside import path_beside
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.unseen import Unseen, unseen
 from report.sheet.schema.fields import Place
 from solver.formats import MotionFile, read_motion_file
-from solver.meant import nearest
 from solver.model import InputError
 from solver.records.record import Record
 
 MAX_BYTES = 64_000_000
-
-MOST_LISTED = 2_000
-"""Files among which one is sought whose name nearly fits."""
 
 BAR = "|"
 """Separates a file from its channel; not allowed in Windows file names."""
@@ -93,7 +89,8 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
         If it does not exist, or is outside the workbook's folder.
     """
     file, _, channel = name.partition(BAR)
-    return _path(book.path.parent, file.strip()), channel.strip()
+    path = path_beside(book.path.parent, file.strip(), MAX_BYTES, "records/m1-x.csv")
+    return path, channel.strip()
 
 
 def bytes_of(book: OpenBook, names: Set[str]) -> int:
@@ -104,44 +101,6 @@ def bytes_of(book: OpenBook, names: Set[str]) -> int:
             if find_heading(book, name) is None:
                 total += find_file(book, name)[0].stat().st_size
     return total
-
-
-def _path(folder: Path, name: str) -> Path:
-    """Return the file of a name, which must lie within the workbook's folder."""
-    name = name.replace("\\", "/")
-    where = "give a file in the workbook's folder, such as records/m1-x.csv"
-    if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or ".." in name.split("/"):
-        raise InputError(f"'{name}' is outside the workbook's folder; {where}")
-    try:
-        path = (folder / name).resolve()
-        if not path.is_relative_to(folder.resolve()):
-            raise InputError(f"'{name}' is a link to a file outside the workbook's folder; {where}")
-        if not path.exists():
-            raise InputError(f"'{name}' does not exist; {_meant(folder, name) or where}")
-        if not path.is_file():
-            raise InputError(f"'{name}' is not a file; {where}")
-        size = path.stat().st_size
-    except PermissionError as error:
-        raise InputError(f"'{name}' cannot be read ({error.strerror}); allow it") from error
-    except (OSError, RuntimeError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"'{name}' cannot be found; {where}") from error
-    if size > MAX_BYTES:
-        raise InputError(f"'{name}' has {size / 1e6:.0f} MB; give at most {MAX_BYTES / 1e6:.0f} MB")
-    return path
-
-
-def _meant(folder: Path, name: str) -> str:
-    """Ask for the file whose name nearly fits, in the named folder or one of the workbook's."""
-    wanted = PurePosixPath(name)
-    near = islice(chain((folder / wanted).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
-    by_stem: dict[str, list[str]] = {}
-    for path in near:
-        if path.is_file():
-            by_stem.setdefault(path.stem, []).append(path.relative_to(folder).as_posix())
-    files = by_stem.get(nearest(wanted.stem, by_stem), [])
-    return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""
 
 
 def find_heading(book: OpenBook, name: str) -> CellPosition | None:

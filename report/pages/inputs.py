@@ -62,6 +62,7 @@ def _sizes(package: PackageData) -> Table:
     columns = (
         (words("Array", 0.9), lambda array: array.id),
         (Shown(head="Weight", quantity=Quantity.WEIGHT), lambda array: array.weight_n),
+        (Shown(head="Weight per area", quantity=Quantity.PRESSURE), lambda array: array.weight_pa),
         (length("Center of gravity"), lambda array: array.cg_height_m),
         (length("Support spacing"), lambda array: array.support_spacing_m),
         (_in_plan("Plan x"), lambda array: _sides(array.shape)[1] - _sides(array.shape)[0]),

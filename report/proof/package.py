@@ -25,7 +25,10 @@ from solver.meant import meant
 from solver.model import InputError
 
 _T = TypeVar("_T")
-_END = re.compile(rb"startxref\s+\d+\s+%%EOF[\r\n]*")
+_END = re.compile(rb"startxref\s+(\d{1,12})\s+%%EOF[\r\n]*")
+# Cross-references, a table or a stream, to which the end of a PDF points. That of an attached PDF,
+# which compression may store as it is, points to a place within that PDF.
+_XREF = re.compile(rb"xref\s|\d+ \d+ obj\b")
 _LONGEST_NAME = 255
 
 
@@ -72,7 +75,8 @@ def open_package(path: Path) -> ReadPackage:
         If it cannot be read, is too large, or is no package with its input inside.
     """
     data = _read(path)
-    end = _END.search(data)
+    ends = (end for end in _END.finditer(data) if _XREF.match(data, int(end[1])))
+    end = next(ends, None)
     if not data.startswith(b"%PDF-") or end is None:
         raise InputError("is no PDF, or is cut off; get the file again from where it was issued")
     # What was appended later has an end of its own.

@@ -40,6 +40,7 @@ _MIMES = {
     ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
     ".json": "application/json",
     ".csv": "text/csv",
+    ".pdf": "application/pdf",
 }
 
 _Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
@@ -71,7 +72,7 @@ class Manifest(_Part):
     sbom_sha256: _Sha256
 
     def of_kind(self, kind: str) -> tuple[Listed, ...]:
-        """Return the files of a kind: workbook, record, former or results."""
+        """Return the files of a kind: workbook, record, document, former or results."""
         return tuple(file for file in self.files if file.kind == kind)
 
 
@@ -97,7 +98,7 @@ class SourceFile:
 
 
 def fingerprint(sheet: Sheet, shaking: Shaking, program: str = "") -> str:
-    """Return the hash of workbook, records and version that the foot of every sheet shows.
+    """Return the hash of workbook, records, documents and version at the foot of every sheet.
 
     Parameters
     ----------
@@ -108,6 +109,7 @@ def fingerprint(sheet: Sheet, shaking: Shaking, program: str = "") -> str:
         program or version("roofslip"),
         sheet.sha256,
         *(f"{row.motion_id} {row.component} {row.sha256}" for row in shaking.records),
+        *(f"{document.label} {document.sha256}" for document in sheet.documents),
     ]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:SHORT]
 
@@ -128,7 +130,7 @@ def holds_records(records: Sequence[RecordFile]) -> bool:
 
 
 def sources(sheet: Sheet, shaking: Shaking, former: Path | None = None) -> tuple[SourceFile, ...]:
-    """Read what a package is computed from: the workbook, each record file, a former results.json.
+    """Read what a package has inside: workbook, record files, documents, a former results.json.
 
     Raises
     ------
@@ -139,6 +141,8 @@ def sources(sheet: Sheet, shaking: Shaking, former: Path | None = None) -> tuple
     for path, row in record_paths(shaking.records).items():
         file, _ = find_file(sheet.book, row.name)
         found.append(_source(path, file, row.sha256, "record"))
+    for path, sha256 in {one.path: one.sha256 for one in sheet.documents}.items():
+        found.append(_source(path, sheet.path.parent / path, sha256, "document"))
     if former:
         found.append(_source(FORMER, former, "", "former"))
     return tuple(_unlike(found))
@@ -206,6 +210,7 @@ def manifest(found: Sequence[SourceFile], short: str, *, has_records: bool) -> b
 _KINDS = {
     "workbook": ("Source", "Input workbook"),
     "record": ("Data", "Record of motion"),
+    "document": ("Supplement", "Document that the workbook names"),
     "former": ("Source", "Results of the former revision"),
     "results": ("Data", "Results in SI units"),
     "manifest": ("Supplement", "What the package is computed from, and by which software"),

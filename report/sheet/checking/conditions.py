@@ -83,11 +83,14 @@ class Required:
 _OR_NONE = "give all four sides of the rectangle, or none"
 _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet Outlines"
 _LAW = "give high-velocity friction and friction rate, or neither"
+_CODE = "give building code and year, or neither"
 # A pasted column does not state them.
 _PASTED = _on_the_sheet(lambda refer: f'ISNUMBER(FIND("!",{refer("record")}))')
 
 REQUIRED: Mapping[tuple[str, str], Required] = {
     ("site", "s_ds_g"): Required(_on_the_sheet(lambda _: 'live_s_ds=""')),
+    ("site", "building_code"): Required(_filled("building_code_year"), _CODE),
+    ("site", "building_code_year"): Required(_filled("building_code"), _CODE),
     **{("roof", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
     **{("arrays", side): Required(_NO_OUTLINE, _OR_OUTLINE) for side in SIDES},
     **{("objects", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
@@ -107,7 +110,7 @@ REQUIRED: Mapping[tuple[str, str], Required] = {
     # Lacking ones are a condition of the package.
     **{
         ("options", f"peer_{field}"): Required(_yes("peer_reviewed"))
-        for field in ("reviewer", "license", "date")
+        for field in ("reviewer", "license", "date", "letter")
     },
     **{
         ("options", f"directional_{field}"): Required(

@@ -14,6 +14,7 @@ from typing import Any, Generic, TypeVar
 
 from report.sheet.checking.checks import faults
 from report.sheet.reading.archive import OpenBook, open_book
+from report.sheet.reading.beside import Document, read_documents
 from report.sheet.reading.calculated import not_calculated
 from report.sheet.reading.cells import (
     CellError,
@@ -86,6 +87,7 @@ class SheetOf(Generic[Whole]):
     unfound: frozenset[str]  # sections
     unseen: tuple[Unseen, ...]
     warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
+    documents: tuple[Document, ...] = ()  # beside it, that the package attaches
 
     @cached_property
     def project(self) -> Whole:
@@ -145,7 +147,10 @@ def read(path: Path) -> Sheet:
     book = open_book(path)
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
         raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
-    return read_as(ProjectInput, book, faults)
+    sheet = read_as(ProjectInput, book, faults)
+    documents, wrong = read_documents(book.path.parent, sheet.draft)
+    problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))
+    return replace(sheet, documents=documents, problems=problems)
 
 
 def read_as(

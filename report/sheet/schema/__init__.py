@@ -159,6 +159,9 @@ class Options(Frozen):
     """State and number. Required with peer review."""
     peer_date: Annotated[dt.date | None, Cell("Date of review", dt.date(2026, 3, 1))] = None
     """Required with peer review."""
+    peer_letter: Annotated[Text, Cell("Letter of review", "peer-review.pdf")] = ""
+    """The reviewer's letter as a PDF in the workbook's folder; the package attaches it. With the
+    friction test report, at most 20 MB. Required with peer review."""
     directional: Annotated[bool, Cell("Displacement by direction", "No")] = False
     """No: a clearance takes the full design displacement in every direction, as the rule sets do.
     Yes: the displacement toward it, a departure that the package prints."""

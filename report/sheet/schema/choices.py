@@ -54,6 +54,13 @@ class EditionName(StrEnum):
         vars()[_name.upper().replace(" ", "_").replace("-", "_")] = _name
 
 
+class BuildingCode(StrEnum):
+    """Building code that the jurisdiction adopts."""
+
+    IBC = "IBC"
+    CBC = "CBC"
+
+
 class UnitsFirst(StrEnum):
     """System of units printed first."""
 

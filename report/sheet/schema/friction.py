@@ -36,6 +36,9 @@ class FrictionTests(Frozen):
     """Roof surface as tested: product and thickness."""
     support: Annotated[Text, Cell("Support material", "EPDM pad")] = ""
     """Surface of the array's supports as tested."""
+    report_file: Annotated[Text, Cell("Test report file", "friction-report.pdf")] = ""
+    """The report as a PDF in the workbook's folder; the package attaches it. With the letter of
+    review, at most 20 MB."""
 
 
 class FrictionTestRow(Frozen):

@@ -41,6 +41,9 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
             " directional_reviewer directional_license directional_date smaller_events",
         ),
         ("site", "hazard_report"),
+        ("site", "building_code building_code_year jurisdiction"),
+        ("friction_tests", "report_file"),
+        ("options", "peer_letter"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook

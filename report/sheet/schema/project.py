@@ -11,6 +11,7 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from report.sheet.schema.choices import (
+    BuildingCode,
     EditionName,
     NotNegative,
     Positive,
@@ -131,6 +132,14 @@ class Site(Frozen):
     package prints for comparison."""
     force_divisor: Annotated[float | None, Field(ge=1, le=12), Cell("R_p or R_po", 1.5)] = None
     """R_p in ASCE 7-16, R_po in ASCE 7-22."""
+    building_code: Annotated[BuildingCode | None, Cell("Building code", "CBC")] = None
+    """Adopted where the building stands. Printed on the cover."""
+    building_code_year: Annotated[
+        int | None, Field(ge=2000, le=2100), Cell("Year of building code", 2022)
+    ] = None
+    """Edition of the building code."""
+    jurisdiction: Annotated[Text, Cell("Jurisdiction", "City of Los Angeles")] = ""
+    """Building department that has jurisdiction. Printed on the cover."""
 
     @model_validator(mode="after")
     def _enough_for_s_ds(self) -> Site:
@@ -174,6 +183,11 @@ class Site(Frozen):
     def assumed_class(self) -> SiteClass:
         """The site class, D by default where none is given."""
         return site_class_or_default(self.site_class)
+
+    @property
+    def code_text(self) -> str:
+        """The building code with its year, such as `2022 CBC`; empty if not given."""
+        return f"{self.building_code_year} {self.building_code}" if self.building_code else ""
 
     @property
     def sdc_lacks(self) -> tuple[str, ...]:

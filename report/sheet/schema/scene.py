@@ -189,6 +189,16 @@ class Array(Placed):
         NotNegative | None, Cell("Electrical slack", 48.0, Quantity.SIZE, usual=(6.0, 240.0))
     ] = None
     """Slack of the wiring that leaves the array; compared with the design displacement."""
+    roof_capacity_pa: Annotated[
+        Positive | None, Cell("Roof capacity", 6.0, Quantity.PRESSURE, usual=(2.0, 50.0))
+    ] = None
+    """Weight per area of the array that the roof's engineer permits; compared with the weight over
+    the plan area. Blank: by others."""
+    wind_weight_pa: Annotated[
+        Positive | None, Cell("Weight in wind design", 5.5, Quantity.PRESSURE, usual=(1.0, 50.0))
+    ] = None
+    """Weight per area, with ballast, in the wind design by others; compared with the weight over
+    the plan area."""
 
     @property
     def slope_rad(self) -> float:
@@ -204,6 +214,11 @@ class Array(Placed):
     def minimum_mu(self) -> float:
         """The smallest friction coefficient at any velocity."""
         return min(self.friction.mu_slow, self.friction.mu_fast)
+
+    @property
+    def weight_pa(self) -> float:
+        """Weight per plan area [Pa]."""
+        return self.weight_n / self.shape.area_m2
 
     @property
     def base_dimension_m(self) -> float:
@@ -270,3 +285,8 @@ class Clearance(Frozen):
         NotNegative, Cell("Provided clearance", 96.0, Quantity.SIZE, usual=(6.0, 600.0))
     ]
     """Clear distance in roof plan."""
+    pathway_m: Annotated[
+        Positive | None, Cell("Fire pathway", 48.0, Quantity.SIZE, usual=(24.0, 240.0))
+    ] = None
+    """Width that the fire code requires of a pathway along this clearance: the package checks that
+    it is left after the design displacement. Blank: no pathway."""

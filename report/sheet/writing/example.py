@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from solver.synthesis import SuiteMotion
 
 FOOT, INCH, POUND = 0.3048, 0.0254, 4.4482216152605
+PSF = POUND / FOOT**2
 S_DS_G = 1.566
 COUNT, SEED = 7, 1566
 SOURCE = f"AC156 spectrum at the roof, seed {SEED}"
@@ -93,6 +94,9 @@ def project(units: UnitsFirst = UnitsFirst.US) -> ProjectInput:
                 "stories": 1,
                 "structure_height_m": 36 * FOOT,
                 "roof_height_m": 36 * FOOT,
+                "building_code": "CBC",
+                "building_code_year": 2022,
+                "jurisdiction": "City of Los Angeles",
             },
             "roof": {**rectangle((0.0, 360), (0.0, 240), FOOT), "north_deg": 90.0},
             "building": {"structure": "other"},
@@ -125,7 +129,7 @@ def project(units: UnitsFirst = UnitsFirst.US) -> ProjectInput:
             "clearances": [
                 _clearance("A1", "A2", "down", 8),
                 _clearance("A1", "RTU-1", "across", 4),
-                _clearance("A1", "NORTH", "up", 8),
+                _clearance("A1", "NORTH", "up", 8, pathway_m=48 * INCH),
                 _clearance("A3", "RTU-2", "down", 5),
                 _clearance("A3", "PV-OLD", "up", 6),
                 _clearance("A3", "EAST", "across", 10),
@@ -151,6 +155,8 @@ def _array(name: str, slope: float, mu: float, x: Range, y: Range, **more: objec
         "base_m": 60 * INCH,
         "interconnection_n": 14_000 * POUND,
         "slack_m": 60 * INCH,
+        "roof_capacity_pa": 6.0 * PSF,
+        "wind_weight_pa": 5.5 * PSF,
         "downslope_deg": 270.0,
         **rectangle(x, y, FOOT),
         **more,
@@ -181,5 +187,5 @@ def _object(name: str, kind: str, x: Range, y: Range, height_in: float | None) -
     return roof_object(name, kind, height_m, x, y, FOOT)
 
 
-def _clearance(array: str, other: str, direction: str, feet: float) -> Row:
-    return clearance(array, other, direction, feet * FOOT)
+def _clearance(array: str, other: str, direction: str, feet: float, **more: object) -> Row:
+    return clearance(array, other, direction, feet * FOOT, **more)

@@ -16,6 +16,7 @@ from openpyxl.utils import get_column_letter
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found, plain
 from report.sheet.reading.formula_text import canonical, moved
+from report.sheet.reading.locate import added_later
 from report.sheet.reading.locate_tables import TableArea, table_area
 from report.sheet.reading.positions import (
     FRESH,
@@ -216,7 +217,15 @@ def _written(layout: Layout, *, is_us: bool) -> Workbook:
 
 
 def _named(book: OpenBook, written: Workbook) -> Iterator[tuple[CellPosition, str]]:
-    """Yield the formulas within named ranges, moved to where the workbook has these names."""
+    """Yield the formulas within named ranges, moved to where the workbook has these names.
+
+    Not those that refer to a cell which came later: a workbook has the formulas of its version.
+    """
+    later = [
+        section.cell_name(entry.name)
+        for section in SECTIONS
+        for entry in added_later(book, section)
+    ]
     for name in written.defined_names:
         here, there = area_named(written, name), area_named(book.book, name)
         if here is None or there is None or _size(here[1]) != _size(there[1]):
@@ -225,9 +234,10 @@ def _named(book: OpenBook, written: Workbook) -> Iterator[tuple[CellPosition, st
         left, top, last_column, last_row = here[1]
         for row, column in product(range(top, last_row + 1), range(left, last_column + 1)):
             cell = written[here[0]].cell(row, column)
-            if cell.data_type == "f":
+            text = str(cell.value)
+            if cell.data_type == "f" and not any(cell_name in text for cell_name in later):
                 at = CellPosition(there[0], row + down, column + right)
-                yield at, moved(str(cell.value), down)
+                yield at, moved(text, down)
 
 
 def _size(bounds: tuple[int, int, int, int]) -> tuple[int, int]:

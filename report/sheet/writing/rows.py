@@ -56,9 +56,10 @@ def roof_object(
     return {"id": name, "kind": kind, "height_m": height_m, **rectangle(x, y, unit_m)}
 
 
-def clearance(array: str, other: str, direction: str, provided_m: float) -> Row:
+def clearance(array: str, other: str, direction: str, provided_m: float, **more: object) -> Row:
     """Return a row of the sheet Clearances."""
-    return {"array": array, "object": other, "direction": direction, "provided_m": provided_m}
+    row = {"array": array, "object": other, "direction": direction, "provided_m": provided_m}
+    return row | more
 
 
 _COMPONENTS = {"x": "record", "y": "transverse", "z": "vertical"}

@@ -5,13 +5,16 @@ import datetime as dt
 import numpy as np
 import pytest
 
+import inputs
 import scenes
 import stand_in
+from report.assessment.conditions import project_rows, rows_before_runs
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.verdict import Verdict, worst
+from report.words.units import PRESSURES
 from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
-from stand_in import FOOT
+from stand_in import FOOT, INCH
 
 
 def assessed(shaking=None, **changes):
@@ -32,8 +35,10 @@ def without(given, missing):
     return {name: value for name, value in given.items() if name != missing}
 
 
-@pytest.mark.parametrize("missing", [None, "peer_reviewer", "peer_license", "peer_date"])
-def test_a_peer_review_without_name_license_and_date_is_a_condition(missing):
+@pytest.mark.parametrize(
+    "missing", [None, "peer_reviewer", "peer_license", "peer_date", "peer_letter"]
+)
+def test_a_peer_review_without_name_license_date_and_letter_is_a_condition(missing):
     found = row(assessed(options=without(scenes.REVIEW, missing)), "peer_review")
     assert found.is_satisfied is (missing is None)
     assert found.consequence is Consequence.CONDITION
@@ -41,6 +46,109 @@ def test_a_peer_review_without_name_license_and_date_is_a_condition(missing):
 
 def test_without_a_peer_review_nothing_is_said_of_it():
     assert row(assessed(), "peer_review") is None
+
+
+CODE = {"building_code": "CBC", "building_code_year": 2022, "jurisdiction": "City of Alameda"}
+
+
+@pytest.mark.parametrize(
+    ("given", "found"),
+    [
+        (CODE, "2022 CBC; City of Alameda"),
+        ({"jurisdiction": "City of Alameda"}, "City of Alameda; building code not given"),
+        (without(CODE, "jurisdiction"), "2022 CBC; jurisdiction not given"),
+        ({}, "not given"),
+    ],
+)
+def test_without_building_code_and_jurisdiction_there_is_a_condition(given, found):
+    data = stand_in.project(site=stand_in.site(**given))
+    said = next(item for item in project_rows(data, ()) if item.id == "building_code")
+    assert said.found == found
+    assert said.verdict is (Verdict.OK if given == CODE else Verdict.CONDITIONS)
+
+
+def before_runs(key, *, units="US", **given):
+    """The row on an array of 42,000 lb on 80 ft x 60 ft, 8.75 psf."""
+    head = inputs.HEAD | {"units_first": units}
+    data = stand_in.project(arrays=[stand_in.array("A1", 0.5, **given)], project=head)
+    rows = rows_before_runs(data, data.arrays[0], 0.0)
+    return next((item for item in rows if item.id == key), None)
+
+
+PSF = PRESSURES["psf"]
+
+
+@pytest.mark.parametrize(
+    ("capacity_psf", "limit", "verdict"),
+    [
+        (9.0, "≤ 9.0 psf (0.43 kPa)", Verdict.OK),
+        (8.75, "≤ 8.8 psf (0.42 kPa)", Verdict.OK),
+        (8.0, "≤ 8.0 psf (0.38 kPa)", Verdict.NG),
+    ],
+)
+def test_a_weight_over_the_roof_capacity_is_ng(capacity_psf, limit, verdict):
+    found = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF)
+    assert (found.limit, found.verdict) == (limit, verdict)
+    assert found.found == "8.8 psf (0.42 kPa)"
+
+
+def test_a_weight_that_prints_as_the_capacity_and_exceeds_it_says_so():
+    found = before_runs("roof_capacity", roof_capacity_pa=8.7499 * PSF)
+    assert found.verdict is Verdict.NG
+    assert found.limit.endswith(" (rounded apart: both would print alike)")
+    assert found.found.split()[0] != found.limit.split()[1]
+
+
+@pytest.mark.parametrize("key", ["roof_capacity", "wind_weight"])
+def test_what_others_do_not_state_is_not_compared(key):
+    assert before_runs(key) is None
+
+
+@pytest.mark.parametrize(
+    ("wind_psf", "units", "found", "verdict"),
+    [
+        (8.8, "US", "8.8 psf (0.42 kPa)", Verdict.OK),
+        (8.6, "US", "8.6 psf (0.41 kPa)", Verdict.CONDITIONS),
+        (9.5, "US", "9.5 psf (0.45 kPa)", Verdict.CONDITIONS),
+        (8.8, "SI", "0.42 kPa (8.8 psf)", Verdict.OK),
+        (9.5, "SI", "0.45 kPa (9.5 psf)", Verdict.CONDITIONS),
+    ],
+)
+def test_another_weight_in_the_wind_design_is_a_condition(wind_psf, units, found, verdict):
+    said = before_runs("wind_weight", units=units, wind_weight_pa=wind_psf * PSF)
+    assert (said.found, said.verdict) == (found, verdict)
+
+
+def pathway(other, more_m, **second):
+    """The row on a fire pathway where so much more is left than the 36 in required."""
+    arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=140, **second)]
+    gap = stand_in.clearance("A1", other, 4.0) | {"pathway_m": 36 * INCH}
+    slides = [item.design_m for item in assessed(arrays=arrays, clearances=[gap]).arrays]
+    gap["provided_m"] = 36 * INCH + sum(slides[: 2 if second else 1]) + more_m
+    done = assessed(arrays=arrays, clearances=[gap])
+    return row(done, "fire_pathway"), done.array_verdict(done.arrays[0])
+
+
+@pytest.mark.parametrize(
+    ("other", "second", "n_slides"),
+    [("RTU-1", {}, 1), ("A2", {}, 1), ("A2", {"construction": "Unlike"}, 2)],
+)
+def test_a_fire_pathway_keeps_its_width_after_the_displacement(other, second, n_slides):
+    found, _ = pathway(other, 0.001, **second)
+    assert (found.verdict, found.limit) == (Verdict.OK, "≥ 36.0 in (914 mm)")
+    assert found.found.count("−") == n_slides
+    assert found.found.endswith("= 36.0 in (915 mm)")
+    found, of_array = pathway(other, -0.001, **second)
+    assert found.verdict is Verdict.NG
+    assert of_array is Verdict.NG
+
+
+def test_without_a_permitted_displacement_no_fire_pathway_is_left():
+    gap = stand_in.clearance("A1", "RTU-1", 4.0) | {"pathway_m": 0.9}
+    done = assessed(arrays=[stand_in.array("A1", 8.0)], clearances=[gap])
+    found = row(done, "fire_pathway")
+    assert found.found == "unknown without a permitted design displacement"
+    assert found.verdict is Verdict.NG
 
 
 SOURCED = {"hazard_source": "ASCE 7 Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}

@@ -12,12 +12,15 @@ from click.testing import CliRunner
 
 import packages
 import tampering
+from places import ROOT
 from report.cli.main import main
 from report.making import OUTPUTS
 from report.proof.package import open_package, take_out
+from sheets import type_into
 from solver.model import InputError
 
 RECORD = "records/RM1-x.csv"
+LETTER = ROOT / "projects" / "school" / "peer-review.pdf"
 
 
 @pytest.fixture(scope="module")
@@ -74,6 +77,25 @@ def test_a_package_is_the_same_to_the_last_bit_and_nothing_is_left_behind(
     assert sorted(path.name for path in job.iterdir()) == ["input.xlsx", "out", "records"]
 
 
+@pytest.mark.nightly("report/proof/", "report/provenance/", "report/sheet/reading/beside.py")
+def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_path, given):
+    ignored = shutil.ignore_patterns("out", "make.py")
+    shutil.copytree(ROOT / "projects" / "conditions", tmp_path / "job", ignore=ignored)
+    shutil.copy(LETTER, tmp_path / "job" / "friction.pdf")
+    named = {"Friction tests/Test report file": "friction.pdf"}
+    type_into(tmp_path / "job" / "input.xlsx", named)
+    done = CliRunner().invoke(main, ["report", str(tmp_path / "job")])
+    assert done.exit_code == 0, done.output
+    path = tmp_path / "job" / "out" / "calc-package.pdf"
+    assert open_package(path).files["friction.pdf"] == LETTER.read_bytes()
+    done = run(path)
+    assert done.exit_code == 0, done.output
+    another = with_file("friction.pdf", LETTER.read_bytes() + b"%")
+    done = run(given(path.read_bytes(), another), "--json")
+    assert done.exit_code == 3, done.output
+    assert any(text.startswith("sheet 1: ") for text in json.loads(done.stdout)["differences"])
+
+
 @pytest.mark.nightly("report/proof/", "report/provenance/")
 def test_this_process_alone_writes_every_file_as_two_do(job, tmp_path_factory):
     alone = packages.reported(tmp_path_factory, job.name).out
@@ -94,6 +116,27 @@ def test_an_input_that_no_longer_runs_differs(data, given):
     done = run(given(data, with_file(RECORD, b"none")))
     assert done.exit_code == 3, done.output
     assert "its input: " in done.output
+
+
+def test_the_end_of_an_attached_pdf_is_not_that_of_the_package(data, tmp_path):
+    """Compression stores what it cannot shrink as it is."""
+    noise = random.Random(5).randbytes(5000)
+    letter = b"%PDF-1.7\n" + noise + b"\nstartxref\n1234\n%%EOF\n"
+
+    def attach(pdf):
+        tampering.set_file(pdf, RECORD, letter)
+        tampering.relisted(pdf)
+
+    out = io.BytesIO()
+    with pikepdf.open(io.BytesIO(data)) as pdf:
+        attach(pdf)
+        pdf.save(out, compress_streams=False)
+    assert letter[-25:] in out.getvalue()
+    path = tmp_path / "given.pdf"
+    path.write_bytes(out.getvalue())
+    package = open_package(path)
+    assert package.files[RECORD] == letter
+    assert package.first == package.data
 
 
 @pytest.mark.parametrize("content", [b"", b"words", b"%PDF-1.7\n", None])

@@ -18,6 +18,7 @@ from report.provenance.files import (
     record_bytes,
     sources,
 )
+from report.sheet.reading.beside import Document
 from report.sheet.reading.read import read
 from solver.model import InputError
 
@@ -74,6 +75,44 @@ def test_a_file_that_changed_during_the_run_is_an_input_error(job):
     changed = replace(shaking.records[0], sha256="0" * 64)
     with pytest.raises(InputError, match="changed while the report ran"):
         sources(sheet, replace(shaking, records=(changed,)))
+
+
+LETTER = b"%PDF-1.7\nletter"
+
+
+def with_documents(sheet, folder, *paths):
+    """Return a sheet that names documents of one content in a folder beside it."""
+    for path in paths:
+        (folder / path).write_bytes(LETTER)
+    shutil.copy(EXAMPLE / "input.xlsx", folder)
+    sha256 = hashlib.sha256(LETTER).hexdigest()
+    documents = [
+        Document(label=f"Document {count}", path=path, size=len(LETTER), sha256=sha256)
+        for count, path in enumerate(paths)
+    ]
+    return replace(sheet, path=folder / "input.xlsx", documents=tuple(documents))
+
+
+def test_a_document_is_attached_once_and_is_part_of_the_hash(job, tmp_path):
+    sheet, shaking = job
+    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
+    assert fingerprint(given, shaking) != fingerprint(sheet, shaking)
+    contents, listed = attached(sources(given, replace(shaking, records=())))
+    assert contents["letter.pdf"] == LETTER
+    kinds = {entry["path"]: entry["kind"] for entry in listed["files"]}
+    assert kinds == {"input.xlsx": "workbook", "letter.pdf": "document", "results.json": "results"}
+    (letter,) = (
+        f for f in attachments(sources(given, shaking), b"{}", "abc") if f.name == "letter.pdf"
+    )
+    assert (letter.mime, letter.relationship) == ("application/pdf", "Supplement")
+
+
+def test_a_document_that_changed_during_the_run_is_an_input_error(job, tmp_path):
+    sheet, shaking = job
+    given = with_documents(sheet, tmp_path, "letter.pdf")
+    (tmp_path / "letter.pdf").write_bytes(b"%PDF-1.7\nanother")
+    with pytest.raises(InputError, match=r"letter\.pdf: changed while the report ran"):
+        sources(given, replace(shaking, records=()))
 
 
 def test_records_beyond_the_limit_are_left_out_and_hashed(job, monkeypatch):

@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import pytest
 from click.testing import CliRunner
 
 from cells import cell
@@ -10,9 +11,16 @@ from places import DATA, ROOT
 from report.cli.main import main
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.read import read
-from report.sheet.schema import PROVISION_KEYS, SECTIONS, ProjectInput, legacy_labels
+from report.sheet.schema import (
+    PROVISION_KEYS,
+    SECTION,
+    SECTIONS,
+    ProjectInput,
+    legacy_labels,
+)
 from report.sheet.schema.fields import entries
 from report.sheet.writing.legacy_notes import what_is_new
+from report.sheet.writing.live import overwritten
 from sheets import edit, make, project, same, type_into
 
 
@@ -30,7 +38,7 @@ def test_check_has_one_note_of_what_a_workbook_of_0_1_lacks_and_a_new_one_has_no
     assert done.exit_code == 0
     (line,) = (line for line in done.output.splitlines() if "of version 0.1" in line)
     assert line.startswith("note: ")
-    assert "lacks 9 columns and the sheets Friction tests, Outlines, Layers, " in line
+    assert "lacks 12 columns and the sheets Friction tests, Outlines, Layers, " in line
     assert line.endswith("Run roofslip new FOLDER and copy your cells into the new workbook")
     assert list(what_is_new(open_book(make(tmp_path / "new")))) == []
 
@@ -61,28 +69,37 @@ def test_every_earlier_label_is_read_as_the_present_one(tmp_path):
     assert same(read(edit(make(tmp_path), earlier_labels)).project, project())
 
 
-SITE = next(section for section in SECTIONS if section.key == "site")
-
-
-def without(field):
-    """Remove the label and the name of a cell of the site: workbooks from before it lack them."""
-    (label,) = (e.cell.label for e in entries(SITE.model) if e.name == field)
+def without(section, *fields):
+    """Remove labels and names of single cells: workbooks from before them lack them."""
+    section = SECTION[section]
 
     def change(book):
-        del book.defined_names[SITE.cell_name(field)]
-        cell(book, f"Site/{label}").offset(column=-1).value = None
+        for field in fields:
+            del book.defined_names[section.cell_name(field)]
+            label = section.entry(field).cell.label
+            cell(book, f"{section.sheet}/{label}").offset(column=-1).value = None
 
     return change
 
 
-def test_a_workbook_from_before_the_report_on_the_hazard_is_read_as_it_is(tmp_path):
-    book = read(edit(make(tmp_path), without("hazard_report")))
+@pytest.mark.parametrize(
+    "fields",
+    [
+        ("site", "hazard_report"),
+        ("site", "building_code", "building_code_year", "jurisdiction"),
+        ("friction_tests", "report_file"),
+        ("options", "peer_letter"),
+    ],
+)
+def test_a_workbook_from_before_some_cells_is_read_as_it_is(tmp_path, fields):
+    book = read(edit(make(tmp_path), without(*fields)))
     assert book.problems == ()
+    assert list(overwritten(book.book)) == []
     assert same(book.project, project())
 
 
 def test_a_workbook_that_lost_one_of_the_cells_that_came_together_is_refused(tmp_path):
-    (problem,) = read(edit(make(tmp_path), without("hazard_date"))).problems
+    (problem,) = read(edit(make(tmp_path), without("site", "hazard_date"))).problems
     assert "date of hazard is missing" in problem[1].found
 
 

@@ -33,7 +33,9 @@ def start(project):
 def written(project, values, folder):
     """The project with the values written into the cells of its workbook."""
     given = start(project)
-    shutil.copytree(PROJECTS / project / "records", folder / "records")
+    shutil.copytree(
+        PROJECTS / project, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("out")
+    )
     new = cells(given.sheet, typed(given.sheet, given.scales, values))
     data = (PROJECTS / project / "input.xlsx").read_bytes()
     (folder / "input.xlsx").write_bytes(changed(data, new))

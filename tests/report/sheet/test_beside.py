@@ -1,0 +1,85 @@
+"""Documents that a workbook attaches: which files it may name, and what is said of the others."""
+
+import hashlib
+
+import pytest
+
+import sheets
+from report.sheet.reading import beside
+from report.sheet.reading.read import read
+from sheets import at, problems, type_into
+
+LETTER, REPORT = "Options/Letter of review", "Friction tests/Test report file"
+PDF = b"%PDF-1.7\nletter"
+
+
+@pytest.fixture
+def workbook(tmp_path):
+    return sheets.make(tmp_path / "project")
+
+
+def naming(workbook, name, content=None):
+    """Return the workbook with the letter of review named, and the file beside it if it has one."""
+    if content is not None:
+        path = workbook.parent / name.replace("\\", "/")
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(content)
+    return type_into(workbook, {LETTER: name})
+
+
+@pytest.mark.parametrize(
+    ("name", "path"),
+    [("letter.pdf", "letter.pdf"), ("./review/a.PDF", "review/a.PDF"), ("b\\a.pdf", "b/a.pdf")],
+)
+def test_a_document_beside_the_workbook_is_read_with_its_hash(workbook, name, path):
+    (found,) = read(naming(workbook, name, PDF)).documents
+    assert (found.label, found.path, found.size) == ("Letter of review", path, len(PDF))
+    assert found.sha256 == hashlib.sha256(PDF).hexdigest()
+
+
+def test_without_a_document_none_is_read(workbook):
+    assert read(workbook).documents == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("../letter.pdf", "is outside the workbook's folder; give a file in the workbook's folder"),
+        ("/etc/letter.pdf", "is outside the workbook's folder"),
+        ("C:\\letter.pdf", "is outside the workbook's folder"),
+        ("linked.pdf", "is a link to a file outside the workbook's folder"),
+        ("up/letter.pdf", "is a link to a file outside the workbook's folder"),
+        ("records", "is not a file"),
+        ("records/x.csv", "is no PDF; attach it as a PDF"),
+        ("leter.pdf", "does not exist; did you mean 'letter.pdf'?"),
+        ("missing.pdf", "does not exist; give a file in the workbook's folder, such as"),
+    ],
+)
+def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
+    folder = workbook.parent
+    (folder.parent / "letter.pdf").write_bytes(PDF)
+    (folder / "letter.pdf").write_bytes(PDF)
+    (folder / "linked.pdf").symlink_to(folder.parent / "letter.pdf")
+    (folder / "up").symlink_to(folder.parent)
+    (problem,) = problems(naming(workbook, name))
+    shown = name.replace("\\", "/")
+    assert problem.startswith(f"{at(LETTER)}: letter of review: '{shown}' {said}")
+
+
+def test_all_documents_together_have_a_limit(workbook, monkeypatch):
+    monkeypatch.setattr(beside, "MAX_DOCUMENTS", 2 * len(PDF) - 1)
+    naming(workbook, "letter.pdf", PDF)
+    assert len(read(workbook).documents) == 1
+    (workbook.parent / "report.pdf").write_bytes(PDF)
+    (problem,) = problems(type_into(workbook, {REPORT: "report.pdf"}))
+    assert problem.startswith(f"{at(LETTER)}: ")
+    assert "'letter.pdf' and the other documents have more than" in problem
+
+
+def test_one_file_in_both_cells_is_named_twice(workbook):
+    naming(workbook, "both.pdf", PDF)
+    found = read(type_into(workbook, {REPORT: "both.pdf"})).documents
+    assert [(one.label, one.path) for one in found] == [
+        ("Test report file", "both.pdf"),
+        ("Letter of review", "both.pdf"),
+    ]
