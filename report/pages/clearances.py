@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
+from report.entities.evidence import NeighborResult
 from report.pages.parts import PackageData
 from report.pages.remedies import answers
 from report.sheet.schema import ObjectKind
@@ -20,7 +21,11 @@ def clearances(package: PackageData, evidence: Evidence) -> Mapping[str, object]
         for gap in package.assessment.clearances
         if gap.clearance.object in objects
     ]
+    beyond = [pair for pair in package.assessment.pairs if not pair.is_listed]
     return {
+        "neighbors": list(map(NeighborResult.of, package.assessment.neighbors)),
+        "n_beyond": len(beyond),
+        "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
         "friction": mus_words(package.data.arrays),
         "parapets": [
             gap
