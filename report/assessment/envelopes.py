@@ -148,8 +148,15 @@ def keep_clear_mark(assessment: Assessment, array: ArrayAssessment) -> str:
 
 
 def keep_clear_words(separation_m: float, us_first: bool) -> str:
-    """Return the field note of an array, its distance rounded up to 1 in or 10 mm."""
+    """Return the field note of an array."""
     if math.isnan(separation_m):
         return KEEP_CLEAR_UNKNOWN
+    return f"keep clear {keep_clear_distance(separation_m, us_first)}"
+
+
+def keep_clear_distance(separation_m: float, us_first: bool) -> str:
+    """Return the separation from any fixed object for print, rounded up to 1 in or 10 mm."""
+    if math.isnan(separation_m):
+        return "none"
     steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
-    return f"keep clear {steps} in" if us_first else f"keep clear {10 * steps} mm"
+    return f"{steps} in" if us_first else f"{10 * steps} mm"

@@ -77,6 +77,12 @@ class LinkedArray:
     linked: AnalysisValue
 
     @property
+    def stretch_m(self) -> float:
+        """Largest elongation of a link in any run [m]; NaN where a run has none."""
+        runs = (run for motion in self.motions for run in motion.runs)
+        return max((run.row.stretch_m for run in runs), key=nan_is_worst)
+
+    @property
     def ratio(self) -> float:
         """Value with links / value of the single block.
 

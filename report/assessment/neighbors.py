@@ -1,6 +1,7 @@
 """What the plan shows near each array, and whether the workbook gives a clearance to it.
 
-Measures from the plan alone; decides nothing (`report.assessment.project`). Read `neighbors` first.
+Measures from the plan alone; decides nothing (`report.assessment.project`). Read `plan_pairs`
+first.
 """
 
 from __future__ import annotations
@@ -39,6 +40,16 @@ class NearbyKind(StrEnum):
     BARE_EDGE = "edge of the roof, not given"
 
 
+class Cover(StrEnum):
+    """How the clearances of the workbook cover a pair of the plan."""
+
+    AS_IN_PLAN = "provided as in plan"
+    DIFFERS = "provided differs from plan"
+    BEYOND = "as in plan; beyond twice displ."
+    SUFFICIENT = "not given; no less than required"
+    SHORT = "not given; NG"
+
+
 @dataclass(frozen=True, slots=True)
 class BareEdge:
     """A side of the roof outline, or a part of it, along which no object is an edge."""
@@ -56,6 +67,7 @@ class BareEdge:
 class GivenGap:
     """A clearance of the workbook between an array and its neighbor, with the cell of its value."""
 
+    number: int  # of its row, from 1
     clearance: Clearance
     cell: str
 
@@ -68,6 +80,7 @@ class PlanNeighbor:
     array: str
     other: str
     kind: NearbyKind
+    what: str  # kind of the other, in words
     # of the array, and of the other
     near: Shape
     far: Shape
@@ -85,6 +98,20 @@ class PlanNeighbor:
     def is_near(self) -> bool:
         """Whether it is within reach, or nearer than is required."""
         return self.gap_m <= self.reach_m or self.gap_m < self.required_m
+
+    @property
+    def is_listed(self) -> bool:
+        """Whether it is near, or a clearance is given."""
+        return bool(self.given) or self.is_near
+
+    @property
+    def cover(self) -> Cover:
+        """How its clearances cover it, if it is listed."""
+        if not self.given:
+            return Cover.SHORT if self.is_short else Cover.SUFFICIENT
+        if self.contradictions:
+            return Cover.DIFFERS
+        return Cover.AS_IN_PLAN if self.is_near else Cover.BEYOND
 
     @property
     def is_missing(self) -> bool:
@@ -139,7 +166,7 @@ def _both(value_m: float, us_first: bool) -> str:
     return pair(value_m, Quantity.SIZE, us_first)
 
 
-def neighbors(
+def plan_pairs(
     data: ProjectInput,
     arrays: Sequence[ArrayAssessment],
     addresses: Mapping[Place, str],
@@ -147,9 +174,8 @@ def neighbors(
 ) -> tuple[PlanNeighbor, ...]:
     """Return each pair of arrays, array and object, array and bare roof edge of the plan.
 
-    Of those, the pairs that are near or with a clearance. An object without a place in plan is in
-    none of them (`unplaced`). An array without a permitted displacement reaches twice the
-    prescriptive one.
+    An object without a place in plan is in none of them. An array without a permitted displacement
+    reaches twice the prescriptive one.
 
     Parameters
     ----------
@@ -160,13 +186,7 @@ def neighbors(
     for each in _pairs(data, arrays, addresses):
         required_m, mark = required(each)
         found.append(replace(each, required_m=required_m, mark=mark))
-    return tuple(each for each in found if each.given or each.is_near)
-
-
-def unplaced(data: ProjectInput) -> tuple[str, ...]:
-    """Return the ids of objects that have neither a place in plan nor a clearance."""
-    named = {row.object for row in data.clearances}
-    return tuple(item.id for item in data.objects if item.placed is None and item.id not in named)
+    return tuple(found)
 
 
 def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:
@@ -281,6 +301,7 @@ def _pairs(
     data: ProjectInput, arrays: Sequence[ArrayAssessment], addresses: Mapping[Place, str]
 ) -> Iterator[PlanNeighbor]:
     rows = _rows(data, addresses)
+    kinds = {item.id: item.kind.value for item in data.objects}
     for array, other, kind, far, reach_m in _candidates(data, arrays):
         is_bare = kind is NearbyKind.BARE_EDGE
         table = "objects" if is_bare else "clearances"
@@ -289,6 +310,7 @@ def _pairs(
             array=array.id,
             other=other,
             kind=kind,
+            what=kinds.get(other, kind.value),
             near=near,
             far=far,
             gap_m=gap_m(near, far),
@@ -326,5 +348,6 @@ def _rows(
     for index, row in enumerate(data.clearances):
         cell = addresses.get(Place("clearances", index, "provided_m"), "Clearances")
         key = frozenset((row.array, row.object))
-        rows[key] = (*rows.get(key, ()), GivenGap(clearance=row, cell=cell))
+        given = GivenGap(number=index + 1, clearance=row, cell=cell)
+        rows[key] = (*rows.get(key, ()), given)
     return rows

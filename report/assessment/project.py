@@ -35,7 +35,7 @@ from report.assessment.friction_velocity import (
     with_low_velocity,
 )
 from report.assessment.links import LinkedArray, assess_linked
-from report.assessment.neighbors import PlanNeighbor, neighbors
+from report.assessment.neighbors import PlanNeighbor, plan_pairs
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits, rule_set_of
 from report.assessment.run_warnings import run_warnings
@@ -76,8 +76,8 @@ class Assessment:
     clearances : tuple of ClearanceCheck
     linked : tuple of LinkedArray
         The arrays for which the workbook requests a check of the rigid-block model.
-    neighbors : tuple of PlanNeighbor
-        What the plan shows near each array, with its clearances.
+    pairs : tuple of PlanNeighbor
+        What the plan shows beside each array, with its clearances.
     acceptance : Acceptance
         Limits on the motions as run, at the roof.
     rows : tuple of Requirement
@@ -103,7 +103,7 @@ class Assessment:
     arrays: tuple[ArrayAssessment, ...]
     clearances: tuple[ClearanceCheck, ...]
     linked: tuple[LinkedArray, ...]
-    neighbors: tuple[PlanNeighbor, ...]
+    pairs: tuple[PlanNeighbor, ...]
     acceptance: Acceptance
     rows: tuple[Requirement, ...]
     at_reduced_friction: Assessment | None
@@ -179,6 +179,11 @@ class Assessment:
                 *(gap.mark for gap in self.missing_gaps),
             )
         )
+
+    @property
+    def neighbors(self) -> tuple[PlanNeighbor, ...]:
+        """What the plan shows near each array, or what a clearance is given to."""
+        return tuple(pair for pair in self.pairs if pair.is_listed)
 
     @property
     def missing_gaps(self) -> tuple[PlanNeighbor, ...]:
@@ -320,7 +325,7 @@ def _assess(
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     required = partial(minimum_gap, data, rules, arrays)
-    nearby = neighbors(data, arrays, sheet.addresses, required)
+    pairs = plan_pairs(data, arrays, sheet.addresses, required)
     horizontal, vertical = ac156(data)
     return Assessment(
         sheet=sheet,
@@ -334,7 +339,7 @@ def _assess(
         arrays=arrays,
         clearances=clearances,
         linked=linked,
-        neighbors=nearby,
+        pairs=pairs,
         acceptance=acceptance,
         rows=(
             *project_rows(data, shaking.prepared),
@@ -342,7 +347,7 @@ def _assess(
             *(row for item in arrays for row in array_rows(data, item)),
             *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
             *pathway_rows(data, arrays, clearances),
-            *plan_rows(data, nearby),
+            *plan_rows(data, pairs),
             *(less_friction_rows(arrays, clearances, reduced) if reduced else ()),
         ),
         at_reduced_friction=reduced,

@@ -14,8 +14,10 @@ from pydantic import BeforeValidator
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.causes import unshown_cause
 from report.assessment.changes import ChangeKind
+from report.assessment.envelopes import keep_clear_distance, keep_clear_m, keep_clear_mark
 from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
+from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Verdict
 from report.entities.cells import Column, Told
 from report.entities.marks import Marked
@@ -34,7 +36,7 @@ from report.entities.shown import (
     words,
 )
 from report.sheet.schema import Direction, ModelChoice
-from report.words.units import Quantity, compared, number, ratio, rounded_apart
+from report.words.units import Quantity, compared, no_less, number, ratio, rounded_apart
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
@@ -245,6 +247,9 @@ class ArrayResult(LowVelocityResult):
     )
     governing_gap: Annotated[str, words("Clearance", 1.4)] = printed("none given")
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
+    gap_required_m: Annotated[Number, length("Required", 0.8)] = printed(math.nan)
+    gap_provided_m: Annotated[Number, length("Provided", 0.8)] = printed(math.nan)
+    keep_clear: Annotated[str, Shown(head="Keep clear", share=0.9)] = printed("")
     weight_n: Annotated[
         float, at("array.weight_n"), _weight("Weight W"), Column("Weight [lb]", 0, is_input=True)
     ] = printed(math.nan)
@@ -262,6 +267,17 @@ class ArrayResult(LowVelocityResult):
     def slope_deg(self) -> float:
         """Roof slope [deg]."""
         return math.degrees(self.slope_rad)
+
+    @unwritten(length("Design displ.", 0.9))
+    def permitted_m(self) -> float:
+        """The design displacement [m], rounded up; NaN where none is permitted."""
+        return self.design_m if self.design_permitted else math.nan
+
+    @unwritten(length("Residual", 0.9))
+    def residual_m(self) -> float:
+        """Largest distance from its place at the end of a run [m]."""
+        ends = (math.hypot(run.residual_m, run.residual_across_m) for run in self.runs)
+        return max(ends, key=nan_is_worst)
 
     @unwritten(_weight("Lighter part"))
     def lighter_n(self) -> float:
@@ -292,9 +308,21 @@ def array_result(
     given = item.array.interconnection_n
     required, provided = compared(item.interconnection_n, math.nan if given is None else given)
     gap = assessment.governing_clearance(item.id)
-    near = {}
+    rounds = {"interconnection_n": required, "provided_n": provided, "permitted_m": no_less}
+    near: dict[str, object] = {}
+    us_first = assessment.project.project.units_first.is_us
+    keep_clear = keep_clear_distance(keep_clear_m(assessment, item), us_first)
+    marks["permitted_m"] = marks.get("design_m", "")
     if gap:
-        near = {"governing_gap": f"to {gap.across_from(item.id)}", "largest_dc": gap.ratio_words}
+        least, had = compared(gap.required_m, gap.clearance.provided_m)
+        near = {
+            "governing_gap": f"to {gap.across_from(item.id)}",
+            "largest_dc": gap.ratio_words,
+            "gap_required_m": gap.required_m,
+            "gap_provided_m": gap.clearance.provided_m,
+        }
+        rounds |= {"gap_required_m": least, "gap_provided_m": had}
+        marks["gap_required_m"] = gap.mark
     is_sound = item.is_permitted and all(check.ok for check in item.limits)
     return ArrayResult.of(
         item,
@@ -303,7 +331,8 @@ def array_result(
         limits_verdict=Verdict.OK if is_sound else Verdict.NG,
         clause=clause,
         marks=marks,
-        rounds={"interconnection_n": required, "provided_n": provided},
+        keep_clear=keep_clear + keep_clear_mark(assessment, item),
+        rounds=rounds,
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
         directions={direction: direction_result(item, direction) for direction in item.directions},

@@ -31,7 +31,7 @@ from report.entities.shown import (
     words,
 )
 from report.sheet.schema import Direction
-from report.words.units import Quantity, compared, ratio, rounded_apart
+from report.words.units import Quantity, compared, no_less, ratio, rounded_apart
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
@@ -111,6 +111,16 @@ class ClearanceResult(Entity):
         """Kind of what is across it, and the direction, if it has one."""
         return self.neighbor.value + self.toward
 
+    @unwritten(length("At least", 0.8))
+    def least_m(self) -> float:
+        """Required separation, rounded up [m]."""
+        return self.required_m
+
+    @unwritten(words("Measured", 1.1))
+    def measured(self) -> str:
+        """Room for a value from the field."""
+        return ""
+
     @property
     def is_rounded_apart(self) -> bool:
         """Whether required and provided separation would print alike, and do not."""
@@ -132,10 +142,10 @@ def clearance_results(
             marks={
                 "design_m": gap.design_mark,
                 "factor": marked.mark(key),
-                "required_m": joined(least, gap.mark),
+                **dict.fromkeys(("required_m", "least_m"), joined(least, gap.mark)),
                 "demand_capacity": gap.mark,
             },
-            rounds={"required_m": required, "provided_m": provided},
+            rounds={"required_m": required, "provided_m": provided, "least_m": no_less},
         )
 
 

@@ -6,14 +6,15 @@ Computes nothing: see `report.assessment.evidence`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
 
-from report.assessment.neighbors import NearbyKind
+from report.assessment.neighbors import Cover, NearbyKind
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
-from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, at
+from report.entities.cells import Column
+from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, Shown, at, length, words
 from solver.model import Status
 
 _UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m", RemedyKind.S_DS: "_g"}
@@ -21,6 +22,10 @@ _UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m", RemedyKind.S_DS:
 
 def _cells(rows: Any) -> tuple[str, ...]:
     return tuple(getattr(row, "cell", row) for row in rows)
+
+
+def _numbers(given: tuple[GivenResult, ...]) -> str:
+    return f"No. {', '.join(row.clearance for row in given)}" if given else "—"
 
 
 class RemedyResult(Entity):
@@ -67,6 +72,8 @@ class RemedyResult(Entity):
 class GivenResult(Entity):
     """A clearance given for a neighbor."""
 
+    clearance: Annotated[str, at("number"), BeforeValidator(str)]
+    """Number of the clearance."""
     cell: str
     """Cell of the clearance in the workbook."""
     provided_m: Annotated[float, at("clearance.provided_m")]
@@ -74,26 +81,38 @@ class GivenResult(Entity):
 
 
 class NeighborResult(Entity):
-    """What the plan shows near an array, and the clearances that contradict it."""
+    """What the plan shows near an array, and the clearances that cover or contradict it."""
 
-    array: str
+    across: ClassVar[str] = "array other what gap_m reach_m given cover"
+
+    array: Annotated[str, words("Array", 0.7), Column()]
     """Id of the array."""
-    other: str
+    other: Annotated[str, words("Neighbor", 1.3), Column()]
     """Id of the array or object across the gap; words for an edge."""
     kind: NearbyKind
     """What is across the gap."""
-    gap_m: float
+    gap_m: Annotated[float, length("In plan", 0.8), Column("Distance in plan [in]")]
     """Least distance in plan; negative if they overlap."""
-    reach_m: Number
+    reach_m: Annotated[
+        Number, length("Twice displ.", 0.8), Column("Twice the design displacement [in]")
+    ]
     """Distance within which a clearance is needed."""
     is_missing: bool
     """Whether it is that near and has no clearance."""
     add_to: Annotated[str, at("to_add")]
     """Cell to which a missing row is to be added."""
-    given: tuple[GivenResult, ...]
+    given: Annotated[
+        tuple[GivenResult, ...],
+        Shown(head="Clearance", text=_numbers, align="left", share=0.9),
+        Column(value=_numbers),
+    ]
     """Clearances between the two."""
     contradictions: Annotated[tuple[str, ...], BeforeValidator(_cells)]
     """Cells of clearances that differ from the distance in plan."""
+    cover: Annotated[Cover, words("Remark", 2.8), Column()]
+    """Whether the clearances agree with the plan; without any, whether the distance suffices."""
+    what: Annotated[str, words("Kind", 1.8), Column()]
+    """Kind of the object, in words; for others as `kind`."""
 
 
 class SurfaceResult(Entity):

@@ -20,7 +20,7 @@ from report.pages.cover import cover
 from report.pages.front import letter
 from report.pages.parts import PackageData
 from report.pages.pictures import Drawings, draw_assessment, draw_plotted, draw_uncertainty
-from report.pages.registry import Content, package_data, pages_of, parts
+from report.pages.registry import LETTER, Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
 from report.typeset.equations import Equations, formula
 from report.typeset.pdf import TEMPLATES
@@ -97,7 +97,7 @@ def _html(
     drawings: Drawings,
     equations: Equations,
 ) -> str:
-    listed = {part.id: part for part in parts(package)}
+    listed = {part.id: part for part in (LETTER, *parts(package))}
     context = {
         "p": package,
         "with_symbols": with_symbols,

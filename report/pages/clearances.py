@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
 from report.document.tables import Table, listed
+from report.entities.evidence import NeighborResult
 from report.entities.shown import length, words
 from report.pages.parts import PackageData
 from report.pages.remedies import answers
@@ -16,7 +17,11 @@ from solver.rules.provisions import Neighbor
 
 def clearances(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
+    beyond = [pair for pair in package.assessment.pairs if not pair.is_listed]
     return {
+        "neighbors": list(map(NeighborResult.of, package.assessment.neighbors)),
+        "n_beyond": len(beyond),
+        "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
         "friction": mus_words(package.data.arrays),
         "parapets": _parapets(package),
         "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),

@@ -13,6 +13,7 @@ from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.changes import NO_FORMER, Changes
+from report.assessment.friction_rows import basis_words
 from report.assessment.verdict import Verdict
 from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
@@ -79,6 +80,15 @@ class PackageData(Marked):
             *(("Building", check) for check in given.building_checks),
             *((f"Array {item.id}", check) for item in given.arrays for check in item.limits),
         )
+
+    @property
+    def friction_sources(self) -> Mapping[tuple[str, str], Sequence[str]]:
+        """The arrays by the basis of their friction and the test report named for it."""
+        found: dict[tuple[str, str], list[str]] = {}
+        for array in self.data.arrays:
+            source = (basis_words(self.data, array), array.mu_report)
+            found.setdefault(source, []).append(array.id)
+        return found
 
     @property
     def has_ground(self) -> bool:

@@ -84,7 +84,11 @@ PAGES = (
     Page("echo", "Input echo", _alone(appendix.echo_page), is_appendix=True),
     Page("records", "Records and software", _alone(appendix.records_page), is_appendix=True),
     Page("symbols", "Symbols and references", _alone(symbols.page), is_appendix=True),
+    Page("notes", "Notes for the construction documents", lambda *_: {}, is_appendix=True),
 )
+
+LETTER = Part(id="letter", number="", title="Letter of results", parts=())
+"""Before the first page, without a number."""
 
 CHANGES = Page("changes", "Changes", _alone(changes.page), is_appendix=True)
 """The last appendix, so that the other parts have the same numbers in every revision."""

@@ -1,4 +1,4 @@
-"""The sheets of results.xlsx without formulas: Runs, Motions, Records, Spectra and Requirements.
+"""The sheets of results.xlsx without formulas: Runs, Motions, Neighbors, Requirements and more.
 
 Computes nothing. Read `report.results.xlsx`.
 """
@@ -14,6 +14,7 @@ from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.entities.cells import Column
+from report.entities.evidence import NeighborResult
 from report.entities.motion import MotionResult, RecordResult, motion_result
 from report.entities.requirement import RequirementRow, requirement_rows
 from report.entities.run import RunResult, run_result
@@ -57,12 +58,14 @@ class MotionRow(SheetRow, MotionResult):
 
 
 def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]) -> None:
-    """Write the runs, the components of the motions, the records and the spectra."""
+    """Write the runs, the components of the motions, the records, spectra and neighbors."""
     shaking = assessment.shaking
     write_list(pages, RunRow.sheet, list(_runs(assessment)))
     write_list(pages, MotionRow.sheet, list(_motions(shaking)))
     write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
     write_table(pages, "Spectra", _spectra(spectra))
+    if assessment.neighbors:
+        write_list(pages, "Neighbors", list(map(NeighborResult.of, assessment.neighbors)))
 
 
 def _runs(assessment: Assessment) -> Iterator[RunRow]:

@@ -12,7 +12,7 @@ import scenes
 import stand_in
 from inputs import FT, INCH, NO_SIDES, sides
 from report.assessment.clearances import minimum_gap
-from report.assessment.neighbors import NearbyKind, bare_edges, neighbors, unplaced
+from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pairs
 from report.assessment.project import assess
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
@@ -27,7 +27,8 @@ def of(assessment):
     """The neighbors of an assessment, which a test may have changed."""
     data, arrays = assessment.project, assessment.arrays
     required = partial(minimum_gap, data, assessment.rules, arrays)
-    return neighbors(data, arrays, assessment.sheet.addresses, required)
+    pairs = plan_pairs(data, arrays, assessment.sheet.addresses, required)
+    return [pair for pair in pairs if pair.is_listed]
 
 
 @pytest.fixture(scope="module")
@@ -101,6 +102,27 @@ def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
         assert "A1 and RTU-1 are 84.0 in (2134 mm) apart in plan" in text
 
 
+@pytest.mark.parametrize(
+    ("design_ft", "provided", "cover"),
+    [
+        (4.0, 84.0, Cover.AS_IN_PLAN),
+        (4.0, 90.0, Cover.DIFFERS),
+        (0.1, 90.0, Cover.DIFFERS),
+        (0.1, 84.0, Cover.BEYOND),
+    ],
+)
+def test_a_clearance_covers_a_neighbor_as_the_plan_has_it(done, design_ft, provided, cover):
+    rows = [stand_in.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
+    neighbor = by_pair(having(done, design_m=design_ft * FT, clearances=rows))["A1", "RTU-1"]
+    assert (neighbor.cover, [row.number for row in neighbor.given]) == (cover, [1])
+
+
+@pytest.mark.parametrize(("required_ft", "cover"), [(6.99, Cover.SUFFICIENT), (7.01, Cover.SHORT)])
+def test_a_neighbor_without_a_clearance_has_what_is_required_or_not(done, required_ft, cover):
+    neighbor = by_pair(having(done, design_m=4 * FT, clearances=[]))["A1", "RTU-1"]
+    assert replace(neighbor, required_m=required_ft * FT).cover is cover
+
+
 def test_a_missing_clearance_is_named_with_both_lengths_and_the_sheet(done):
     neighbor = by_pair(having(done, design_m=10.5 * FT))["A1", "A2"]
     assert neighbor.shortcomings(True) == (
@@ -117,12 +139,6 @@ def test_cells_are_those_of_the_workbook(tmp_path):
     assert row.given[0].cell == at("Clearances/1/Provided clearance")
     to_add = {near.to_add for near in listed if near.kind is not NearbyKind.BARE_EDGE}
     assert to_add == {at("Clearances/heading/Array")}
-
-
-def test_an_object_that_is_nowhere_is_named_unless_a_clearance_covers_it():
-    lost = [{"id": "LOST", "kind": "fixed object"}, {"id": "OLD", "kind": "fixed object"}]
-    rows = [stand_in.clearance("A1", "OLD", 1.0)]
-    assert unplaced(stand_in.project(objects=lost, clearances=rows)) == ("LOST",)
 
 
 def test_an_edge_of_the_roof_that_no_object_covers_is_a_neighbor(done):

@@ -296,6 +296,14 @@ def test_the_spectrum_of_every_motion_is_listed_by_component(usual):
     assert "Transverse, M7 [g]" in head
 
 
+def test_the_neighbors_are_listed_with_their_clearances(usual):
+    first, *_ = rows_of(usual[1]["Neighbors"])
+    assert [first[name] for name in ("Array", "Neighbor", "Kind", "Clearance", "Remark")] == [
+        "A1", "A3", "array", "No. 1", "as in plan; beyond twice displ.",
+    ]  # fmt: skip
+    assert first["Distance in plan [in]"] == pytest.approx(180.0)
+
+
 def test_two_runs_give_the_same_bytes(content, usual):
     assert xlsx(scenes.usual()) == content
     assert usual[0].properties.created.date() == scenes.usual().project.project.date

@@ -1,0 +1,67 @@
+"""The schedule of neighbors: what is beside each array in plan, and which clearance covers it."""
+
+import pytest
+
+import scenes
+import stand_in
+from printed import printed
+
+FOOT = stand_in.FOOT
+NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
+FAR = stand_in.roof_object("RTU-8", "fixed object", 190, 200, 35, 42)
+NOWHERE = {"id": "OLD", "kind": "fixed object"}
+ARRAYS = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
+CAPTION = "Neighbors in plan"
+PARTS = ["Array", "Neighbor", "Kind", "In plan [in]", "Twice displ. [in]", "Clearance", "Remark"]
+
+
+def page(**changes):
+    package = scenes.package(**{"arrays": ARRAYS, "objects": [], "clearances": []} | changes)
+    return printed(package, "clearances")
+
+
+def test_a_row_has_the_distance_the_reach_and_the_number_of_the_clearance():
+    rows = [stand_in.clearance("A1", "RTU-9", FOOT), stand_in.clearance("A2", "A1", 120 * FOOT)]
+    table = page(objects=[NEAR, FAR], clearances=rows).table(CAPTION)
+    assert [[row[part] for part in PARTS] for row in table.rows] == [
+        ["A1", "A2", "array", "1440.0", "81.6", "No. 2", "as in plan; beyond twice displ."],
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided as in plan"],
+    ]
+    (note, _) = table.notes
+    assert note.endswith(
+        "The other three pairs are farther apart, and no less than is required; the nearest are A2 "
+        "and RTU-8, 240.0 in (6096 mm)."
+    )
+
+
+def test_a_neighbor_without_a_clearance_is_listed_with_its_verdict():
+    table = page(objects=[NEAR]).table(CAPTION)
+    assert [[row[part] for part in PARTS] for row in table.rows] == [
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "—", "not given; NG"]
+    ]
+
+
+def test_what_has_no_place_in_plan_is_named_and_not_measured():
+    lost = NOWHERE | {"id": "LOST"}
+    made = page(objects=[NOWHERE, lost], clearances=[stand_in.clearance("A1", "OLD", 9.0)])
+    assert made.line("Not measured").endswith("the object has no place in plan: No. 1 (A1 to OLD).")
+    assert made.line("Neither a place").endswith("LOST.")
+    assert CAPTION not in made
+
+
+def test_without_a_neighbor_the_nearest_pair_is_named():
+    line = page().line("No array, object or roof edge of the plan is within")
+    assert line.endswith("the nearest are A1 and A2, 1440.0 in (36576 mm).")
+    assert "nearest" not in page(arrays=ARRAYS[:1])
+
+
+@pytest.mark.parametrize("is_given", [True, False])
+def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
+    roof = stand_in.inputs.sides(0, 380, 0, 170) if is_given else {}
+    assert ("The outline of the roof is not given" in page(roof=roof)) is not is_given
+
+
+def test_no_pair_is_said_to_have_what_is_required_where_that_is_not_known():
+    (note, *_) = printed(scenes.unpermitted(), "clearances").table(CAPTION).notes
+    assert "or the prescriptive one where none is permitted. The other seven pairs" in note
+    assert "required" not in note
