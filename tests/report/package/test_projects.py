@@ -1,4 +1,4 @@
-"""The packages of the school and of the incomplete warehouse say what their tables say."""
+"""The packages of the school, the campus and the incomplete warehouse say what their tables say."""
 
 import importlib.util
 import json
@@ -72,6 +72,11 @@ def school(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
+def campus(tmp_path_factory):
+    return made(packages.reported(tmp_path_factory, "campus"))
+
+
+@pytest.fixture(scope="module")
 def conditions(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "conditions", by_script=True))
 
@@ -117,7 +122,7 @@ def script(name):
 # What the scripts make, against what is committed.
 
 
-@pytest.mark.parametrize("name", ["school", "conditions"])
+@pytest.mark.parametrize("name", ["school", "campus", "conditions"])
 def test_the_script_writes_the_workbook_again_byte_for_byte(name, tmp_path):
     """All but the file that says when it was written."""
     module = script(name)
@@ -144,7 +149,8 @@ def test_the_first_motion_is_reproduced_to_the_last_digit(name, letters):
 
 
 @pytest.mark.parametrize(
-    ("name", "prefix", "letters"), [("school", "GM", "xyz"), ("conditions", "RM", "x")]
+    ("name", "prefix", "letters"),
+    [("school", "GM", "xyz"), ("campus", "GM", "xyz"), ("conditions", "RM", "x")],
 )
 def test_the_folder_has_the_motions_and_nothing_else(name, prefix, letters):
     count = script(name).COUNT
@@ -210,6 +216,24 @@ def test_the_school_states_the_displacement_of_smaller_events_for_information(sc
 
 def test_the_school_prints_si_units_first():
     assert not any(re.search(r"\d in \(\d+ mm\)", page("school", key)) for key in (*FRONT, *IDS))
+
+
+# The campus.
+
+
+def test_the_campus_has_three_of_the_schools_records_byte_for_byte():
+    for path in (PROJECTS / "campus" / "records").iterdir():
+        assert path.read_bytes() == (PROJECTS / "school" / "records" / path.name).read_bytes()
+
+
+@pytest.mark.nightly("projects/campus/", "report/making.py")
+def test_the_campus_is_ok_with_30_arrays_on_two_slopes_and_61_clearances(campus):
+    arrays = campus.results["arrays"]
+    assert [array["id"] for array in arrays] == [f"A{n}" for n in range(1, 31)]
+    assert {round(array["slope_rad"], 4) for array in arrays} == {0.0200, 0.0400}
+    assert {array["verdict"] for array in arrays} == {"OK"}
+    assert campus.results["verdict"] == "OK"
+    assert results_of_clearances(campus.book) == ["OK"] * 61
 
 
 # The incomplete warehouse.
