@@ -15,6 +15,7 @@ from markupsafe import Markup
 from report.assessment.verdict import Verdict
 from report.entities.columns import TableColumn, UnitFormat
 from report.entities.shown import Entity, Shown, shown_by
+from report.words.counts import grouped_by, ranged
 from solver.model import DefectError
 
 PLAIN = UnitFormat(us_first=True, none="—")
@@ -195,12 +196,22 @@ def with_total(table: Table, cells: Sequence[str], *, is_first: bool = False) ->
     return replace(table, rows=(row, *table.rows) if is_first else (*table.rows, row))
 
 
-def by_name(items: Iterable[Any], name_of: Callable[[Any], str]) -> Mapping[str, list[Any]]:
-    """Return items in groups of one name, in the order of their first items."""
-    groups: dict[str, list[Any]] = {}
-    for item in items:
-        groups.setdefault(name_of(item), []).append(item)
-    return groups
+def merged(table: Table, at: int = 0) -> Table:
+    """Return a table with one row, of all their names, for rows that differ in a name alone.
+
+    Parameters
+    ----------
+    at : int
+        Column of the names.
+    """
+    alike = grouped_by(table.rows, lambda row: (row.kind, row.cells[:at], row.cells[at + 1 :]))
+    rows = (
+        TableRow(cells=(*before, ranged(str(row.cells[at]) for row in rows), *after), kind=kind)
+        if len(rows) > 1
+        else rows[0]
+        for (kind, before, after), rows in alike.items()
+    )
+    return replace(table, rows=tuple(rows))
 
 
 def _listed_cells(columns: Sequence[Column], item: Any, fmt: UnitFormat) -> Iterator[str | Wide]:

@@ -81,7 +81,7 @@ class PackageData(Marked):
         given = self.assessment
         return (
             *(("Building", check) for check in given.building_checks),
-            *((f"Array {item.id}", check) for item in given.arrays for check in item.limits),
+            *((item.id, check) for item in given.arrays for check in item.limits),
         )
 
     @property

@@ -58,7 +58,7 @@ def draw_assessment(package: PackageData) -> Drawings:
         ],
         "plan": [figures.roof_plan(assessment, lies)],
         "comparison": [
-            figures.comparison(some, us_first) for some in _in_parts(assessment.arrays, CHART_ROWS)
+            figures.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
         ],
         "clearances": [
             figures.clearances(some, us_first, start=1 + count * CHART_ROWS)
@@ -119,7 +119,7 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
     us_first, rivals = package.fmt.us_first, shown.accuracy.rivals
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
-    runs = zip(package.assessment.arrays, shown.histories, strict=True)
+    runs = zip(package.assessment.alike, shown.histories, strict=True)
     return {
         "summary": list(_small_plan(package, shown.spectra)),
         "motions-spectra": [
@@ -127,8 +127,8 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
         ],
         "accuracy": [work_precision(rivals, us_first)] if rivals.runs else [],
         **{
-            f"results-{count}": list(_histories(array, followed, us_first))
-            for count, (array, followed) in enumerate(runs, start=1)
+            f"results-{count}": list(_histories(group[0], followed, us_first))
+            for count, (group, followed) in enumerate(runs, start=1)
         },
     }
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from typing import TypeVar
+
+_Item = TypeVar("_Item")
+_Key = TypeVar("_Key", bound=Hashable)
 
 _WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
@@ -36,3 +40,34 @@ def joined(names: Sequence[str]) -> str:
     """Return `a, b and c`."""
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last
+
+
+def grouped_by(items: Iterable[_Item], key: Callable[[_Item], _Key]) -> Mapping[_Key, list[_Item]]:
+    """Return items in groups of one key, in the order of their first items."""
+    groups: dict[_Key, list[_Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
+
+
+def ranged(names: Iterable[str]) -> str:
+    """Return names in their order, three or more that count on as one: `A1 to A6, A9, A10`."""
+    runs: list[list[str]] = []
+    for name in names:
+        if runs and name == _following(runs[-1][-1]):
+            runs[-1].append(name)
+        else:
+            runs.append([name])
+    return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
+
+
+def _following(name: str) -> str:
+    """Return the name that counts on from one, with its leading zeros: A10 from A9."""
+    stem = name.rstrip("0123456789")
+    digits = name[len(stem) :]
+    return f"{stem}{int(digits) + 1:0{len(digits)}d}" if digits else ""
+
+
+def named(names: Sequence[str], noun: str) -> str:
+    """Return names with their noun before them: `array A9`, `arrays A1 to A6`."""
+    return f"{noun}{'' if len(names) == 1 else 's'} {ranged(names)}"
