@@ -21,6 +21,7 @@ from solver.model import DefectError
 PLAIN = UnitFormat(us_first=True, none="—")
 """The format of a table without quantities in two systems of units."""
 
+MOST_SHARE = 1.9  # of a column of names
 WHOLE_ROWS = 6  # longer tables may break across pages, with the heading repeated
 
 
@@ -196,22 +197,28 @@ def with_total(table: Table, cells: Sequence[str], *, is_first: bool = False) ->
     return replace(table, rows=(row, *table.rows) if is_first else (*table.rows, row))
 
 
-def merged(table: Table, at: int = 0) -> Table:
-    """Return a table with one row, of all their names, for rows that differ in a name alone.
+def merged(table: Table, *at: int) -> Table:
+    """Return a table with one row for those that differ in names alone, which it lists.
 
     Parameters
     ----------
     at : int
-        Column of the names.
+        Columns of the names; the first one if none is given.
     """
-    alike = grouped_by(table.rows, lambda row: (row.kind, row.cells[:at], row.cells[at + 1 :]))
-    rows = (
-        TableRow(cells=(*before, ranged(str(row.cells[at]) for row in rows), *after), kind=kind)
-        if len(rows) > 1
-        else rows[0]
-        for (kind, before, after), rows in alike.items()
-    )
-    return replace(table, rows=tuple(rows))
+    names = at or (0,)
+
+    def others(row: TableRow) -> tuple[str, Sequence[str | Wide]]:
+        return row.kind, tuple(cell for k, cell in enumerate(row.cells) if k not in names)
+
+    rows, columns = [], list(table.columns)
+    for alike in grouped_by(table.rows, others).values():
+        cells = list(alike[0].cells)
+        for k in names if len(alike) > 1 else ():
+            cells[k] = said = ranged(str(row.cells[k]) for row in alike)
+            room = min(0.1 * len(said), MOST_SHARE)
+            columns[k] = replace(columns[k], share=max(columns[k].share, room))
+        rows.append(replace(alike[0], cells=tuple(cells)))
+    return replace(table, columns=tuple(columns), rows=tuple(rows))
 
 
 def _listed_cells(columns: Sequence[Column], item: Any, fmt: UnitFormat) -> Iterator[str | Wide]:

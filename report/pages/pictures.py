@@ -23,6 +23,7 @@ from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
+GAP_ROWS = 32
 LEAST_PLAN_IN = 1.6  # a plan of less height shows nothing
 SHEET_IN = 8.8  # from the head of a sheet to its foot
 Drawings = Mapping[str, Sequence[Any]]
@@ -61,8 +62,8 @@ def draw_assessment(package: PackageData) -> Drawings:
             figures.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
         ],
         "clearances": [
-            figures.clearances(some, us_first, start=1 + count * CHART_ROWS)
-            for count, some in enumerate(_in_parts(assessment.clearances, CHART_ROWS))
+            figures.clearances(some, us_first, start=1 + count * GAP_ROWS)
+            for count, some in enumerate(_in_parts(assessment.clearances, GAP_ROWS))
         ],
     }
 

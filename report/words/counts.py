@@ -51,21 +51,21 @@ def grouped_by(items: Iterable[_Item], key: Callable[[_Item], _Key]) -> Mapping[
 
 
 def ranged(names: Iterable[str]) -> str:
-    """Return names in their order, three or more that count on as one: `A1 to A6, A9, A10`."""
-    runs: list[list[str]] = []
-    for name in names:
-        if runs and name == _following(runs[-1][-1]):
-            runs[-1].append(name)
+    """Return names, each once and sorted, three or more that count on as one: `A1 to A6, A9`."""
+    runs: list[list[tuple[str, int, str]]] = []
+    for stem, number, name in sorted(set(map(_numbered, names))):
+        if runs and runs[-1][-1][:2] == (stem, number - 1):
+            runs[-1].append((stem, number, name))
         else:
-            runs.append([name])
-    return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
+            runs.append([(stem, number, name)])
+    own = ([name for *_, name in run] for run in runs)
+    return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in own)
 
 
-def _following(name: str) -> str:
-    """Return the name that counts on from one, with its leading zeros: A10 from A9."""
+def _numbered(name: str) -> tuple[str, int, str]:
+    """Return what is before the number at the end of a name, the number, and the name."""
     stem = name.rstrip("0123456789")
-    digits = name[len(stem) :]
-    return f"{stem}{int(digits) + 1:0{len(digits)}d}" if digits else ""
+    return stem, int(name[len(stem) :] or -2), name
 
 
 def named(names: Sequence[str], noun: str) -> str:
