@@ -206,12 +206,10 @@ def merged(table: Table, *at: int) -> Table:
         Columns of the names; the first one if none is given.
     """
     names = at or (0,)
-
-    def others(row: TableRow) -> tuple[str, Sequence[str | Wide]]:
-        return row.kind, tuple(cell for k, cell in enumerate(row.cells) if k not in names)
-
     rows, columns = [], list(table.columns)
-    for alike in grouped_by(table.rows, others).values():
+    for alike in grouped_by(
+        table.rows, lambda row: (row.kind, *(c for k, c in enumerate(row.cells) if k not in names))
+    ).values():
         cells = list(alike[0].cells)
         for k in names if len(alike) > 1 else ():
             cells[k] = said = ranged(str(row.cells[k]) for row in alike)

@@ -58,8 +58,7 @@ def comparison(groups: Sequence[Sequence[ArrayAssessment]], us_first: bool) -> s
     first, second = UnitFormat(us_first).units()
     with style():
         height = 1.3 + _row_in(len(groups)) * len(groups)
-        ids = (ranged(tick_text(array.id) for array in group) for group in groups)
-        names = [cut(some, 32) for some in ids]
+        names = [cut(ranged(tick_text(array.id) for array in group), 32) for group in groups]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
             _compare(axes, row, group[0], first, labeled=row == 0)

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.runs import nan_is_worst
 from report.document.tables import Table, listed
 from report.entities.shown import words
-from report.pages.parts import PackageData, nan_is_worst
+from report.pages.parts import PackageData
 from report.pages.symbols import friction_standard
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
 from report.sheet.schema import Revision

@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from report.assessment.runs import nan_is_worst
 from report.drawing.section import drawn_slope_deg
-from report.pages.parts import PackageData, nan_is_worst, statistic
+from report.pages.parts import PackageData, statistic
 from report.pages.site import site_force
 from report.sheet.schema import Array, Direction
 from report.words.units import Quantity

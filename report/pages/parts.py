@@ -5,14 +5,13 @@ Owns no content: see the other `report.pages` modules. Read `PackageData`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.verdict import Verdict
 from report.document.tables import stamp
@@ -21,17 +20,13 @@ from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.marks import Marked
 from report.provenance.files import fingerprint
 from report.sheet.schema import RecordedAt
+from report.words.counts import ids_by
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 
 BAR = "changed"
 """Style of what changed since a former revision: a bar in the margin."""
 OK, NG = "OK", "NG"
-
-
-def nan_is_worst(value: float) -> float:
-    """Return a sort key in which NaN is the largest."""
-    return math.inf if math.isnan(value) else value
 
 
 def statistic(basis: Basis) -> str:
@@ -92,9 +87,7 @@ class PackageData(Marked):
     @property
     def routes(self) -> Mapping[str, Sequence[str]]:
         """The arrays of each route that any takes."""
-        arrays = self.assessment.arrays
-        ids = {route.value: [item.id for item in arrays if item.route is route] for route in Route}
-        return {route: of_route for route, of_route in ids.items() if of_route}
+        return ids_by(self.assessment.arrays, lambda item: item.route.value)
 
     @property
     def verdicts(self) -> Mapping[str, Sequence[bool]]:

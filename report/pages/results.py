@@ -27,6 +27,7 @@ from solver.model import Orientation, SlideHistory, Status
 PEAK_ROWS = 16
 """The PRDs of usual suites stay on one page, with their mean and the design value."""
 
+_Alike = Sequence[ArrayAssessment]
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {
     Status.OK: "at rest",
@@ -50,7 +51,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 
 def _results(
-    package: PackageData, group: Sequence[ArrayAssessment], paths: Sequence[SlideHistory]
+    package: PackageData, group: _Alike, paths: Sequence[SlideHistory]
 ) -> Mapping[str, object]:
     array, runs = group[0], group[0].runs
     orientations = _orientations(runs)
@@ -71,9 +72,7 @@ def _results(
     }
 
 
-def _peaks(
-    package: PackageData, group: Sequence[ArrayAssessment], orientations: Sequence[Orientation]
-) -> Table:
+def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientation]) -> Table:
     """Return the runs of every motion, and below them the statistics and the design value."""
     fmt, changed = package.fmt, package.changes.values
     unit = fmt.units()[0].symbol
@@ -129,15 +128,12 @@ def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
     return ""
 
 
-def _statistics(
-    package: PackageData, group: Sequence[ArrayAssessment], runs: int
-) -> Iterator[TableRow]:
-    array = group[0]
-    analysis, fmt = array.analysis, package.fmt
+def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[TableRow]:
+    array, fmt = group[0], package.fmt
     row = next(row for row in package.arrays if row.id == array.id)
     ways = [array.directions[direction] for direction in _WAYS]
     toward = [array.design_toward_m(direction) for direction in _WAYS]
-    factor = f"{statistic(analysis.basis)}, {package.clause('analysis_factor')}"
+    factor = f"{statistic(array.analysis.basis)}, {package.clause('analysis_factor')}"
     of_motions, blank = "of the motions", [""] * len(ways)
     marks = [array.toward_mark(direction) for direction in _WAYS]
     for name, label, excursions, after, about in (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 _Item = TypeVar("_Item")
 _Key = TypeVar("_Key", bound=Hashable)
@@ -48,6 +48,12 @@ def grouped_by(items: Iterable[_Item], key: Callable[[_Item], _Key]) -> Mapping[
     for item in items:
         groups.setdefault(key(item), []).append(item)
     return groups
+
+
+def ids_by(items: Iterable[Any], key: Callable[[Any], _Key]) -> Mapping[_Key, list[str]]:
+    """Return the same of items with an id, each by that."""
+    groups = grouped_by(items, key).items()
+    return {found: [item.id for item in alike] for found, alike in groups}
 
 
 def ranged(names: Iterable[str]) -> str:
