@@ -207,9 +207,12 @@ def merged(table: Table, *at: int) -> Table:
     """
     names = at or (0,)
     rows, columns = [], list(table.columns)
-    for alike in grouped_by(
-        table.rows, lambda row: (row.kind, *(c for k, c in enumerate(row.cells) if k not in names))
-    ).values():
+
+    def others(row: TableRow) -> tuple[object, ...]:
+        cells = enumerate(row.cells)
+        return row.kind, *(c for k, c in cells if k not in names or isinstance(c, Wide))
+
+    for alike in grouped_by(table.rows, others).values():
         cells = list(alike[0].cells)
         for k in names if len(alike) > 1 else ():
             cells[k] = said = ranged(str(row.cells[k]) for row in alike)
