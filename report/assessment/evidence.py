@@ -5,10 +5,8 @@ Draws nothing. Read `support`; `report.pages` prints it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment
 from report.assessment.building_variations import building_variations
 from report.assessment.cumulative import Cumulative, cumulative
 from report.assessment.highpass import Beyond, beyond_corners
@@ -27,7 +25,8 @@ class Plotted:
     """What most figures show."""
 
     spectra: tuple[Spectra, ...]
-    # for each array, the governing run of each motion; all NaN where it has no displacement
+    # for each group of arrays that share runs, the governing run of each motion; all NaN where it
+    # has no displacement
     histories: tuple[tuple[SlideHistory, ...], ...]
     accuracy: Accuracy  # the governing run by every method, and the design with changed friction
 
@@ -49,16 +48,11 @@ def plotted(assessment: Assessment) -> Plotted:
     """Compute what most figures show, so that they can be drawn while the rest is computed."""
     return Plotted(
         spectra=spectra(assessment),
-        histories=_histories(assessment.arrays),
+        histories=tuple(
+            tuple(run.history() for run in group[0].motions) for group in assessment.alike
+        ),
         accuracy=accuracy(assessment),
     )
-
-
-def _histories(arrays: Sequence[ArrayAssessment]) -> tuple[tuple[SlideHistory, ...], ...]:
-    """Return the governing runs of each array; arrays that share a run share its history."""
-    runs = {id(run): run for array in arrays for run in array.motions}
-    found = {key: run.history() for key, run in runs.items()}
-    return tuple(tuple(found[id(run)] for run in array.motions) for array in arrays)
 
 
 def support(assessment: Assessment, shown: Plotted | None = None) -> Evidence:

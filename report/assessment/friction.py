@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterable
 
 from report.sheet.schema import Array, ProjectInput
+from report.words.counts import ids_by, ranged
 from report.words.units import number
 from solver.model import Friction
 
@@ -32,10 +33,8 @@ def mu_words(law: Friction) -> str:
 
 def mus_words(arrays: Iterable[Array]) -> str:
     """Return the friction of arrays, those of one friction together: `A1, A2: 0.50; A3: 0.45`."""
-    ids: dict[str, list[str]] = {}
-    for array in arrays:
-        ids.setdefault(mu_words(array.friction), []).append(array.id)
-    return "; ".join(f"{', '.join(names)}: {words}" for words, names in ids.items())
+    groups = ids_by(arrays, lambda array: mu_words(array.friction))
+    return "; ".join(f"{ranged(ids)}: {words}" for words, ids in groups.items())
 
 
 def with_friction(data: ProjectInput, factor: float) -> ProjectInput:

@@ -45,6 +45,7 @@ from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import Array, ProjectInput
+from report.words.counts import grouped_by
 from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Limit
@@ -118,6 +119,11 @@ class Assessment:
     def governing(self) -> ArrayAssessment:
         """The array with the largest design displacement, or one without a value."""
         return max(self.arrays, key=lambda array: nan_is_worst(array.design_m))
+
+    @property
+    def alike(self) -> Sequence[Sequence[ArrayAssessment]]:
+        """The arrays in groups that share their runs, in order."""
+        return tuple(grouped_by(self.arrays, lambda item: scene_key(item.array)).values())
 
     @property
     def verdict(self) -> Verdict:

@@ -193,7 +193,8 @@ def single_array_check(
 ) -> ClearanceCheck:
     """Return a clearance with one array as tried and all others at rest."""
     arrays = tuple(
-        trial if array.id == trial.id else displaced(array, 0.0, 0.0) for array in given.arrays
+        trial if array.id == trial.id else displaced(array, 0.0, 0.0)
+        for array in involved(given, row)
     )
     return check_clearance(data, given.rules, arrays, row)
 

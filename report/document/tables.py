@@ -15,11 +15,13 @@ from markupsafe import Markup
 from report.assessment.verdict import Verdict
 from report.entities.columns import TableColumn, UnitFormat
 from report.entities.shown import Entity, Shown, shown_by
+from report.words.counts import grouped_by, ranged
 from solver.model import DefectError
 
 PLAIN = UnitFormat(us_first=True, none="—")
 """The format of a table without quantities in two systems of units."""
 
+MOST_SHARE = 1.9  # of a column of names
 WHOLE_ROWS = 6  # longer tables may break across pages, with the heading repeated
 
 
@@ -195,12 +197,29 @@ def with_total(table: Table, cells: Sequence[str], *, is_first: bool = False) ->
     return replace(table, rows=(row, *table.rows) if is_first else (*table.rows, row))
 
 
-def by_name(items: Iterable[Any], name_of: Callable[[Any], str]) -> Mapping[str, list[Any]]:
-    """Return items in groups of one name, in the order of their first items."""
-    groups: dict[str, list[Any]] = {}
-    for item in items:
-        groups.setdefault(name_of(item), []).append(item)
-    return groups
+def merged(table: Table, *at: int) -> Table:
+    """Return a table with one row for those that differ in names alone, which it lists.
+
+    Parameters
+    ----------
+    at : int
+        Columns of the names; the first one if none is given.
+    """
+    names = at or (0,)
+    rows, columns = [], list(table.columns)
+
+    def others(row: TableRow) -> tuple[object, ...]:
+        cells = enumerate(row.cells)
+        return row.kind, *(c for k, c in cells if k not in names or isinstance(c, Wide))
+
+    for alike in grouped_by(table.rows, others).values():
+        cells = list(alike[0].cells)
+        for k in names if len(alike) > 1 else ():
+            cells[k] = said = ranged(str(row.cells[k]) for row in alike)
+            room = min(0.1 * len(said), MOST_SHARE)
+            columns[k] = replace(columns[k], share=max(columns[k].share, room))
+        rows.append(replace(alike[0], cells=tuple(cells)))
+    return replace(table, columns=tuple(columns), rows=tuple(rows))
 
 
 def _listed_cells(columns: Sequence[Column], item: Any, fmt: UnitFormat) -> Iterator[str | Wide]:

@@ -21,11 +21,11 @@ from markupsafe import Markup
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import basis_words
 from report.assessment.precheck import limit_value
-from report.document.tables import Table, stamp, table_of
+from report.document.tables import Table, merged, stamp, table_of
 from report.entities.linked import ratio_up
 from report.entities.marks import dagger
 from report.typeset.equations import data_uri, fraction, symbol
-from report.words.counts import capitalized, counted, joined, lowered, spelled
+from report.words.counts import capitalized, counted, joined, lowered, named, ranged, spelled
 from report.words.formats import general, percent, scientific, seconds, shortened
 from report.words.letters import below_mm, power_above
 from report.words.units import Quantity, digits_down, digits_up, number, ratio
@@ -86,11 +86,14 @@ def _environment(folder: Path) -> Environment:
         "joined": joined,
         "lowered": lowered,
         "mark": _mark,
+        "merged": merged,
+        "named": named,
         "needs_a_line": _needs_a_line,
         "number": number,
         "percent": percent,
         "power_above": power_above,
         "of_check": _of_check,
+        "ranged": ranged,
         "ratio": ratio,
         "ratio_up": ratio_up,
         "rule_length": _rule_length,

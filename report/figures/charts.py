@@ -33,6 +33,8 @@ from report.figures.hodograph import hodographs
 from report.figures.plan import roof_plan
 from report.figures.spectra import spectra
 from report.memoized import memoized
+from report.words.counts import ranged
+from report.words.letters import cut
 from report.words.units import Unit
 
 __all__ = [
@@ -51,17 +53,17 @@ __all__ = [
 
 
 @memoized
-def comparison(arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
-    """Return prescriptive value, floor, PRD of each motion, mean and design value by array."""
+def comparison(groups: Sequence[Sequence[ArrayAssessment]], us_first: bool) -> str:
+    """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays."""
     first, second = UnitFormat(us_first).units()
     with style():
-        height = 1.3 + _row_in(len(arrays)) * len(arrays)
-        names = [tick_text(array.id) for array in arrays]
+        height = 1.3 + _row_in(len(groups)) * len(groups)
+        names = [cut(ranged(tick_text(array.id) for array in group), 32) for group in groups]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
-        for row, array in enumerate(arrays):
-            _compare(axes, row, array, first, labeled=row == 0)
-        axes.set_yticks(range(len(arrays)), names)
-        axes.set_ylim(len(arrays) - 0.45, -0.55)
+        for row, group in enumerate(groups):
+            _compare(axes, row, group[0], first, labeled=row == 0)
+        axes.set_yticks(range(len(groups)), names)
+        axes.set_ylim(len(groups) - 0.45, -0.55)
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)

@@ -23,8 +23,10 @@ from report.figures.base import (
     style,
     svg_text,
 )
+from report.figures.levels import dot_name
 from report.memoized import memoized
 from report.sheet.schema import Array
+from report.words.counts import ids_by
 from report.words.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface
 from solver.model import Friction
@@ -97,13 +99,8 @@ def friction_by_velocity(
 
 def _laws(arrays: Sequence[Array]) -> Mapping[Friction, str]:
     """Return each law with the arrays that use it."""
-    found: dict[Friction, list[str]] = {}
-    for array in arrays:
-        found.setdefault(array.friction, []).append(array.id)
-    return {
-        law: ", ".join(ids) if len(ids) <= 2 else f"{ids[0]} and {len(ids) - 1} more"
-        for law, ids in found.items()
-    }
+    groups = ids_by(arrays, lambda array: array.friction)
+    return {law: dot_name(ids) for law, ids in groups.items()}
 
 
 def _mu_axis(axes: Axes, runs: Sequence[float], laws: Sequence[float]) -> None:

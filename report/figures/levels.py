@@ -9,6 +9,8 @@ import numpy as np
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.uncertainty import ResponseSurface
+from report.words.counts import ids_by, ranged
+from report.words.letters import cut
 
 LEAST_M = 1e-4
 """Displacement below which no contour is drawn [m]."""
@@ -40,17 +42,15 @@ def dots(
     surface: ResponseSurface, arrays: Sequence[ArrayAssessment]
 ) -> Mapping[tuple[float, float], Sequence[str]]:
     """Return the arrays at each friction and slope [deg] of a grid: equal ones share a dot."""
-    places: dict[tuple[float, float], list[str]] = {}
-    for array in (array for array in arrays if array.id not in surface.others):
-        place = (round(array.array.mu, 3), round(math.degrees(array.array.slope_rad), 2))
-        places.setdefault(place, []).append(array.id)
-    return places
+    drawn = (array for array in arrays if array.id not in surface.others)
+    return ids_by(
+        drawn, lambda one: (round(one.array.mu, 3), round(math.degrees(one.array.slope_rad), 2))
+    )
 
 
 def dot_name(ids: Sequence[str]) -> str:
-    """Return the name of a dot that arrays share."""
-    more = f" and {len(ids) - 2} more" if len(ids) > 2 else ""
-    return ", ".join(ids[:2]) + more
+    """Return the name of a dot or a line that arrays share."""
+    return cut(ranged(ids), 24)
 
 
 def is_decade(level: float) -> bool:

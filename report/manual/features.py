@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from itertools import groupby
-
 from report.document.sections import Section
 from report.document.tables import listed
 from report.entities.shown import text, words
 from report.manual.section import section
 from report.manual.summary import judged
+from report.words.counts import ranged
 from solver.verification.evidence import Verification
 from solver.verification.features import FeatureStatus, statuses
 
 _FEATURE = (
     (words("Feature", 2.9), lambda status: status.feature.name),
-    (words("Checks (section 3)", 1.9), lambda status: ", ".join(spans(status.ids)) or "—"),
+    (words("Checks (section 3)", 1.9), lambda status: ranged(status.ids) or "—"),
     (
         text("Passed", share=0.9),
         lambda status: f"{status.n_passed} of {status.n_checks}" if status.n_checks else "—",
@@ -39,17 +38,6 @@ def features(verification: Verification) -> Section:
         "Status of each feature",
         features=listed(found, _FEATURE, kind="compact"),
     )
-
-
-def spans(ids: tuple[str, ...]) -> list[str]:
-    """Return ids with runs of three or more as `CF-1 to CF-9`."""
-    numbered = [(letters, int(digits)) for letters, _, digits in (id.partition("-") for id in ids)]
-    groups = groupby(enumerate(numbered), key=lambda pair: (pair[1][0], pair[1][1] - pair[0]))
-    words: list[str] = []
-    for _, members in groups:
-        own = [f"{letters}-{number}" for _, (letters, number) in members]
-        words += [f"{own[0]} to {own[-1]}"] if len(own) > 2 else own
-    return words
 
 
 def _status(status: FeatureStatus) -> str:

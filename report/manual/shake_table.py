@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator
 
 from report.document.sections import Section
-from report.document.tables import by_name, grouped, listed
+from report.document.tables import grouped, listed
 from report.entities.shown import centered, plain, text, words
 from report.figures.shake_table import computed_against_measured
 from report.manual.section import section
 from report.manual.summary import judged
-from report.words.counts import joined
+from report.words.counts import grouped_by, joined
 from report.words.units import number
 from report.words.validation import NOT_VALIDATED, explained
 from solver.verification import shake_table as accepted
@@ -56,7 +56,7 @@ def shake_table(verification: Verification) -> Section:
         tables=[
             (
                 table,
-                grouped(by_name(table.runs, source), _TEST, kind="compact"),
+                grouped(grouped_by(table.runs, source), _TEST, kind="compact"),
                 listed(_rows(table), _JUDGED),
                 result(table),
             )

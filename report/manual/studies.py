@@ -9,10 +9,11 @@ import numpy as np
 import pandas as pd
 
 from report.document.sections import Section
-from report.document.tables import Table, by_name, listed, with_total
+from report.document.tables import Table, listed, with_total
 from report.entities.shown import text, words
 from report.figures import paper
 from report.manual.section import section
+from report.words.counts import grouped_by
 from report.words.formats import general, percent, seconds, slug
 from report.words.letters import lettered
 from solver.verification import paper_studies
@@ -59,7 +60,7 @@ def _errors(study: pd.DataFrame) -> Table:
 
 def links(verification: Verification) -> Section:
     """Return the paper's Figs. 6 to 9."""
-    by_record = by_name(verification.links, lambda link: link.record)
+    by_record = grouped_by(verification.links, lambda link: link.record)
     by_chart = {f"links-{slug(name)}": tuple(rows) for name, rows in by_record.items()}
     return section(
         "links",

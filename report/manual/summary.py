@@ -9,12 +9,13 @@ import numpy as np
 from markupsafe import Markup
 
 from report.document.sections import Section
-from report.document.tables import Table, by_name, listed
+from report.document.tables import Table, listed
 from report.entities.shown import centered, text, words
 from report.manual import studies
 from report.manual.precision import floor
 from report.manual.section import section
 from report.pages.parts import verdict
+from report.words.counts import grouped_by
 from report.words.formats import scientific
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import Check, Verification
@@ -67,7 +68,7 @@ def summary(verification: Verification) -> Section:
 
 def _by_section(checks: Sequence[Check]) -> Table:
     return listed(
-        by_name(checks, lambda row: row.section).items(),
+        grouped_by(checks, lambda row: row.section).items(),
         (
             (words("Section", 3.0), lambda group: group[0]),
             (text("Checks"), lambda group: len(group[1])),

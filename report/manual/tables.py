@@ -6,10 +6,11 @@ import math
 from collections.abc import Mapping, Sequence
 
 from report.document.sections import Section
-from report.document.tables import by_name, grouped, listed
+from report.document.tables import grouped, listed
 from report.entities.shown import centered, text, words
 from report.manual.section import section
 from report.manual.summary import judged
+from report.words.counts import grouped_by
 from report.words.formats import percent, scientific, seconds, ten_digits, unbroken
 from report.words.letters import lettered
 from report.words.units import number
@@ -66,8 +67,8 @@ def checks(verification: Verification) -> Section:
         "checks",
         "Checks",
         by_section={
-            name: grouped(by_name(rows, source), _CHECK, kind="compact")
-            for name, rows in by_name(verification.checks, lambda row: row.section).items()
+            name: grouped(grouped_by(rows, source), _CHECK, kind="compact")
+            for name, rows in grouped_by(verification.checks, lambda row: row.section).items()
         },
     )
 
@@ -87,7 +88,7 @@ def methods() -> Section:
 
 def peers(points: Sequence[PeerPoint]) -> Section:
     """Return the results of other programs, each run below its program and model."""
-    groups = by_name(points, lambda peer: f"{peer.peer} {peer.version}: {peer.note}")
+    groups = grouped_by(points, lambda peer: f"{peer.peer} {peer.version}: {peer.note}")
     return section(
         "peers",
         "Other programs",

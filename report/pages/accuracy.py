@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import itemgetter
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.arrays import ArrayAssessment, DesignBasis, by_id
 from report.assessment.evidence import Evidence
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
@@ -16,6 +16,7 @@ from report.document.tables import Column, Table, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import length, text, words
 from report.pages.parts import PackageData
+from report.words.counts import ranged
 from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Status
@@ -88,11 +89,12 @@ def _parameters(values: Mapping[str, float]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Varied:
-    """An array with its friction as given, less and more.
+    """Arrays that share their runs, by one of them: its friction as given, less and more.
 
     Without a design displacement as given where no route is permitted.
     """
 
+    ids: Sequence[str]
     given: ArrayAssessment
     at_reduced_friction: ArrayAssessment
     at_increased_friction: ArrayAssessment
@@ -106,13 +108,15 @@ class _Varied:
 
 def _by_array(accuracy: Accuracy) -> Iterator[_Varied]:
     assessments = (accuracy.given, accuracy.at_reduced_friction, accuracy.at_increased_friction)
-    for arrays in zip(*(assessment.arrays for assessment in assessments), strict=True):
-        yield _Varied(*(replace(array, design_m=array.permitted_m) for array in arrays))
+    for group in accuracy.given.alike:
+        arrays = (by_id(assessment.arrays, group[0].id) for assessment in assessments)
+        varied = (replace(array, design_m=array.permitted_m) for array in arrays)
+        yield _Varied([array.id for array in group], *varied)
 
 
 def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
     columns = (
-        (words("Array", 1.2), lambda row: row.given.id),
+        (words("Array", 1.2), lambda row: ranged(row.ids)),
         (text("μ", share=1.1), lambda row: mu_words(row.given.array.friction)),
         _design(package, f"{_PERCENT} less", lambda row: row.at_reduced_friction),
         _design(package, "As given", lambda row: row.given),

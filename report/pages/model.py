@@ -112,12 +112,8 @@ class _Group:
         return below_mm(worst) if worst == 0.0 else f"below {below_mm(worst)}"
 
 
-def _runs(array: ArrayAssessment) -> Sequence[OrientedRun]:
-    return [run for motion in array.motions for run in motion.runs]
-
-
 def _groups(array: ArrayAssessment) -> Iterator[_Group]:
-    ordered = sorted(_runs(array), key=lambda run: run.solution.model)
+    ordered = sorted(array.runs, key=lambda run: run.solution.model)
     for _, runs in groupby(ordered, key=lambda run: run.solution.model):
         yield _Group(array, list(runs))
 
@@ -126,7 +122,7 @@ def _table(package: PackageData) -> Table:
     columns = (
         (words("Array", 0.8), lambda group: group.array.id),
         (words("Model", 2.1), lambda group: group.model),
-        (text("Runs"), lambda group: f"{len(group.runs)} of {len(_runs(group.array))}"),
+        (text("Runs"), lambda group: f"{len(group.runs)} of {len(group.array.runs)}"),
         (plain("μ", unit="at rest", share=0.9), lambda group: group.array.array.friction.mu_static),
         (text("Demand", share=0.9), lambda group: _limited(group.demand)),
         (words("Reason", 4.2), lambda group: group.reason),
@@ -156,7 +152,7 @@ def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
     if array.is_model_requested:
         yield _requested(array)
         return
-    solutions = [run.solution for run in _runs(array)]
+    solutions = [run.solution for run in array.runs]
     neglected = sorted(
         {solution.next_model for solution in solutions if solution.next_model > solution.model}
     )

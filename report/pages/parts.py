@@ -11,7 +11,7 @@ from functools import cached_property
 
 from markupsafe import Markup
 
-from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.friction_rows import basis_words
 from report.assessment.verdict import Verdict
@@ -21,6 +21,7 @@ from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.marks import Marked
 from report.provenance.files import fingerprint
 from report.sheet.schema import RecordedAt
+from report.words.counts import ids_by
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 
@@ -78,7 +79,7 @@ class PackageData(Marked):
         given = self.assessment
         return (
             *(("Building", check) for check in given.building_checks),
-            *((f"Array {item.id}", check) for item in given.arrays for check in item.limits),
+            *((item.id, check) for item in given.arrays for check in item.limits),
         )
 
     @property
@@ -98,9 +99,7 @@ class PackageData(Marked):
     @property
     def routes(self) -> Mapping[str, Sequence[str]]:
         """The arrays of each route that any takes."""
-        arrays = self.assessment.arrays
-        ids = {route.value: [item.id for item in arrays if item.route is route] for route in Route}
-        return {route: of_route for route, of_route in ids.items() if of_route}
+        return ids_by(self.assessment.arrays, lambda item: item.route.value)
 
     @property
     def verdicts(self) -> Mapping[str, Sequence[bool]]:

@@ -23,6 +23,7 @@ from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
+GAP_ROWS = 32
 LEAST_PLAN_IN = 1.6  # a plan of less height shows nothing
 SHEET_IN = 8.8  # from the head of a sheet to its foot
 Drawings = Mapping[str, Sequence[Any]]
@@ -58,11 +59,11 @@ def draw_assessment(package: PackageData) -> Drawings:
         ],
         "plan": [figures.roof_plan(assessment, lies)],
         "comparison": [
-            figures.comparison(some, us_first) for some in _in_parts(assessment.arrays, CHART_ROWS)
+            figures.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
         ],
         "clearances": [
-            figures.clearances(some, us_first, start=1 + count * CHART_ROWS)
-            for count, some in enumerate(_in_parts(assessment.clearances, CHART_ROWS))
+            figures.clearances(some, us_first, start=1 + count * GAP_ROWS)
+            for count, some in enumerate(_in_parts(assessment.clearances, GAP_ROWS))
         ],
     }
 
@@ -119,7 +120,7 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
     us_first, rivals = package.fmt.us_first, shown.accuracy.rivals
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
-    runs = zip(package.assessment.arrays, shown.histories, strict=True)
+    runs = zip(package.assessment.alike, shown.histories, strict=True)
     return {
         "summary": list(_small_plan(package, shown.spectra)),
         "motions-spectra": [
@@ -127,8 +128,8 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
         ],
         "accuracy": [work_precision(rivals)] if rivals.runs else [],
         **{
-            f"results-{count}": list(_histories(array, followed, us_first))
-            for count, (array, followed) in enumerate(runs, start=1)
+            f"results-{count}": list(_histories(group[0], followed, us_first))
+            for count, (group, followed) in enumerate(runs, start=1)
         },
     }
 

@@ -107,9 +107,4 @@ def _table(package: PackageData, found: Sequence[PrintedRemedy]) -> Table:
         (words("Resolution", 1.1), resolution),
         (words("Verified by all runs", 2.2), verified),
     )
-    return listed(
-        found,
-        columns,
-        package.fmt,
-        kind="compact",
-    )
+    return listed(found, columns, package.fmt, kind="compact")

@@ -20,12 +20,14 @@ from report.entities.shown import Shown, length, text, words
 from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema import Direction
+from report.words.counts import named
 from report.words.units import number
 from solver.model import Orientation, SlideHistory, Status
 
 PEAK_ROWS = 16
 """The PRDs of usual suites stay on one page, with their mean and the design value."""
 
+_Alike = Sequence[ArrayAssessment]
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {
     Status.OK: "at rest",
@@ -38,25 +40,26 @@ _SHORT = {
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
-    arrays = enumerate(package.assessment.arrays, start=1)
-    return tuple((f"results-{count}", f"Array {array.id}") for count, array in arrays)
+    groups = ([item.id for item in group] for group in package.assessment.alike)
+    return tuple((f"results-{n}", named(ids, "Array")) for n, ids in enumerate(groups, start=1))
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return the results of every array, without the charts."""
-    followed = zip(package.assessment.arrays, evidence.histories, strict=True)
-    return {"arrays": [_results(package, array, paths) for array, paths in followed]}
+    """Return the results of every group of arrays that share their runs, without the charts."""
+    followed = zip(package.assessment.alike, evidence.histories, strict=True)
+    return {"groups": [_results(package, group, paths) for group, paths in followed]}
 
 
 def _results(
-    package: PackageData, array: ArrayAssessment, paths: Sequence[SlideHistory]
+    package: PackageData, group: _Alike, paths: Sequence[SlideHistory]
 ) -> Mapping[str, object]:
-    runs = [run for motion in array.motions for run in motion.runs]
+    array, runs = group[0], group[0].runs
     orientations = _orientations(runs)
     return {
         "array": array,
+        "constructions": dict.fromkeys(item.array.construction for item in group),
         "slope_percent": 100.0 * math.tan(array.array.slope_rad),
-        "table": _peaks(package, array, orientations),
+        "table": _peaks(package, group, orientations),
         "is_transverse_run": any(orientation.is_transverse for orientation in orientations),
         "is_prd_across": not all(run.has_across for run in runs),
         "is_drawn_across": any(path.across_m.size for path in paths),
@@ -65,15 +68,13 @@ def _results(
             for run, path in zip(array.motions, paths, strict=True)
             if not path.across_m.size and path.result.prd_m > 0.0
         ],
-        "troubles": run_warnings([array], package.fmt.us_first).values(),
+        "troubles": run_warnings(group, package.fmt.us_first).values(),
     }
 
 
-def _peaks(
-    package: PackageData, array: ArrayAssessment, orientations: Sequence[Orientation]
-) -> Table:
+def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientation]) -> Table:
     """Return the runs of every motion, and below them the statistics and the design value."""
-    fmt = package.fmt
+    fmt, changed = package.fmt, package.changes.values
     unit = fmt.units()[0].symbol
 
     def in_first(head: str, below: str) -> Shown:
@@ -98,14 +99,14 @@ def _peaks(
         (words("Status", 1.05), lambda run: _SHORT[run.governing.result.status]),
     ]
     table = listed(
-        array.motions,
+        group[0].motions,
         columns,
         fmt,
         kind="compact",
         whole_rows=PEAK_ROWS,
-        style=lambda run: package.bar((array.id, run.motion.id) in package.changes.values),
+        style=lambda run: package.bar(any((item.id, run.motion.id) in changed for item in group)),
     )
-    return replace(table, rows=(*table.rows, *_statistics(package, array, len(orientations))))
+    return replace(table, rows=(*table.rows, *_statistics(package, group, len(orientations))))
 
 
 def _orientations(runs: Sequence[OrientedRun]) -> Sequence[Orientation]:
@@ -127,12 +128,12 @@ def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
     return ""
 
 
-def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Iterator[TableRow]:
-    analysis, fmt = array.analysis, package.fmt
+def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[TableRow]:
+    array, fmt = group[0], package.fmt
     row = next(row for row in package.arrays if row.id == array.id)
     ways = [array.directions[direction] for direction in _WAYS]
     toward = [array.design_toward_m(direction) for direction in _WAYS]
-    factor = f"{statistic(analysis.basis)}, {package.clause('analysis_factor')}"
+    factor = f"{statistic(array.analysis.basis)}, {package.clause('analysis_factor')}"
     of_motions, blank = "of the motions", [""] * len(ways)
     marks = [array.toward_mark(direction) for direction in _WAYS]
     for name, label, excursions, after, about in (
@@ -142,7 +143,8 @@ def _statistics(package: PackageData, array: ArrayAssessment, runs: int) -> Iter
         ("floor", f"Floor: {_floor_words(package)}", [row.floor] * len(ways), blank, ""),
         ("design_m", "Design", toward, marks, f"governed by: {array.source}"),
     ):
-        is_changed = (array.id, name.replace("floor", "floor_m")) in package.changes.values
+        field = name.replace("floor", "floor_m")
+        is_changed = any((item.id, field) in package.changes.values for item in group)
         toward_cells = (fmt.cells(m)[0] + mark for m, mark in zip(excursions, after, strict=True))
         yield TableRow(
             cells=(Wide(label, 1 + runs), *row.cells(name, fmt), *toward_cells, Wide(about, 5)),
@@ -160,7 +162,7 @@ def _floor_words(package: PackageData) -> str:
 def comparison(package: PackageData) -> Mapping[str, object]:
     """Return what the comparison with the prescriptive displacement needs beside the arrays."""
     arrays = package.assessment.arrays
-    checks = [(f"Array {item.id}", check) for item in arrays for check in item.prescriptive_checks]
+    checks = [(item.id, check) for item in arrays for check in item.prescriptive_checks]
     return {
         "faults": {item.id: analysis_faults(package, item) for item in arrays},
         "routes": check_table(package, checks, ("satisfied", "not satisfied")),

@@ -97,12 +97,10 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
 
     columns = (
-        (text("No.", share=0.5), lambda margin: margin.number),
-        (words("From", 0.8), lambda margin: margin.gap.clearance.array),
-        (words("To", 1.1), lambda margin: margin.gap.clearance.object),
-        (words("Friction of", 0.8), lambda margin: margin.array.id),
-        (text("μ", "given", 1.6), lambda margin: mu_words(margin.array.array.friction)),
-        (text("μ", "least", 1.6), least),
+        (words("No."), lambda margin: str(margin.number)),
+        (words("Friction of"), lambda margin: margin.array.id),
+        (text("μ", "given", 1.2), lambda margin: mu_words(margin.array.array.friction)),
+        (text("μ", "least", 1.2), least),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (
             length("Required there", 0.9),

@@ -6,7 +6,7 @@ Only those are offered that the cells of the workbook can express. Read `control
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -17,6 +17,7 @@ from report.sheet.schema import Array, Polarity, ProjectInput, RuleSetName
 from report.sheet.schema.fields import Place
 from report.web.opened import Opened
 from report.web.values import MUS, Values, trim_unit_m, typed
+from report.words.counts import ids_by, ranged
 from report.words.letters import cut
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import MOST_MU
@@ -186,14 +187,12 @@ def _why_not(given: Opened, values: Values) -> str:
     return next((str(problem) for _, problem in changed.problems), "")
 
 
-def _grouped(arrays: Sequence[Array], text_of: Any) -> str:
+def _grouped(arrays: Sequence[Array], text_of: Callable[[Array], str]) -> str:
     """Return a text for the arrays that share it, such as `0.45 (A1, A2); 0.50 (A3)`."""
-    groups: dict[str, list[str]] = {}
-    for array in arrays:
-        groups.setdefault(text_of(array), []).append(array.id)
+    groups = ids_by(arrays, text_of)
     if len(groups) == 1:
         return next(iter(groups))
-    return "; ".join(f"{text} ({', '.join(names)})" for text, names in groups.items())
+    return "; ".join(f"{text} ({ranged(ids)})" for text, ids in groups.items())
 
 
 def _factors(motions: Sequence[Motion]) -> str:

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar
+
+_Item = TypeVar("_Item")
+_Key = TypeVar("_Key", bound=Hashable)
 
 _WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
@@ -36,3 +40,40 @@ def joined(names: Sequence[str]) -> str:
     """Return `a, b and c`."""
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last
+
+
+def grouped_by(items: Iterable[_Item], key: Callable[[_Item], _Key]) -> Mapping[_Key, list[_Item]]:
+    """Return items in groups of one key, in the order of their first items."""
+    groups: dict[_Key, list[_Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
+
+
+def ids_by(items: Iterable[Any], key: Callable[[Any], _Key]) -> Mapping[_Key, list[str]]:
+    """Return the same of items with an id, each by that."""
+    groups = grouped_by(items, key).items()
+    return {found: [item.id for item in alike] for found, alike in groups}
+
+
+def ranged(names: Iterable[str]) -> str:
+    """Return names, each once and sorted, three or more that count on as one: `A1 to A6, A9`."""
+    runs: list[list[tuple[str, int, str]]] = []
+    for stem, number, name in sorted(set(map(_numbered, names))):
+        if runs and runs[-1][-1][:2] == (stem, number - 1):
+            runs[-1].append((stem, number, name))
+        else:
+            runs.append([(stem, number, name)])
+    own = ([name for *_, name in run] for run in runs)
+    return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in own)
+
+
+def _numbered(name: str) -> tuple[str, int, str]:
+    """Return what is before the number at the end of a name, the number, and the name."""
+    stem = name.rstrip("0123456789")
+    return stem, int(name[len(stem) :] or -2), name
+
+
+def named(names: Sequence[str], noun: str) -> str:
+    """Return names with their noun before them: `array A9`, `arrays A1 to A6`."""
+    return f"{noun}{'' if len(names) == 1 else 's'} {ranged(names)}"

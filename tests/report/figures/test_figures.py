@@ -29,7 +29,7 @@ def drawn(assessment):
         figures.roof_plan(assessment, LANDSCAPE),
         figures.spectra(parts),
         histories(assessment.arrays[0]),
-        figures.comparison(assessment.arrays, True),
+        figures.comparison(assessment.alike, True),
         figures.clearances(assessment.clearances, True),
     ]
 
@@ -89,7 +89,7 @@ def test_a_run_without_a_value_is_drawn_as_such():
     done = scenes.package((still,) * 3).assessment
     printed = words(histories(done.arrays[0]))
     assert printed.count("none") == 6  # above and within each panel
-    assert "none" in words(figures.comparison(done.arrays, True))
+    assert "none" in words(figures.comparison(done.alike, True))
     assert words(figures.clearances(done.clearances, True)).count("none: NG") == 5
 
 
@@ -99,7 +99,7 @@ def test_a_failed_clearance_is_marked(assessment):
 
 @pytest.mark.parametrize("us_first", [True, False])
 def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
-    printed = words(figures.comparison(assessment.arrays, us_first))
+    printed = words(figures.comparison(assessment.alike, us_first))
     assert f"Horizontal displacement [{'in' if us_first else 'mm'}]" in printed
     assert f"[{'mm' if us_first else 'in'}]" in printed
 
@@ -108,4 +108,4 @@ def test_a_clearance_without_a_permitted_route_is_drawn_without_a_verdict():
     done = stand_in.unpermitted()
     found = words(figures.clearances(done.clearances, True))
     assert [text for text in found if text in ("OK", "NG", "none")] == ["none", "none", "OK"]
-    assert "none" in words(figures.comparison(done.arrays, True))
+    assert "none" in words(figures.comparison(done.alike, True))

@@ -10,7 +10,7 @@ import pytest
 import printed
 import tables
 from report.figures.base import load_fonts
-from report.manual.features import features, known_errors, spans
+from report.manual.features import features, known_errors
 from report.manual.shake_table import result, shake_table
 from report.typeset.pdf import TEMPLATES
 from report.words.validation import NOT_VALIDATED, explained
@@ -100,11 +100,6 @@ def test_no_two_features_have_one_name_and_no_id_is_there_twice():
         ids = (*feature.checks, *feature.extra)
         assert len(set(ids)) == len(ids)
         assert {id.partition("-")[0] for id in ids} <= set(SECTIONS)
-
-
-def test_ids_in_a_row_print_as_a_span():
-    ids = ("CF-1", "CF-2", "CF-3", "DA-1", "SY-1", "SY-2", "TA-5")
-    assert spans(ids) == ["CF-1 to CF-3", "DA-1", "SY-1", "SY-2", "TA-5"]
 
 
 def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_wrong(monkeypatch):

@@ -18,6 +18,7 @@ SETS = {
     "departing": scenes.departing,
     "school": partial(scenes.shipped, "school"),
     "conditions": partial(scenes.shipped, "conditions"),
+    "campus": partial(scenes.shipped, "campus"),
 }
 ALIKE = {"contents", "plan", "echo", "symbols"}
 """Parts that other projects print as the first one does."""
@@ -40,6 +41,7 @@ CHOSEN = {
     "departing": [*(key for key in KEYS if key not in ALIKE), "changes"],
     "school": [key for key in KEYS if key in SHIPPED],
     "conditions": [key for key in KEYS if key in SHIPPED],
+    "campus": ["results", "limits"],
 }
 PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
 

@@ -1,4 +1,4 @@
-"""The packages of the school and of the incomplete warehouse say what their tables say."""
+"""The packages of the school, the campus and the incomplete warehouse say what their tables say."""
 
 import importlib.util
 import json
@@ -59,6 +59,11 @@ def school(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
+def campus(tmp_path_factory):
+    return made(packages.reported(tmp_path_factory, "campus"))
+
+
+@pytest.fixture(scope="module")
 def conditions(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "conditions", by_script=True))
 
@@ -97,7 +102,7 @@ def script(name):
 # What the scripts make, against what is committed.
 
 
-@pytest.mark.parametrize("name", ["school", "conditions"])
+@pytest.mark.parametrize("name", ["school", "campus", "conditions"])
 def test_the_script_writes_the_workbook_again_byte_for_byte(name, tmp_path):
     """All but the file that says when it was written."""
     module = script(name)
@@ -124,7 +129,8 @@ def test_the_first_motion_is_reproduced_to_the_last_digit(name, letters):
 
 
 @pytest.mark.parametrize(
-    ("name", "prefix", "letters"), [("school", "GM", "xyz"), ("conditions", "RM", "x")]
+    ("name", "prefix", "letters"),
+    [("school", "GM", "xyz"), ("campus", "GM", "xyz"), ("conditions", "RM", "x")],
 )
 def test_the_folder_has_the_motions_and_nothing_else(name, prefix, letters):
     count = script(name).COUNT
@@ -197,6 +203,36 @@ def test_the_school_states_the_displacement_of_smaller_events_for_information(sc
 
 def test_the_school_prints_si_units_first():
     assert not any(re.search(r"\d in \(\d+ mm\)", page("school", key)) for key in (*FRONT, *IDS))
+
+
+# The campus.
+
+
+def test_the_campus_has_three_of_the_schools_records_byte_for_byte():
+    for path in (PROJECTS / "campus" / "records").iterdir():
+        assert path.read_bytes() == (PROJECTS / "school" / "records" / path.name).read_bytes()
+
+
+@pytest.mark.nightly("projects/campus/", "report/making.py")
+def test_the_campus_is_ok_with_30_arrays_on_two_slopes_and_61_clearances(campus):
+    arrays = campus.results["arrays"]
+    assert [array["id"] for array in arrays] == [f"A{n}" for n in range(1, 31)]
+    assert {round(array["slope_rad"], 4) for array in arrays} == {0.0200, 0.0400}
+    assert "NG" not in {campus.results["verdict"], *(array["verdict"] for array in arrays)}
+    assert results_of_clearances(campus.book) == ["OK"] * 61
+
+
+@pytest.mark.nightly("projects/campus/", "report/", "templates/")
+def test_the_campus_has_at_most_40_sheets(campus):
+    assert len(campus.pdf.pages) <= 40
+
+
+def test_arrays_of_the_campus_that_share_their_runs_share_a_result_sheet():
+    results = page("campus", "results")
+    names = ("A1 to A8, A11 to A15", "A9, A10", "A16 to A23, A26 to A30", "A24, A25")
+    for number, some in enumerate(names, start=1):
+        assert results.line(f"7.{number} Arrays {some}")
+    assert "7.5" not in results
 
 
 # The incomplete warehouse.

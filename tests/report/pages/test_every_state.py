@@ -69,7 +69,7 @@ STATES = {
     "one motion": (of(MOTIONS[:1]), "too few motions (1)"),
     "no vertical": (of(LEVEL), "there is no vertical component to reverse"),
     "no transverse": (of(scenes.along(MOTIONS)), "No motion has a second horizontal component"),
-    "prescriptive": (of(scenes.along(MOTIONS)), "Array A1: the prescriptive route is taken"),
+    "prescriptive": (of(scenes.along(MOTIONS)), "Arrays A1, A2: the prescriptive route is taken"),
     "peer review": (of(options=scenes.REVIEW), "removed by peer review: Reviewer of record"),
     "override": (of(overrides=[OVERRIDE]), "One number of the rule set is overridden"),
     "links": (of(links=[LINKS]), "Adequacy of the rigid-block model"),

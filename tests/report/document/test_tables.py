@@ -1,0 +1,50 @@
+"""Tables of a document: which rows are one."""
+
+from operator import itemgetter
+
+from report.document.tables import Wide, listed, merged
+from report.entities.shown import text, words
+
+COLUMNS = (
+    (words("Array", 0.8), itemgetter(0)),
+    (text("Limit"), itemgetter(1)),
+    (words("Side", 0.5), itemgetter(2)),
+)
+
+
+def rows_of(rows, *at, style=lambda _: ""):
+    table = merged(listed(rows, COLUMNS, style=style), *at)
+    return [row.cells for row in table.rows], [column.share for column in table.columns]
+
+
+def test_rows_that_differ_in_the_name_alone_are_one_where_the_first_is():
+    rows = [
+        ("A1", "3", "x"),
+        ("A2", "4", "x"),
+        ("A3", "3", "x"),
+        ("A4", "3", "x"),
+        ("A5", "3", "x"),
+    ]
+    cells, _ = rows_of(rows)
+    assert cells == [("A1, A3 to A5", "3", "x"), ("A2", "4", "x")]
+
+
+def test_names_of_two_columns_are_listed_each_by_itself():
+    cells, _ = rows_of([("1", "3", "B"), ("2", "3", "A"), ("3", "3", "B"), ("4", "5", "A")], 0, 2)
+    assert cells == [("1 to 3", "3", "A, B"), ("4", "5", "A")]
+
+
+def test_a_row_of_another_style_remains_and_so_does_one_without_a_name():
+    wide = Wide("Mean", 1)
+    rows = [("A1", "3", "x"), ("A2", "3", "x"), (wide, "3", "x"), ("A3", "3", "x")]
+    cells, _ = rows_of(rows, style=lambda row: "" if row[0] == "A1" else "total")
+    assert cells == [("A1", "3", "x"), ("A2, A3", "3", "x"), (wide, "3", "x")]
+
+
+def test_a_column_of_many_names_is_wider_up_to_a_limit():
+    assert rows_of([("A1", "3", "x")])[1] == [0.8, 1.0, 0.5]
+    two = [(name, "3", "x") for name in ("A1", "A2")]
+    many = [(f"A{number}", "3", "x") for number in range(1, 40, 2)]
+    (narrow, *others), (wide, *same) = rows_of(two)[1], rows_of(many)[1]
+    assert others == same == [1.0, 0.5]
+    assert 0.8 == narrow < wide < 2.0
