@@ -6,9 +6,10 @@ Runs nothing. `report.assessment.friction_rows` compares it with tests.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 from report.sheet.schema import Array, ProjectInput
+from report.words.counts import ranged
 from report.words.units import number
 from solver.model import Friction
 
@@ -30,12 +31,13 @@ def mu_words(law: Friction) -> str:
     return f"{sliding}{rest}"
 
 
-def mus_words(arrays: Iterable[Array]) -> str:
+def mus_words(arrays: Sequence[Array]) -> str:
     """Return the friction of arrays, those of one friction together: `A1, A2: 0.50; A3: 0.45`."""
     ids: dict[str, list[str]] = {}
     for array in arrays:
         ids.setdefault(mu_words(array.friction), []).append(array.id)
-    return "; ".join(f"{', '.join(names)}: {words}" for words, names in ids.items())
+    order = [array.id for array in arrays]
+    return "; ".join(f"{ranged(names, order)}: {words}" for words, names in ids.items())
 
 
 def with_friction(data: ProjectInput, factor: float) -> ProjectInput:

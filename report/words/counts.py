@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from itertools import groupby
 
 _WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 
@@ -36,3 +37,12 @@ def joined(names: Sequence[str]) -> str:
     """Return `a, b and c`."""
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last
+
+
+def ranged(names: Iterable[str], order: Sequence[str]) -> str:
+    """Return `A1 to A6, A9, A10`: three names or more that follow each other in an order."""
+    places = enumerate(sorted(map(order.index, names)))
+    # Places that follow each other are as far from their counts.
+    groups = groupby(places, lambda found: found[1] - found[0])
+    runs = ([order[at] for _, at in group] for _, group in groups)
+    return ", ".join(f"{run[0]} to {run[-1]}" if run[2:] else ", ".join(run) for run in runs)
