@@ -41,6 +41,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
             " directional_reviewer directional_license directional_date smaller_events",
         ),
         ("site", "hazard_report"),
+        ("options", "plan_paper"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook
