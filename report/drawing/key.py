@@ -6,13 +6,12 @@ Read `report.drawing.on_paper` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from report.drawing.callouts import draw_ng
 from report.drawing.items import Arrow, Look, Mark
 from report.drawing.layers import Layer
-from report.drawing.paper import BASE_IN, LINE_IN, Paper, wrapped
+from report.drawing.paper import BASE_IN, LINE_IN, Paper
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import PlanSheet
 from report.sheet.schema.shapes import Point
@@ -31,8 +30,8 @@ _MEANINGS: dict[Look, str] = {
     Layer.CLEARANCE_NG: "clearance not satisfied",
 }
 _LINES = (Layer.PARAPET, Layer.EDGE, Layer.BARE_EDGE)
-_SAMPLE_IN, _BESIDE_SAMPLE_IN = 0.34, 0.5
-_HEAD_IN, _APART_IN = 0.95, 0.025  # of north and the scale bar; between symbols
+_SAMPLE_IN = 0.34
+_HEAD_IN, _ROW_IN = 0.95, LINE_IN + 0.025  # of north and the scale bar; of a symbol
 
 
 def key_on_paper(plan: PlanSheet, wide: float) -> Paper:
@@ -40,12 +39,14 @@ def key_on_paper(plan: PlanSheet, wide: float) -> Paper:
     # What is on the plan; the samples come after it.
     drawn = {item.look for item in plan.paper.items if hasattr(item, "look")}
     symbols = [look for look in _MEANINGS if look in drawn]
-    lines = [wrapped(_MEANINGS[look], wide - _BESIDE_SAMPLE_IN) for look in symbols]
-    tall = _HEAD_IN + sum(LINE_IN * len(some) + _APART_IN for some in lines)
+    tall = _HEAD_IN + _ROW_IN * len(symbols)
     frame = Frame(0.0, 0.0, wide, tall)
     key = replace(plan.paper, wide=wide, tall=tall, placer=Placer(frame), items=[])
     draw_key(plan, frame, key)
-    _symbols(key, frame, dict(zip(symbols, lines, strict=True)))
+    for count, look in enumerate(symbols):
+        y = tall - _HEAD_IN - count * _ROW_IN - LINE_IN / 2
+        _sample(key, look, centered(0.05 + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
+        key.text(_SAMPLE_IN + 0.13, y - BASE_IN, _MEANINGS[look])
     return key
 
 
@@ -75,17 +76,6 @@ def _scale_bar(plan: PlanSheet, corner: Point, paper: Paper) -> None:
         paper.text(left + share * long, base - 0.14, words, is_centered=True)
     if paper.scale.name:
         paper.text(left, base + 0.13, paper.scale.name, is_bold=True)
-
-
-def _symbols(paper: Paper, frame: Frame, symbols: Mapping[Look, Sequence[str]]) -> None:
-    """Draw the symbols below north and the scale bar."""
-    used = _HEAD_IN
-    for look, lines in symbols.items():
-        y = frame.y1 - used - LINE_IN / 2
-        _sample(paper, look, centered(frame.x0 + 0.05 + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
-        for count, words in enumerate(lines):
-            paper.text(frame.x0 + _SAMPLE_IN + 0.13, y - BASE_IN - count * LINE_IN, words)
-        used += len(lines) * LINE_IN + _APART_IN
 
 
 def _sample(paper: Paper, look: Look, frame: Frame) -> None:

@@ -35,7 +35,6 @@ from report.drawing.sheet import (
     TABLOID,
     PlanSheet,
     PlanSize,
-    is_us_first,
     unit_format,
 )
 from report.sheet.schema import PlanPaper, Rectangle
@@ -96,7 +95,7 @@ def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
     """Return the sizes on the paper asked for, or on any, the smallest first."""
     letter = LANDSCAPE if is_wide(assessment) else PORTRAIT
     papers = {PlanPaper.LETTER: (letter,), PlanPaper.TABLOID: TABLOID, PlanPaper.A3: A3}
-    large = TABLOID if is_us_first(assessment) else A3
+    large = TABLOID if unit_format(assessment).us_first else A3
     return papers.get(assessment.project.options.plan_paper, (letter, *large))
 
 
@@ -185,4 +184,6 @@ def _scale(assessment: Assessment, extent: Rectangle, size: PlanSize) -> Scale:
     wide = size.wide - left - right - (0.0 if size.is_screen else size.key_wide)
     tall = size.tall - bottom - top - (size.key_tall if size.is_screen else 0.0)
     least = max((extent.x_to_m - extent.x_from_m) / wide, (extent.y_to_m - extent.y_from_m) / tall)
-    return Scale("", least) if size.is_screen else round_scale(least, is_us_first(assessment))
+    return (
+        Scale("", least) if size.is_screen else round_scale(least, unit_format(assessment).us_first)
+    )

@@ -198,9 +198,4 @@ class PlanSheet:
 
 def unit_format(assessment: Assessment) -> UnitFormat:
     """Return the units of a plan."""
-    return UnitFormat(us_first=is_us_first(assessment), none="no value")
-
-
-def is_us_first(assessment: Assessment) -> bool:
-    """Whether US units come first in a project."""
-    return assessment.project.project.units_first.is_us
+    return UnitFormat(us_first=assessment.project.project.units_first.is_us, none="no value")

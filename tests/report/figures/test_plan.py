@@ -14,8 +14,9 @@ import stand_in
 from inputs import NO_SIDES, sides
 from printed import printed
 from report.assessment.envelopes import keep_clear_words
+from report.drawing.items import Text
 from report.drawing.on_paper import is_wide, plan_on_paper, printed_plan
-from report.drawing.paper import FOOT_M, round_scale, wrapped
+from report.drawing.paper import FOOT_M, round_scale
 from report.drawing.sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures.base import style
@@ -304,9 +305,9 @@ def test_text_is_as_wide_as_it_is_drawn(done):
             assert width_in(text.get_text(), is_bold=is_bold) == pytest.approx(box.width, abs=0.02)
 
 
-def test_wrapped_lines_keep_every_word():
-    text = "Keep clear 41 in of A1, A2 on all sides: no conduit or equipment."
-    lines = wrapped(text, 1.5)
-    assert len(lines) > 2
-    assert " ".join(lines) == text
-    assert all(width_in(line) <= 1.5 for line in lines)
+def test_every_meaning_of_a_symbol_fits_in_the_legend():
+    shown = printed_plan(scenes.shipped("conditions")).key
+    texts = [item for item in shown.items if isinstance(item, Text)]
+    assert "clearance not satisfied" in [text.words for text in texts]
+    for text in texts:
+        assert text.at[0] + width_in(text.words) * (0.5 if text.is_centered else 1.0) < shown.wide

@@ -28,5 +28,5 @@ def test_a_sentence_begins_in_upper_case_and_keeps_its_other_letters():
     ],
 )
 def test_three_names_or_more_that_follow_each_other_are_a_range(names, text):
-    order = "A1 A2 A3 A4 A5 A6 A7 A8 B".split()
+    order = ["A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8", "B"]
     assert ranged(names.split(), order) == text
