@@ -152,7 +152,7 @@ def undrawn() -> Iterator[None]:
         empty = '<svg width="1pt" height="1pt"></svg>'
         patch.setattr(Figure, "savefig", lambda _, out, **__: out.write(empty))
         for name in ("accelerations", "clearances", "comparison", "histories", "hodographs",
-                     "roof_plan", "spectra"):  # fmt: skip
+                     "paper_svg", "roof_plan", "spectra"):  # fmt: skip
             patch.setattr(charts, name, lambda *_, **__: empty)
         yield
 

@@ -147,16 +147,16 @@ def keep_clear_mark(assessment: Assessment, array: ArrayAssessment) -> str:
     return array.design_mark or mark_of(factor, plain)
 
 
-def keep_clear_words(separation_m: float, us_first: bool) -> str:
-    """Return the field note of an array."""
-    if math.isnan(separation_m):
-        return KEEP_CLEAR_UNKNOWN
-    return f"keep clear {keep_clear_distance(separation_m, us_first)}"
-
-
-def keep_clear_distance(separation_m: float, us_first: bool) -> str:
-    """Return the separation from any fixed object for print, rounded up to 1 in or 10 mm."""
+def keep_clear(separation_m: float, us_first: bool) -> str:
+    """Return a distance to keep clear, rounded up to 1 in or 10 mm; `none` for NaN."""
     if math.isnan(separation_m):
         return "none"
     steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
     return f"{steps} in" if us_first else f"{10 * steps} mm"
+
+
+def keep_clear_words(separation_m: float, us_first: bool) -> str:
+    """Return the field note of an array."""
+    if math.isnan(separation_m):
+        return KEEP_CLEAR_UNKNOWN
+    return f"keep clear {keep_clear(separation_m, us_first)}"

@@ -6,7 +6,7 @@ Runs nothing. `report.assessment.friction_rows` compares it with tests.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 from report.sheet.schema import Array, ProjectInput
 from report.words.counts import ids_by, ranged
@@ -31,7 +31,7 @@ def mu_words(law: Friction) -> str:
     return f"{sliding}{rest}"
 
 
-def mus_words(arrays: Iterable[Array]) -> str:
+def mus_words(arrays: Sequence[Array]) -> str:
     """Return the friction of arrays, those of one friction together: `A1, A2: 0.50; A3: 0.45`."""
     groups = ids_by(arrays, lambda array: mu_words(array.friction))
     return "; ".join(f"{ranged(ids)}: {words}" for words, ids in groups.items())

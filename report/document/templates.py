@@ -174,4 +174,4 @@ def _rule_length(context: Context, key: str) -> str:
 @pass_context
 def _rows(context: Context, entities: Any, names: str, **how: Any) -> Table:
     """Return rows of an entity as a table of the named fields."""
-    return table_of(entities, names, context["p"].fmt, **how)
+    return table_of(entities, names, how.pop("fmt", context["p"].fmt), **how)

@@ -1,4 +1,4 @@
-"""The legend of the plan: north, scale bar, symbols, field notes.
+"""The legend of the plan: north, scale bar, symbols.
 
 Read `report.drawing.on_paper` first.
 """
@@ -6,14 +6,13 @@ Read `report.drawing.on_paper` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from dataclasses import replace
 
 from report.drawing.callouts import draw_ng
 from report.drawing.items import Arrow, Look, Mark
 from report.drawing.layers import Layer
-from report.drawing.notes import notes_of
-from report.drawing.paper import BASE_IN, LINE_IN, Paper, wrapped
-from report.drawing.placer import Frame, centered
+from report.drawing.paper import BASE_IN, LINE_IN, Paper
+from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import PlanSheet
 from report.sheet.schema.shapes import Point
 from report.words.units import Quantity, round_below
@@ -32,49 +31,39 @@ _MEANINGS: dict[Look, str] = {
 }
 _LINES = (Layer.PARAPET, Layer.EDGE, Layer.BARE_EDGE)
 _SAMPLE_IN = 0.34
+_HEAD_IN, _ROW_IN = 0.95, LINE_IN + 0.025  # of north and the scale bar; of a symbol
 
 
-def draw_key(plan: PlanSheet, frame: Frame) -> None:
-    """Draw the legend, in one column or, in a frame wider than tall, in three."""
-    paper, columns = plan.paper, _columns(frame)
+def key_on_paper(plan: PlanSheet, wide: float) -> Paper:
+    """Return the legend of a full plan on a paper of its own, as tall as it is."""
     # What is on the plan; the samples come after it.
-    drawn = {item.look for item in paper.items if hasattr(item, "look")}
-    _north_and_scale(plan, columns[0])
-    if not plan.size.is_full:
-        return
-    symbols, notes = [look for look in _MEANINGS if look in drawn], list(notes_of(plan))
-    if len(columns) == 1:
-        used = _symbols(paper, columns[0], symbols, 0.95)
-        _notes(paper, columns[0], notes, used + 0.1)
-        return
-    _notes(paper, columns[0], notes[:1], 0.95)
-    _symbols(paper, columns[1], symbols, 0.1)
-    _notes(paper, columns[2], notes[1:], 0.1)
+    drawn = {item.look for item in plan.paper.items if hasattr(item, "look")}
+    symbols = [look for look in _MEANINGS if look in drawn]
+    tall = _HEAD_IN + _ROW_IN * len(symbols)
+    frame = Frame(0.0, 0.0, wide, tall)
+    key = replace(plan.paper, wide=wide, tall=tall, placer=Placer(frame), items=[])
+    draw_key(plan, frame, key)
+    for count, look in enumerate(symbols):
+        y = tall - _HEAD_IN - count * _ROW_IN - LINE_IN / 2
+        _sample(key, look, centered(0.05 + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
+        key.text(_SAMPLE_IN + 0.13, y - BASE_IN, _MEANINGS[look])
+    return key
 
 
-def _columns(frame: Frame) -> Sequence[Frame]:
-    if frame.wide < frame.tall or frame.wide < 3.0:
-        return (frame,)
-    each = frame.wide / 3
-    return [
-        Frame(frame.x0 + k * each, frame.y0, frame.x0 + (k + 1) * each - 0.12, frame.y1)
-        for k in range(3)
-    ]
-
-
-def _north_and_scale(plan: PlanSheet, frame: Frame) -> None:
-    paper, (half, below) = plan.paper, (0.26, 0.46) if frame.tall > 0.6 else (0.15, 0.27)
+def draw_key(plan: PlanSheet, frame: Frame, paper: Paper) -> None:
+    """Draw north and the scale bar."""
+    half, below = (0.26, 0.46) if frame.tall > 0.6 else (0.15, 0.27)
     x, y = frame.x0 + 0.3, frame.y1 - below
     north = math.radians(plan.assessment.project.roof.north_deg)
     paper.arrow(Layer.NORTH, (x, y), north, half)
     dx, dy = (1.35 * half * f(north) for f in (math.cos, math.sin))
     paper.text(x + dx, y + dy - 0.042125, "N", is_centered=True, is_bold=True)
-    _scale_bar(plan, (frame.x0 + 0.75, y - 0.06))
+    _scale_bar(plan, (frame.x0 + 0.75, y - 0.06), paper)
 
 
-def _scale_bar(plan: PlanSheet, corner: Point) -> None:
+def _scale_bar(plan: PlanSheet, corner: Point, paper: Paper) -> None:
     """Draw the scale bar; at a round scale of US units, it is an inch long."""
-    paper, unit, (left, base) = plan.paper, plan.fmt.units(Quantity.PLAN)[0], corner
+    unit, (left, base) = plan.fmt.units(Quantity.PLAN)[0], corner
     per_in = paper.scale.m_per_in / unit.si
     is_inch = plan.fmt.us_first and paper.scale.name
     most_in = 1.5 if plan.size.is_screen else 1.05
@@ -87,19 +76,6 @@ def _scale_bar(plan: PlanSheet, corner: Point) -> None:
         paper.text(left + share * long, base - 0.14, words, is_centered=True)
     if paper.scale.name:
         paper.text(left, base + 0.13, paper.scale.name, is_bold=True)
-
-
-def _symbols(paper: Paper, frame: Frame, symbols: Sequence[Look], used: float) -> float:
-    """Draw the symbols below what is used of a column; return how much is used then."""
-    x = frame.x0 + 0.05
-    for look in symbols:
-        y = frame.y1 - used - LINE_IN / 2
-        _sample(paper, look, centered(x + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
-        lines = wrapped(_MEANINGS[look], frame.x1 - x - _SAMPLE_IN - 0.1)
-        for count, words in enumerate(lines):
-            paper.text(x + _SAMPLE_IN + 0.08, y - BASE_IN - count * LINE_IN, words)
-        used += len(lines) * LINE_IN + 0.025
-    return used
 
 
 def _sample(paper: Paper, look: Look, frame: Frame) -> None:
@@ -118,11 +94,3 @@ def _sample(paper: Paper, look: Look, frame: Frame) -> None:
         paper.items.append(
             Arrow(look=Mark.SLOPE_SAMPLE, tail=(x, frame.y1), tip=(x, frame.y0 - 0.02))
         )
-
-
-def _notes(paper: Paper, frame: Frame, notes: Sequence[str], used: float) -> None:
-    for note in notes:
-        for words in wrapped(note, frame.wide - 0.1):
-            used += LINE_IN
-            paper.text(frame.x0 + 0.05, frame.y1 - used, words)
-        used += 0.06

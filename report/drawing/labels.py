@@ -10,11 +10,11 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
-from report.assessment.envelopes import keep_clear_m, keep_clear_mark, keep_clear_words
 from report.assessment.plan_gaps import parapet_note
 from report.drawing.items import Mark
 from report.drawing.paper import LINE_IN, PAD_IN, text_size
 from report.drawing.placer import Frame, centered
+from report.drawing.schedule import size_words
 from report.drawing.sheet import PlanSheet
 from report.drawing.widths import tick_text, width_in
 from report.sheet.schema import ObjectKind, Rectangle, RoofObject
@@ -72,7 +72,7 @@ def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
     shown = list(_array_labels(plan, array))
     (wide, tall), name = (text_size(lines, first_bold=True) for lines in (shown[0], shown[-1]))
     middle = plan.room(array.id).middle
-    plan.paper.placer.avoid(centered(*middle, wide, tall + ARROW_IN))
+    plan.paper.placer.avoid(centered(*middle, wide + ARROW_IN, tall))
     reserved = centered(*middle, *name)
     plan.paper.placer.take(reserved)
     return reserved
@@ -85,7 +85,7 @@ def _label_in_middle(plan: PlanSheet, array: ArrayAssessment) -> bool:
         wide, tall = text_size(lines, first_bold=True)
         if wide - PAD_IN < frame.wide and tall + arrow < frame.tall:
             label = centered(*frame.middle, wide, tall + arrow)
-            _write(plan, array, label, lines, arrow)
+            _write(plan, array, label, lines, 0.0, arrow)
             foot = label.y0 + arrow
             plan.paper.placer.take(Frame(label.x0, foot, label.x1, label.y1))
             plan.paper.placer.take(centered(label.middle[0], foot - arrow / 2, PAD_IN, arrow))
@@ -95,50 +95,61 @@ def _label_in_middle(plan: PlanSheet, array: ArrayAssessment) -> bool:
 
 def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
     """Label an array inside of it with as many lines as there is room for, or outside."""
-    frame = plan.room(array.id)
-    shown = [(lines, ARROW_IN) for lines in _array_labels(plan, array)]
-    for lines, arrow in (*shown, (shown[-1][0], 0.0)):
+    frame, shown = plan.room(array.id), list(_array_labels(plan, array))
+    places = [*product(shown, ((ARROW_IN, 0.0), (0.0, ARROW_IN))), (shown[-1], (0.0, 0.0))]
+    for lines, (beside, below) in places:
         wide, tall = text_size(lines, first_bold=True)
-        label = plan.paper.placer.place(wide, tall + arrow, frame.middle, _inner(frame))
+        label = plan.paper.placer.place(wide + beside, tall + below, frame.middle, _inner(frame))
         if label is not None:
-            _write(plan, array, label, lines, arrow)
-            return
-    if frame.wide < name.wide or frame.tall < name.tall:
-        plan.beside(frame, tick_text(array.id))
+            _write(plan, array, label, lines, beside, below)
+            break
     else:
-        plan.paper.placer.take(name)
-        plan.paper.label(name, [tick_text(array.id)], first_bold=True)
+        lines = []
+        if frame.wide < name.wide or frame.tall < name.tall:
+            plan.beside(frame, tick_text(array.id))
+        else:
+            plan.paper.placer.take(name)
+            plan.paper.label(name, [tick_text(array.id)], first_bold=True)
+    if len(lines) < min(3, len(shown[0])):
+        plan.shortened.append(array.id)
 
 
 def _write(
-    plan: PlanSheet, array: ArrayAssessment, label: Frame, lines: Sequence[str], arrow: float
+    plan: PlanSheet,
+    array: ArrayAssessment,
+    label: Frame,
+    lines: Sequence[str],
+    beside: float,
+    below: float,
 ) -> None:
-    """Write the lines of a label, above its arrow if it has one."""
-    above = Frame(label.x0, label.y0 + arrow, label.x1, label.y1)
-    plan.paper.label(above, lines, first_bold=True)
-    if arrow:
+    """Write the lines of a label, with its arrow, if it has one, to the right of them or below."""
+    text = Frame(label.x0, label.y0 + below, label.x1 - beside, label.y1)
+    plan.paper.label(text, lines, first_bold=True)
+    if beside or below:
+        foot = label.middle[0], label.y0 + below / 2
+        at = (label.x1 - beside / 2, label.middle[1]) if beside else foot
         downslope = math.radians(array.array.downslope_deg)
-        foot = label.middle[0], label.y0 + arrow / 2
-        plan.paper.arrow(Mark.SLOPE, foot, downslope, 0.45 * arrow)
+        plan.paper.arrow(Mark.SLOPE, at, downslope, 0.45 * max(beside, below))
 
 
 def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
     """Yield the lines of an array's label, then fewer where there is less room."""
-    name, slope = tick_text(array.id), math.degrees(array.array.slope_rad)
+    name, fmt, says = tick_text(array.id), plan.fmt, [plan.fmt.short]
     if plan.designs:
         yield [name, f"Δ {plan.designs[array.id]}"]
         yield [name]
         return
+    if plan.size.is_full:
+        says.insert(0, fmt.both)
+    moves = [f"Δ {say(array.design_m, Quantity.SIZE)}{array.design_mark}" for say in says]
     if math.isnan(array.permitted_m):
-        yield [name, f"Δ {NOT_PERMITTED}" if array.has_unpermitted_value else "no value"]
-    elif plan.size.is_full:
-        moves = f"Δ {plan.fmt.both(array.design_m, Quantity.SIZE)}{array.design_mark}"
-        keep = keep_clear_words(keep_clear_m(plan.assessment, array), plan.fmt.us_first)
-        keep += keep_clear_mark(plan.assessment, array)
-        yield [name, moves, keep, "no conduit", f"slope {number(slope, 2)}°"]
-        yield [name, moves, keep]
-    if not math.isnan(array.permitted_m):
-        yield [name, f"Δ {plan.fmt.short(array.design_m, Quantity.SIZE)}{array.design_mark}"]
+        moves = [f"Δ {NOT_PERMITTED}" if array.has_unpermitted_value else "no value"]
+    if plan.size.is_full:
+        size = f"{size_words(array.array.shape, fmt)} {fmt.units(Quantity.PLAN)[0].symbol}"
+        slope = f"slope {number(math.degrees(array.array.slope_rad), 2)}°"
+        yield from ([name, words, size, slope] for words in moves)
+        yield from ([name, words, size] for words in moves)
+    yield from ([name, words] for words in moves)
     yield [name]
 
 

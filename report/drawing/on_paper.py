@@ -6,12 +6,15 @@ Places finished numbers and words; `report.figures.plan` and `report.web.plan` p
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import NamedTuple
 
 from report.assessment.project import Assessment
 from report.drawing.callouts import draw_callout, draw_gap
+from report.drawing.dimensions import draw_dimensions, draw_numbers
 from report.drawing.items import level
-from report.drawing.key import draw_key
+from report.drawing.key import draw_key, key_on_paper
 from report.drawing.labels import (
     label_array,
     label_edges,
@@ -21,9 +24,20 @@ from report.drawing.labels import (
 )
 from report.drawing.paper import Paper, Scale, round_scale
 from report.drawing.placer import Frame, Placer
-from report.drawing.shapes import draw_coordinates, draw_outlines
-from report.drawing.sheet import LANDSCAPE, PORTRAIT, PlanSheet, PlanSize, is_us_first
-from report.sheet.schema import Rectangle
+from report.drawing.schedule import Beside, alike_arrays, beside
+from report.drawing.shapes import draw_coordinates, draw_outlines, take_edges
+from report.drawing.sheet import (
+    A3,
+    BESIDE_IN,
+    COLUMN_IN,
+    LANDSCAPE,
+    PORTRAIT,
+    TABLOID,
+    PlanSheet,
+    PlanSize,
+    unit_format,
+)
+from report.sheet.schema import PlanPaper, Rectangle
 from report.sheet.schema.shapes import around
 
 
@@ -50,20 +64,63 @@ def plan_on_paper(
     designs : mapping of str to str, optional
         The design displacement of each array in words.
     """
+    return _drawn(assessment, size, designs or {}, has_verdicts).paper
+
+
+class PrintedPlan(NamedTuple):
+    """The plan for its page, its legend, the tables beside it, and what has no room for a label."""
+
+    size: PlanSize
+    plan: Paper
+    key: Paper
+    beside: Beside
+    unnamed: Sequence[str]
+
+
+def printed_plan(assessment: Assessment) -> PrintedPlan:
+    """Return the plan on the paper asked for, or on the first that has room for all."""
+    arrays, sizes = alike_arrays(assessment, unit_format(assessment)), _sizes(assessment)
+    room = partial(beside, assessment, arrays)
+    # A plan whose schedule has no room even without a legend need not be drawn.
+    for size in [size for size in sizes if room(size, 0.0).is_all(assessment)] or sizes[-1:]:
+        sheet = _drawn(assessment, size)
+        key = key_on_paper(sheet, COLUMN_IN - BESIDE_IN)
+        found = room(size, key.tall)
+        if found.is_all(assessment) and not sheet.unnamed + sheet.shortened:
+            break
+    return PrintedPlan(size, sheet.paper, key, found, sheet.unnamed)
+
+
+def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
+    """Return the sizes on the paper asked for, or on any, the smallest first."""
+    letter = LANDSCAPE if is_wide(assessment) else PORTRAIT
+    papers = {PlanPaper.LETTER: (letter,), PlanPaper.TABLOID: TABLOID, PlanPaper.A3: A3}
+    large = TABLOID if unit_format(assessment).us_first else A3
+    return papers.get(assessment.project.options.plan_paper, (letter, *large))
+
+
+def _drawn(
+    assessment: Assessment,
+    size: PlanSize,
+    designs: Mapping[str, str] = {},
+    has_verdicts: bool = True,
+) -> PlanSheet:
     extent = _extent(assessment)
     paper, key = _empty(extent, size, _scale(assessment, extent, size))
-    paper.placer.take(key)
     plan = PlanSheet(
         assessment=assessment,
         size=size,
         paper=paper,
-        designs=designs or {},
+        designs=designs,
         has_verdicts=has_verdicts,
     )
+    if not size.is_full:
+        paper.placer.take(key)
     _draw(plan, extent)
-    draw_key(plan, key)
+    if not size.is_full:
+        draw_key(plan, key, paper)
     paper.items.sort(key=level)
-    return paper
+    return plan
 
 
 def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Frame]:
@@ -71,9 +128,9 @@ def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Fram
     left, right, bottom, top = size.fringe
     wide = (extent.x_to_m - extent.x_from_m) / scale.m_per_in
     tall = (extent.y_to_m - extent.y_from_m) / scale.m_per_in
-    below = size.key_tall if size.is_key_below else 0.0
+    below = size.key_tall if size.is_screen else 0.0
     height = size.tall if size.is_screen else max(tall + bottom + top + below, size.key_tall)
-    room = size.wide - (0.0 if size.is_key_below else size.key_wide) - left - right
+    room = size.wide - (0.0 if size.is_screen else size.key_wide) - left - right
     origin = (
         left + max(room - wide, 0.0) / 2 - extent.x_from_m / scale.m_per_in,
         below + bottom + (height - below - bottom - top - tall) / 2
@@ -87,8 +144,6 @@ def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Fram
 def _draw(plan: PlanSheet, extent: Rectangle) -> None:
     """Draw everything; labels last, the least movable first."""
     draw_outlines(plan)
-    for gap in plan.gaps:
-        draw_gap(plan, gap)
     if plan.size.is_full:
         draw_coordinates(plan, extent)
     label_edges(plan, extent)
@@ -96,8 +151,16 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
     spots = [spot for item in plan.placed if (spot := name_spot(plan, item)) is not None]
     for spot in spots:
         plan.paper.placer.take(spot)
-    for gap in sorted(plan.gaps, key=lambda gap: not (gap.of.is_ng or plan.size.is_screen)):
-        draw_callout(plan, gap)
+    if plan.size.is_screen:
+        take_edges(plan)
+        for draw in (draw_gap, draw_callout):
+            for gap in plan.gaps:
+                draw(plan, gap)
+    else:
+        lanes = draw_numbers(plan)
+        take_edges(plan)
+        if plan.size.is_full:
+            draw_dimensions(plan, lanes)
     for array, name in zip(plan.assessment.arrays, names, strict=True):
         if name is not None:
             plan.paper.placer.release(name)
@@ -118,7 +181,9 @@ def _extent(assessment: Assessment) -> Rectangle:
 def _scale(assessment: Assessment, extent: Rectangle, size: PlanSize) -> Scale:
     """Return the largest scale that lets the plan fit; on paper, a round one."""
     left, right, bottom, top = size.fringe
-    wide = size.wide - left - right - (0.0 if size.is_key_below else size.key_wide)
-    tall = size.tall - bottom - top - (size.key_tall if size.is_key_below else 0.0)
+    wide = size.wide - left - right - (0.0 if size.is_screen else size.key_wide)
+    tall = size.tall - bottom - top - (size.key_tall if size.is_screen else 0.0)
     least = max((extent.x_to_m - extent.x_from_m) / wide, (extent.y_to_m - extent.y_from_m) / tall)
-    return Scale("", least) if size.is_screen else round_scale(least, is_us_first(assessment))
+    return (
+        Scale("", least) if size.is_screen else round_scale(least, unit_format(assessment).us_first)
+    )

@@ -141,18 +141,6 @@ def text_size(lines: Sequence[str], *, first_bold: bool = False) -> Point:
     return max(widths) + 2 * PAD_IN, LINE_IN * len(lines) + PAD_IN
 
 
-def wrapped(words: str, wide: float) -> list[str]:
-    """Return a text as lines no wider than a width."""
-    lines: list[str] = []
-    for word in words.split():
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and width_in(longer) <= wide:
-            lines[-1] = longer
-        else:
-            lines.append(word)
-    return lines
-
-
 def along(a: Point, b: Point) -> Iterator[Frame]:
     """Yield thin frames along a line: one, or small ones where the line is oblique."""
     line = 0.01

@@ -69,7 +69,7 @@ class Placer:
 
     def __init__(self, page: Frame) -> None:
         self._page = page
-        self._taken, self._threads, self._lines = (np.empty((0, 4)) for _ in range(3))
+        self._taken, self._threads, self._lines, self._walls = (np.empty((0, 4)) for _ in range(4))
 
     def take(self, frame: Frame) -> None:
         """Reserve a frame: no label will touch it."""
@@ -83,6 +83,33 @@ class Placer:
     def avoid(self, frame: Frame) -> None:
         """Mark a line or a small object, covered only where there is no other room."""
         self._lines = np.vstack((self._lines, frame))
+
+    def wall(self, frame: Frame) -> None:
+        """Mark a side of an array: as `avoid`, and no leader will cross it."""
+        self.avoid(frame)
+        self._walls = np.vstack((self._walls, frame))
+
+    def take_first(self, frames: Sequence[Frame], within: Sequence[Frame] = ()) -> int | None:
+        """Reserve the first of some frames that touches no label and no line; None if all do.
+
+        Parameters
+        ----------
+        within : sequence of Frame, optional
+            The part of each that touches no wall.
+        """
+        if not frames:
+            return None
+        low, high = np.split(np.array(frames), 2, axis=1)
+        taken = (low < self._page[:2]).any(axis=1) | (high > self._page[2:]).any(axis=1)
+        taken |= _touches(low, high, np.vstack((self._taken, self._threads)), 0.0).any(axis=1)
+        if within:
+            low, high = np.split(np.array(within), 2, axis=1)
+            taken |= _touches(low, high, self._walls, 0.0).any(axis=1)
+        if taken.all():
+            return None
+        first = int(np.argmin(taken))
+        self.take(frames[first])
+        return first
 
     def take_segment(self, a: Point, b: Point) -> None:
         """Reserve a line between two points: no label will touch it, leaders may cross it."""
@@ -99,7 +126,7 @@ class Placer:
     ) -> Frame | None:
         """Reserve and return the frame of a label nearest to a point; None if there is no room.
 
-        A straight leader from the point to the label crosses no other label.
+        A straight leader from the point to the label crosses no other label and no wall.
 
         Parameters
         ----------
@@ -109,9 +136,11 @@ class Placer:
             Largest distance of its center from the point [in].
         """
         page = self._page if within is None else within
+        if wide > page.wide or tall > page.tall:
+            return None
         frame = _placed(
             _Label(wide=wide, tall=tall, near=near, page=page, maximum=maximum),
-            *(table.tobytes() for table in (self._taken, self._threads, self._lines)),
+            *(table.tobytes() for table in (self._taken, self._threads, self._lines, self._walls)),
         )
         if frame is not None:
             self.take(frame)
@@ -132,7 +161,7 @@ class _Label:
 # While a slider moves, sizes of labels stay: most are placed again where they were.
 @lru_cache(500)
 def _placed(label: _Label, *tables: bytes) -> Frame | None:
-    """Return the frame of a label among what is taken, threads and lines."""
+    """Return the frame of a label among what is taken, threads, lines and walls."""
     rows = [np.frombuffer(table).reshape(-1, 4) for table in tables]
     # Most labels find room near; what is farther away costs more than its distance.
     cost, frame = _best(label, min(_NEAR_IN, label.maximum), rows)
@@ -151,7 +180,7 @@ def _best(label: _Label, maximum: float, tables: Sequence[Corners]) -> tuple[flo
         return np.inf, None
     # What no candidate and no leader comes near makes no difference.
     reach = np.hstack((np.minimum(low.min(axis=0), near), np.maximum(low.max(axis=0) + size, near)))
-    taken, threads, lines = (
+    taken, threads, lines, walls = (
         table[_touches(table[:, :2], table[:, 2:], reach[None], _CLEAR_IN)[:, 0]]
         for table in tables
     )
@@ -164,7 +193,7 @@ def _best(label: _Label, maximum: float, tables: Sequence[Corners]) -> tuple[flo
     first = np.argsort(cost, kind="stable")[:_TRIED]
     low, cost = low[first], cost[first]
     total = cost + 0.5 * _crossings(low, low + size, near, threads)
-    total[_crossings(low, low + size, near, taken) > 0.0] = np.inf
+    total[_crossings(low, low + size, near, np.vstack((taken, walls))) > 0.0] = np.inf
     best = int(np.argmin(total))
     if total[best] == np.inf:
         return np.inf, None
@@ -184,10 +213,11 @@ def _touches(low: Corners, high: Corners, frames: Corners, clear: float) -> Corn
 def _crossings(low: Corners, high: Corners, near: Point, frames: Corners) -> Corners:
     """Return for each candidate how many frames its leader would cross."""
     start = np.asarray(near)
-    ends = np.clip(start, low, high)
-    at = np.linspace(0.0, 1.0, 16)[:, None, None]
-    flat = (start + at * (ends - start)[None]).reshape(-1, 2)
-    touched = _touches(flat, flat, frames, 0.0)
-    far = np.hypot(*(flat - start).T) > _AT_START_IN
-    crossed = (touched & far[:, None]).reshape(len(at), len(low), -1).any(axis=0)
+    way = (np.clip(start, low, high) - start)[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # Where on its way, 0 to 1, a leader crosses the sides of each frame, in x and in y.
+        sides = [(frames[None, :, at : at + 2] - start) / way for at in (0, 2)]
+        begins = _AT_START_IN / np.hypot(*way[:, 0].T)
+    enters, leaves = np.fmin(*sides).max(axis=2), np.fmax(*sides).min(axis=2)
+    crossed = np.maximum(enters, begins[:, None]) <= np.minimum(leaves, 1.0)
     return np.asarray(crossed.sum(axis=1), dtype=float)

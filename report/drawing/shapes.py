@@ -6,6 +6,7 @@ Read `report.drawing.on_paper` first.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from report.drawing.items import Mark
 from report.drawing.layers import Layer
@@ -52,7 +53,10 @@ def _avoid(plan: PlanSheet) -> None:
     """Let labels cover objects, and on paper sides of arrays, only where there is no other room."""
     paper = plan.paper
     arrays = () if plan.size.is_screen else plan.assessment.arrays
-    frames = [side for array in arrays for side in paper.sides(array.array.shape)]
+    for array in arrays:
+        for side in paper.sides(array.array.shape):
+            paper.placer.wall(side)
+    frames: list[Frame] = []
     for item in plan.placed:
         shape = plan.shapes[item.id]
         if isinstance(shape, Rectangle):
@@ -64,16 +68,23 @@ def _avoid(plan: PlanSheet) -> None:
 
 
 def _draw_edge(plan: PlanSheet, layer: Layer, name: str) -> None:
-    """Draw a roof edge: along the middle of a strip, or else its outline."""
+    for a, b in _edge_lines(plan, name):
+        plan.paper.lines(layer, (a, b), name=name)
+
+
+def take_edges(plan: PlanSheet) -> None:
+    """Keep labels off the roof edges."""
+    for item in plan.edges:
+        for a, b in _edge_lines(plan, item.id):
+            plan.paper.placer.take_segment(a, b)
+
+
+def _edge_lines(plan: PlanSheet, name: str) -> Sequence[tuple[Point, Point]]:
+    """Return the lines of a roof edge: the middle of a strip, or else its outline."""
     paper, shape = plan.paper, plan.shapes[name]
     if isinstance(shape, Rectangle):
-        a, b = _spine(paper.frame(shape))
-        paper.lines(layer, (a, b), name=name)
-        paper.placer.take(Frame(*a, *b))
-        return
-    for a, b in sides(tuple(map(paper.at, shape.points))):
-        paper.lines(layer, (a, b), name=name)
-        paper.placer.take_segment(a, b)
+        return (_spine(paper.frame(shape)),)
+    return tuple(sides(tuple(map(paper.at, shape.points))))
 
 
 def _spine(frame: Frame) -> tuple[Point, Point]:

@@ -18,7 +18,7 @@ from report.drawing.layers import Layer
 from report.drawing.paper import Paper, text_size
 from report.drawing.placer import Frame
 from report.entities.columns import UnitFormat
-from report.sheet.schema import RoofObject, Shape
+from report.sheet.schema import PlanPaper, RoofObject, Shape
 from report.sheet.schema.shapes import Point, room
 
 LEADER_IN = 1.5  # farthest label
@@ -33,24 +33,26 @@ class PlanSize:
     tall : float
         Greatest height.
     key_wide, key_tall : float
-        Of the legend, to the right of the plan, or below it where it is as wide as the paper.
+        Of the legend, to the right of the plan, or on a screen below it. That of a full plan is on
+        a paper of its own.
+    paper : PlanPaper
+        What a full plan is printed on.
+    columns : int
+        Columns of tables beside a full plan.
     is_full : bool
-        Whether with envelopes, dimensions, legend, notes and coordinates.
+        Whether with envelopes, dimensions and coordinates.
     is_screen : bool
         Whether as large as there is room, with dimensions, and arrays labeled before them.
     """
 
     wide: float
     tall: float
-    key_wide: float
-    key_tall: float
+    key_wide: float = 0.0
+    key_tall: float = 0.0
+    paper: PlanPaper = PlanPaper.LETTER
+    columns: int = 0
     is_full: bool = False
     is_screen: bool = False
-
-    @property
-    def is_key_below(self) -> bool:
-        """Whether the legend is below the plan."""
-        return self.key_wide == self.wide
 
     @property
     def fringe(self) -> tuple[float, float, float, float]:
@@ -59,8 +61,21 @@ class PlanSize:
 
 
 SMALL = PlanSize(wide=6.7, tall=2.95, key_wide=2.05, key_tall=0.95)
-LANDSCAPE = PlanSize(wide=9.2, tall=5.4, key_wide=2.15, key_tall=5.4, is_full=True)
-PORTRAIT = PlanSize(wide=6.7, tall=8.05, key_wide=6.7, key_tall=2.1, is_full=True)
+COLUMN_IN, BESIDE_IN = 2.5, 0.15
+"""Width of a column of tables beside a full plan, with its distance, and this distance."""
+
+
+def _full(
+    wide: float, tall: float, columns: int = 1, paper: PlanPaper = PlanPaper.LETTER
+) -> PlanSize:
+    """Return a full plan beside columns of tables on a sheet with this room [in]."""
+    left = wide - columns * COLUMN_IN
+    return PlanSize(wide=left, tall=tall, columns=columns, paper=paper, is_full=True)
+
+
+LANDSCAPE, PORTRAIT = _full(9.8, 5.5), _full(7.3, 8.0)
+TABLOID = tuple(_full(15.8, 7.5, columns, PlanPaper.TABLOID) for columns in (1, 2))
+A3 = tuple(_full(15.3, 8.2, columns, PlanPaper.A3) for columns in (1, 2))
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +85,12 @@ class Gap:
     of: PlanGap
     a: Point
     b: Point
+
+    @property
+    def name(self) -> str:
+        """What it is called where it has no label."""
+        of = self.of
+        return f"clearance {of.number}" if of.is_given else f"{of.array} to {of.other}"
 
     @property
     def middle(self) -> Point:
@@ -89,6 +110,8 @@ class PlanSheet:
         Whether it says which gaps are NG.
     unnamed : list of str
         What found no room for its label so far.
+    shortened : list of str
+        The arrays whose labels found no room for displacement and dimensions.
     """
 
     assessment: Assessment
@@ -97,6 +120,7 @@ class PlanSheet:
     designs: Mapping[str, str]
     has_verdicts: bool
     unnamed: list[str] = field(default_factory=list)
+    shortened: list[str] = field(default_factory=list)
 
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:
@@ -111,12 +135,7 @@ class PlanSheet:
     @property
     def fmt(self) -> UnitFormat:
         """The units of the plan."""
-        return UnitFormat(us_first=is_us_first(self.assessment), none="no value")
-
-    @property
-    def has_dimensions(self) -> bool:
-        """Whether a gap has its provided and required separation."""
-        return self.size.is_full or self.size.is_screen
+        return unit_format(self.assessment)
 
     @property
     def envelopes(self) -> Collection[Layer]:
@@ -128,7 +147,7 @@ class PlanSheet:
     @property
     def leader_in(self) -> float:
         """Farthest label: the small plan leaves out what it has no room for."""
-        return LEADER_IN if self.has_dimensions else 0.4 * LEADER_IN
+        return LEADER_IN if self.size.is_full or self.size.is_screen else 0.4 * LEADER_IN
 
     @property
     def placed(self) -> list[RoofObject]:
@@ -152,25 +171,31 @@ class PlanSheet:
         """Return where there is room on paper within a shape."""
         return self.paper.frame(room(self.shapes[name]))
 
-    def leader(self, start: Point, label: Frame) -> None:
-        """Draw a line from a point to the nearest point of a label."""
+    def leader(self, start: Point, label: Frame, radius: float = 0.0) -> None:
+        """Draw a line from a point, or a circle about it, to the nearest point of a label."""
         end = (min(max(start[0], label.x0), label.x1), min(max(start[1], label.y0), label.y1))
-        if math.dist(start, end) > 0.0:
+        long = math.dist(start, end)
+        if long > radius:
+            x, y = (
+                (1.0 - radius / long) * a + radius / long * b
+                for a, b in zip(start, end, strict=True)
+            )
+            start = x, y
             self.paper.lines(Mark.LEADER, (start, end))
             self.paper.placer.take_segment(start, end)
 
-    def beside(self, frame: Frame, words: str) -> None:
-        """Name something outside of it, with a leader."""
+    def beside(self, frame: Frame, words: str, radius: float = 0.0) -> None:
+        """Name something outside of it, with a leader from its middle or a circle about that."""
         size = text_size([words])
         label = self.paper.placer.place(*size, frame.middle, maximum=self.leader_in)
         if label is None:
             self.unnamed.append(words)
             return
-        self.leader(frame.middle, label)
+        self.leader(frame.middle, label, radius)
         self.paper.box(Mark.FRAME, label)
         self.paper.label(label, [words])
 
 
-def is_us_first(assessment: Assessment) -> bool:
-    """Whether US units come first in a project."""
-    return assessment.project.project.units_first.is_us
+def unit_format(assessment: Assessment) -> UnitFormat:
+    """Return the units of a plan."""
+    return UnitFormat(us_first=assessment.project.project.units_first.is_us, none="no value")

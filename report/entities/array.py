@@ -14,7 +14,7 @@ from pydantic import BeforeValidator
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.causes import unshown_cause
 from report.assessment.changes import ChangeKind
-from report.assessment.envelopes import keep_clear_distance, keep_clear_m, keep_clear_mark
+from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.friction import mu_words
 from report.assessment.project import Assessment
 from report.assessment.runs import nan_is_worst
@@ -311,7 +311,7 @@ def array_result(
     rounds = {"interconnection_n": required, "provided_n": provided, "permitted_m": no_less}
     near: dict[str, object] = {}
     us_first = assessment.project.project.units_first.is_us
-    keep_clear = keep_clear_distance(keep_clear_m(assessment, item), us_first)
+    distance = keep_clear(keep_clear_m(assessment, item), us_first)
     marks["permitted_m"] = marks.get("design_m", "")
     if gap:
         least, had = compared(gap.required_m, gap.clearance.provided_m)
@@ -331,7 +331,7 @@ def array_result(
         limits_verdict=Verdict.OK if is_sound else Verdict.NG,
         clause=clause,
         marks=marks,
-        keep_clear=keep_clear + keep_clear_mark(assessment, item),
+        keep_clear=distance + keep_clear_mark(assessment, item),
         rounds=rounds,
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),

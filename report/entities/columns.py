@@ -25,10 +25,17 @@ class TableColumn:
 
 @dataclass(frozen=True, slots=True)
 class UnitFormat:
-    """Formats values, the preferred system of units first."""
+    """Formats values, the preferred system of units first.
+
+    Attributes
+    ----------
+    systems : int
+        In how many systems a table has a quantity: a narrow one has the first alone.
+    """
 
     us_first: bool
     none: str = NO_VALUE
+    systems: int = 2
 
     def both(
         self,
@@ -56,12 +63,12 @@ class UnitFormat:
         *,
         mark: str = "",
         show: Show = measured,
-    ) -> tuple[str, str]:
-        """Return the value in both systems, for two columns; `none` for NaN."""
+    ) -> tuple[str, ...]:
+        """Return the value in each system, for as many columns; `none` for NaN."""
+        units = self.units(quantity)[: self.systems]
         if math.isnan(value_si):
-            return self.none, self.none
-        first, second = self.units(quantity)
-        return show(value_si, first) + mark, show(value_si, second) + mark
+            return (self.none,) * len(units)
+        return tuple(show(value_si, unit) + mark for unit in units)
 
     def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
         """Return the units of a quantity, the preferred one first."""
@@ -69,10 +76,7 @@ class UnitFormat:
 
     def columns(
         self, head: str, quantity: Quantity = Quantity.DISPLACEMENT, share: float = 1.0
-    ) -> tuple[TableColumn, TableColumn]:
-        """Return the two columns of a quantity."""
-        first, second = self.units(quantity)
-        return (
-            TableColumn(head=head, unit=first.symbol, share=share),
-            TableColumn(head=head, unit=second.symbol, share=share),
-        )
+    ) -> tuple[TableColumn, ...]:
+        """Return the columns of a quantity, one for each system."""
+        units = self.units(quantity)[: self.systems]
+        return tuple(TableColumn(head=head, unit=unit.symbol, share=share) for unit in units)

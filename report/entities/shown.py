@@ -80,7 +80,7 @@ class Shown:
         A text in place of a quantity is that of both systems.
         """
         if self.quantity and isinstance(value, str):
-            return (value, value)
+            return (value,) * fmt.systems
         if self.quantity:
             return fmt.cells(value, self.quantity, mark=mark, show=show)
         if isinstance(value, float) and math.isnan(value):

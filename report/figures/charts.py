@@ -30,7 +30,7 @@ from report.figures.base import (
 )
 from report.figures.history import MAX_POINTS, envelope, histories
 from report.figures.hodograph import hodographs
-from report.figures.plan import roof_plan
+from report.figures.plan import paper_svg, roof_plan
 from report.figures.spectra import spectra
 from report.memoized import memoized
 from report.words.counts import ranged
@@ -47,6 +47,7 @@ __all__ = [
     "histories",
     "hodographs",
     "load_fonts",
+    "paper_svg",
     "roof_plan",
     "spectra",
 ]

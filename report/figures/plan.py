@@ -1,6 +1,6 @@
 """The roof plan as a picture: paints what `report.drawing.on_paper` places, and decides nothing.
 
-Read `plan_figure` first.
+Read `painted` first.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from report.assessment.project import Assessment
 from report.drawing.items import Arrow, Circle, Item, Lines, Look, Mark, Outline
 from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper
+from report.drawing.paper import Paper
 from report.drawing.sheet import PlanSize
 from report.drawing.widths import TYPE_PT
 from report.figures.base import ACCENT, GRAY, INK, PALE, Broken, canvas, style, svg_text
@@ -65,13 +66,17 @@ _ARROW: dict[str, Any] = {
 
 def roof_plan(assessment: Assessment, size: PlanSize) -> str:
     """Return the plan as SVG, at true scale where it is printed in its own size."""
+    return paper_svg(plan_on_paper(assessment, size))
+
+
+def paper_svg(paper: Paper) -> str:
+    """Return what is placed on a paper as SVG, at true scale."""
     with style():
-        return svg_text(plan_figure(assessment, size))
+        return svg_text(painted(paper))
 
 
-def plan_figure(assessment: Assessment, size: PlanSize) -> Figure:
-    """Paint the plan."""
-    paper = plan_on_paper(assessment, size)
+def painted(paper: Paper) -> Figure:
+    """Paint what is placed on a paper."""
     figure, axes = canvas(paper.tall, (0.0, paper.wide), (0.0, paper.tall), paper.wide)
     for order, item in enumerate(paper.items):
         axes.add_artist(_artist(item)).set_zorder(order)

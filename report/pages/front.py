@@ -6,14 +6,17 @@ Computes nothing. Read `report.pages.parts` first.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from report.assessment.arrays import Route
 from report.assessment.evidence import Evidence
+from report.assessment.friction import mus_words
 from report.assessment.friction_rows import tested
 from report.assessment.overrides import LOWERING
+from report.assessment.plan_gaps import plan_gaps
 from report.assessment.spectra import departures
-from report.drawing.on_paper import is_wide
+from report.drawing.schedule import alike_arrays
+from report.drawing.sheet import unit_format
 from report.pages.limits import troubles
 from report.pages.parts import PackageData, statistic
 from report.pages.remedies import answers
@@ -67,8 +70,14 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 
 def plan(package: PackageData) -> Mapping[str, object]:
-    """Return how the page of the roof plan lies."""
-    return {"page": "landscape" if is_wide(package.assessment) else "portrait"}
+    """Return what the tables and notes of the roof plan need beside its drawings."""
+    fmt = replace(unit_format(package.assessment), systems=1)
+    return {
+        "fmt": fmt,
+        "arrays": alike_arrays(package.assessment, fmt),
+        "friction": mus_words(package.data.arrays),
+        "drawn": list(plan_gaps(package.assessment)),
+    }
 
 
 def basis(package: PackageData, evidence: Evidence) -> Mapping[str, object]:

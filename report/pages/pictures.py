@@ -15,8 +15,8 @@ from report.assessment.evidence import Plotted
 from report.assessment.spectra import Spectra, departures
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Requirement, Verdict
-from report.drawing.on_paper import is_wide
-from report.drawing.sheet import LANDSCAPE, PORTRAIT, SMALL
+from report.drawing.on_paper import printed_plan
+from report.drawing.sheet import SMALL
 from report.pages import friction_tests, limits
 from report.pages.parts import PackageData
 from report.typeset.pdf import TEMPLATES
@@ -27,7 +27,8 @@ GAP_ROWS = 32
 LEAST_PLAN_IN = 1.6  # a plan of less height shows nothing
 SHEET_IN = 8.8  # from the head of a sheet to its foot
 Drawings = Mapping[str, Sequence[Any]]
-"""SVG by the id of its place; of an array, pairs of histories and paths."""
+"""SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, what
+is printed, the plan and its legend."""
 
 
 def load_charts() -> None:
@@ -49,7 +50,7 @@ def draw_assessment(package: PackageData) -> Drawings:
 
     load_charts()
     us_first, assessment = package.fmt.us_first, package.assessment
-    lies = LANDSCAPE if is_wide(assessment) else PORTRAIT
+    printed = printed_plan(assessment)
     return {
         "inputs-friction": friction_tests.drawings(package),
         "method-motion": [array_section(package.governing.array, us_first)],
@@ -57,7 +58,7 @@ def draw_assessment(package: PackageData) -> Drawings:
             figures.accelerations(some)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
-        "plan": [figures.roof_plan(assessment, lies)],
+        "plan": [printed, *map(figures.paper_svg, (printed.plan, printed.key))],
         "comparison": [
             figures.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
         ],

@@ -20,6 +20,7 @@ from report.sheet.schema.choices import (
     LayerKind,
     ModelChoice,
     ObjectKind,
+    PlanPaper,
     Polarity,
     RecordedAt,
     RequiredText,
@@ -74,6 +75,7 @@ __all__ = [
     "ObjectKind",
     "Options",
     "Override",
+    "PlanPaper",
     "Polarity",
     "Polygon",
     "Project",
@@ -181,6 +183,9 @@ class Options(Frozen):
     """Up to 20 factors on the motions, each above 0.0 and up to 1.0, separated by commas: the
     package adds the displacement of these events to that of the design event, for information.
     Blank: none."""
+    plan_paper: Annotated[PlanPaper, Cell("Paper of the roof plan", "by size")] = PlanPaper.BY_SIZE
+    """By size: Letter, or where labels or the schedule of clearances have no room on it, 11 x 17 in
+    with US units first and A3 with SI units first."""
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:

@@ -206,6 +206,15 @@ class Polarity(StrEnum):
     REVERSED = "reversed"
 
 
+class PlanPaper(StrEnum):
+    """Paper of the roof plan; the rest of the package is on Letter."""
+
+    BY_SIZE = "by size"
+    LETTER = "Letter"
+    TABLOID = "11 x 17"
+    A3 = "A3"
+
+
 class Statistic(StrEnum):
     """Statistic that gives the design value from the peaks of all motions."""
 

@@ -44,6 +44,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("site", "building_code building_code_year jurisdiction"),
         ("friction_tests", "report_file"),
         ("options", "peer_letter"),
+        ("options", "plan_paper"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook

@@ -53,7 +53,7 @@ def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     load_charts()
     shown = re.findall(r"<text[^>]*>([^<]*)</text>", charts.roof_plan(done, LANDSCAPE))
     assert "NG" in shown
-    assert "not given; in plan 12.0 in" in shown
+    assert "not given; in plan 12.0 in, required 40.8 in" in shown
     designs = {item.id: {"text": ""} for item in done.arrays}
     items = plan(done, designs, (), UnitFormat(us_first=True), stamp)["items"]
     said = [item.get("text") for item in items]

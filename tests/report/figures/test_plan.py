@@ -12,20 +12,21 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import scenes
 import stand_in
 from inputs import NO_SIDES, sides
+from printed import printed
 from report.assessment.envelopes import keep_clear_words
-from report.drawing.on_paper import is_wide
-from report.drawing.paper import FOOT_M, round_scale, wrapped
+from report.drawing.items import Text
+from report.drawing.on_paper import is_wide, plan_on_paper, printed_plan
+from report.drawing.paper import FOOT_M, round_scale
 from report.drawing.sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures.base import style
-from report.figures.plan import plan_figure, roof_plan
+from report.figures.plan import painted, paper_svg, roof_plan
 from report.sheet.schema import Roof
 from sketch import L_FT
 from solver.model import INCH_M
 from stand_in import FOOT
 
 SIZES = [SMALL, LANDSCAPE, PORTRAIT]
-INCHES = ("provided {:.1f} in", "required {:.1f} in")
 
 
 @pytest.fixture(scope="module")
@@ -84,9 +85,13 @@ def words(svg):
     return re.findall(r"<text[^>]*>([^<]*)</text>", svg)
 
 
+def legend(done):
+    return paper_svg(printed_plan(done).key)
+
+
 def figure(done, size):
     with style():
-        drawn = plan_figure(done, size)
+        drawn = painted(plan_on_paper(done, size))
         drawn.set_dpi(400)  # extents are rounded to pixels
         FigureCanvasAgg(drawn)
     return drawn
@@ -134,7 +139,11 @@ def test_no_type_is_smaller_than_eight_and_a_half_points(done, size):
 @pytest.mark.parametrize("size", SIZES)
 def test_the_picture_is_at_the_scale_that_it_states(done, size):
     drawn = figure(done, size)
-    stated = next(t.get_text() for t in drawn.axes[0].texts if t.get_text().startswith("1 in ="))
+    # The legend of a large plan is a picture of its own.
+    shown = words(roof_plan(done, SMALL) if size is SMALL else legend(done))
+    stated = next(text for text in shown if text.startswith("1 in ="))
+    if size is PORTRAIT:
+        stated = plan_on_paper(done, size).scale.name
     feet_per_inch = int(re.fullmatch(r"1 in = (\d+) ft", stated).group(1))
     for name, wide, tall in (("A1", 80, 60), ("T-1", 53, 30)):
         _, size_in = place(drawn, name)
@@ -147,13 +156,16 @@ def test_the_picture_is_at_the_scale_that_it_states(done, size):
 
 def test_every_array_object_and_clearance_is_on_the_large_plan(done):
     found = words(roof_plan(done, LANDSCAPE))
-    for name in ("A1", "A2", "A3", "RTU-1", "T-1", "1", "2", "3", "4", "5", "N", "x [ft]"):
+    for name in ("A1", "A2", "A3", "RTU-1", "T-1", "1", "2", "3", "4", "5", "x [ft]"):
         assert name in found
     assert "N edge: parapet 30.0 in (762 mm)" in found
     assert "S edge: no parapet" in found
-    for gap in done.clearances:
-        for template, value in zip(INCHES, (gap.clearance.provided_m, gap.required_m), strict=True):
-            assert template.format(value / INCH_M) in found
+    (table,) = (table for table in printed(done, "plan").tables if table.title.startswith("Sched"))
+    for gap, row in zip(done.clearances, table.rows, strict=True):
+        values = gap.required_m, gap.clearance.provided_m
+        heads = "Req’d [in]", "Prov’d [in]"
+        assert [row[head] for head in heads] == [f"{v / INCH_M:.1f}" for v in values]
+        assert any(text.startswith(row["Prov’d [in]"] + " in") for text in found)
 
 
 def test_the_name_of_an_upright_edge_is_at_its_middle():
@@ -202,20 +214,21 @@ def test_a_clearance_that_is_not_satisfied_is_hatched_and_marked(done):
     assert marked == 1
     for size in SIZES:
         drawn = figure(done, size)
-        shown = marked + size.is_full  # with the legend
-        assert [t.get_text() for t in drawn.axes[0].texts].count("NG") == shown
+        assert [t.get_text() for t in drawn.axes[0].texts].count("NG") == marked
         heavy = [p for p in drawn.axes[0].patches if (p.get_hatch() or "").startswith("xxx")]
-        assert len(heavy) == shown
+        assert len(heavy) == marked
+    assert words(legend(done)).count("NG") == 1
     satisfied = replace(done, clearances=tuple(gap for gap in done.clearances if gap.ok))
     assert "NG" not in words(roof_plan(satisfied, LANDSCAPE))
 
 
 def test_what_has_no_room_and_neighbors_without_a_clearance_are_named_in_the_notes(crowded):
-    shown = words(roof_plan(crowded, PORTRAIT))
-    _, notes = " ".join(shown).split("Keep clear", 1)
+    on = printed_plan(crowded)
+    shown, page = words(paper_svg(on.plan)), printed(crowded, "plan")
     for item in crowded.project.objects:
-        assert item.id in shown or item.id in notes or " more" in notes
-    assert "No clearance is given: A5 to" in notes
+        assert item.id in shown or item.id in on.unnamed
+    assert "No clearance is given: A5 to" in page
+    assert ("Not labeled, for lack of space" in page) == bool(on.unnamed)
 
 
 def test_without_a_design_displacement_the_plan_says_so(done):
@@ -233,10 +246,12 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
     assert not {"OK", "NG"} & set(found)
     if size.is_full:
         assert "Δ not permitted" in found
-        assert found.count("required no value") == 2
-        notes = " ".join(found)
-        assert "Keep clear: no value for A1." in notes
-        assert "no route to a design displacement is permitted: clearance 1, 2." in notes
+        page = printed(stand_in.unpermitted(), "plan")
+        assert "no route to a design displacement is permitted: clearance 1, 2." in page
+        row = page.tables[0].row("A1")
+        assert (row["Δ [in]"], row["Keep clear [in]"]) == ("no value", "none")
+        required = [row["Req’d [in]"] for row in page.tables[1].rows]
+        assert required[:2] == ["no value", "no value"]
 
 
 def test_the_plan_does_without_objects_drawn():
@@ -245,8 +260,8 @@ def test_the_plan_does_without_objects_drawn():
         clearances=[stand_in.clearance("A1", "RTU-1", 2.0)],
     ).assessment
     assert "A1" in words(roof_plan(done, SMALL))
-    found = " ".join(words(roof_plan(done, LANDSCAPE)))
-    assert "Not drawn, because a rectangle is not given: clearance 1." in found
+    page = printed(done, "plan")
+    assert "Not drawn, because a rectangle is not given: clearance 1." in page
 
 
 def test_a_dollar_sign_in_a_name_is_a_dollar_sign():
@@ -290,9 +305,9 @@ def test_text_is_as_wide_as_it_is_drawn(done):
             assert width_in(text.get_text(), is_bold=is_bold) == pytest.approx(box.width, abs=0.02)
 
 
-def test_wrapped_lines_keep_every_word():
-    text = "Keep clear 41 in of A1, A2 on all sides: no conduit or equipment."
-    lines = wrapped(text, 1.5)
-    assert len(lines) > 2
-    assert " ".join(lines) == text
-    assert all(width_in(line) <= 1.5 for line in lines)
+def test_every_meaning_of_a_symbol_fits_in_the_legend():
+    shown = printed_plan(scenes.shipped("conditions")).key
+    texts = [item for item in shown.items if isinstance(item, Text)]
+    assert "clearance not satisfied" in [text.words for text in texts]
+    for text in texts:
+        assert text.at[0] + width_in(text.words) * (0.5 if text.is_centered else 1.0) < shown.wide

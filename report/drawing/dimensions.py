@@ -1,0 +1,166 @@
+"""The clearances of a printed plan: numbered in their gaps, and equal ones dimensioned once.
+
+A number slides along its gap to where it touches nothing, and only where no place is left has it a
+leader. Required separations are in the schedule beside the plan. Read `draw_numbers` first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from report.document.tables import by_name
+from report.drawing.callouts import NG_TALL_IN, RADIUS_IN, draw_gap, draw_ng, draw_number, ng_wide
+from report.drawing.items import Mark
+from report.drawing.paper import BASE_IN, LINE_IN
+from report.drawing.placer import Frame, centered
+from report.drawing.sheet import Gap, PlanSheet
+from report.drawing.widths import width_in
+from report.entities.clearance import callout
+from report.sheet.schema import Rectangle
+from report.sheet.schema.shapes import Point, between
+from report.words.units import compared
+
+_STEP_IN = 0.06  # by which a label slides
+_ALIGNED_IN = 1e-6
+_OVERHANG_IN = 0.6  # of a dimension beyond the facing sides, where they are short
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lane:
+    """Where labels of a gap slide: on a line through its middle along the facing sides."""
+
+    gap: Gap
+    along: Point  # of length 1
+    half: float  # of the facing sides [in]; 0 where corners are the nearest
+    number: Frame  # of its label, as far as it is placed
+
+    def at(self, shift: float) -> Point:
+        """Return the point at a distance along the lane."""
+        x, y = self.gap.middle
+        return x + shift * self.along[0], y + shift * self.along[1]
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether words along the lane read from below."""
+        return abs(self.along[1]) > 0.9
+
+    @property
+    def narrow(self) -> float:
+        """A width across that is within the gap [in]."""
+        return max(math.dist(self.gap.a, self.gap.b) - 0.03, 0.01)
+
+    def frame(self, shift: float, long: float, across: float) -> Frame:
+        """Return the frame of a label at a distance along the lane."""
+        wide, tall = (across, long) if self.is_upright else (long, across)
+        return centered(*self.at(shift), wide, tall)
+
+
+def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:
+    """Draw the gaps with their numbers, those not satisfied first."""
+    first = sorted(plan.gaps, key=lambda gap: not plan.is_ng(gap))
+    return [_numbered(plan, _lane(plan, gap)) for gap in first]
+
+
+def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
+    """Write what is provided, once for all gaps that are equal."""
+    for words, equal in by_name(lanes, lambda lane: _provided(plan, lane.gap)).items():
+        _dimension(plan, words, equal)
+
+
+def _lane(plan: PlanSheet, gap: Gap) -> Lane:
+    dx, dy = gap.b[0] - gap.a[0], gap.b[1] - gap.a[1]
+    long = math.hypot(dx, dy)
+    along = (-dy / long, dx / long) if long else (1.0, 0.0)
+    area = between(gap.of.near, gap.of.far)
+    is_diagonal = isinstance(area, Rectangle) and min(abs(dx), abs(dy)) > _ALIGNED_IN
+    reach = [0.0]
+    if area is not None and long and not is_diagonal:
+        reach = [x * along[0] + y * along[1] for x, y in map(plan.paper.at, area.points)]
+    half = (max(reach) - min(reach)) / 2
+    return Lane(gap=gap, along=along, half=half, number=centered(*gap.middle, 0.0, 0.0))
+
+
+def _steps(start: float, end: float) -> Iterator[float]:
+    """Yield distances on both sides, the nearest first."""
+    for step in range(max(math.floor((end - start) / _STEP_IN + 1e-9), -1) + 1):
+        yield from {start + step * _STEP_IN: 0, -start - step * _STEP_IN: 0}
+
+
+def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
+    """Draw a gap with its number, and NG beside it; return the lane with their frame."""
+    gap, is_ng = lane.gap, plan.is_ng(lane.gap)
+    number = 2 * RADIUS_IN if gap.of.is_given else 0.0
+    ng = (NG_TALL_IN if lane.is_upright else ng_wide()) if is_ng else 0.0
+    size = number + ng, (ng_wide() if is_ng and lane.is_upright else 2 * RADIUS_IN)
+    shifts = list(_steps(0.0, lane.half))
+    # With its dimension line, or else where labels leave no place for that, without.
+    for across in (max(size[1], lane.narrow), size[1]):
+        frames = [lane.frame(shift, size[0], across) for shift in shifts]
+        taken = plan.paper.placer.take_first(frames)
+        if taken is not None:
+            break
+    if taken is None:
+        draw_gap(plan, gap)
+        frame = plan.paper.placer.place(
+            number + (ng_wide() if is_ng else 0.0),
+            2 * RADIUS_IN,
+            gap.middle,
+            maximum=plan.leader_in,
+        )
+        if frame is None:
+            plan.unnamed.append(gap.name)
+            return lane
+        plan.leader(gap.middle, frame)
+    else:
+        frame = lane.frame(shifts[taken], *size)
+        dx, dy = (shifts[taken] * way for way in lane.along)
+        a, b = ((x + dx, y + dy) for x, y in (gap.a, gap.b))
+        draw_gap(plan, replace(gap, a=a, b=b))
+    (x, y), is_row = frame.middle, frame.wide >= frame.tall
+    if gap.of.is_given:
+        at = (frame.x0 + RADIUS_IN, y) if is_row else (x, frame.y1 - RADIUS_IN)
+        draw_number(plan.paper, at, gap)
+    if is_ng:
+        at = (frame.x1 - ng_wide() / 2, y) if is_row else (x, frame.y0 + NG_TALL_IN / 2)
+        draw_ng(plan.paper, at)
+    return replace(lane, number=frame)
+
+
+def _provided(plan: PlanSheet, gap: Gap) -> str:
+    if not gap.of.is_given:  # it is not in the schedule
+        return ", ".join(callout(gap.of, plan.fmt))
+    _, show = compared(gap.of.required_m, gap.of.provided_m)
+    return plan.fmt.short(gap.of.provided_m, show=show)
+
+
+def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
+    """Write what is provided in one of the gaps that are equal, beside its number."""
+    words = f"{provided} typ. of {len(equal)}" if equal[1:] else provided
+    long = width_in(words) + 0.06
+    tall = LINE_IN - 0.02
+    for overhang in (0.0, _OVERHANG_IN):
+        found = [(lane, shift) for lane in equal for shift in _beside(lane, long, overhang)]
+        frames = [lane.frame(shift, long, tall) for lane, shift in found]
+        within = [lane.frame(shift, long, min(lane.narrow, tall)) for lane, shift in found]
+        taken = plan.paper.placer.take_first(frames, within)
+        if taken is not None:
+            (lane, _), frame = found[taken], frames[taken]
+            plan.paper.box(Mark.BACKING, frame)
+            (x, y), is_upright = frame.middle, lane.is_upright
+            base = (x + BASE_IN, y) if is_upright else (x, y - BASE_IN)
+            plan.paper.text(*base, words, is_centered=True, is_upright=is_upright)
+            return
+    plan.beside(equal[0].number, words, RADIUS_IN)
+
+
+def _beside(lane: Lane, long: float, overhang: float) -> Iterator[float]:
+    """Yield distances along a lane on both sides of its number for what is so long."""
+    (x, y), own = lane.gap.middle, lane.number
+    shift = (own.middle[0] - x) * lane.along[0] + (own.middle[1] - y) * lane.along[1]
+    apart = ((own.tall if lane.is_upright else own.wide) + long) / 2 + 0.02
+    most = lane.half + overhang - long / 2
+    for away in _steps(apart, most + abs(shift)):
+        if abs(shift + away) <= most:
+            yield shift + away

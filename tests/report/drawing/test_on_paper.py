@@ -1,0 +1,225 @@
+"""The printed roof plan: no leader crosses an array or a label, and no label is left out."""
+
+import itertools
+from functools import cache, partial
+
+import pikepdf
+import pytest
+import shapely
+
+import scenes
+import stand_in
+from inputs import HEAD, sides
+from places import ROOT
+from printed import printed
+from report.drawing.items import Circle, Lines, Mark, Outline, Text
+from report.drawing.layers import Layer
+from report.drawing.on_paper import plan_on_paper, printed_plan
+from report.drawing.sheet import SMALL
+from report.drawing.widths import TYPE_PT, width_in
+from report.figures import charts
+from report.package.html import part
+from report.pages.pictures import load_charts
+from report.pages.registry import package_data
+from report.sheet.schema import PlanPaper
+from report.typeset.pdf import lay_out
+from stand_in import FOOT
+
+SHIPPED = sorted({path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"study"})
+ROWS, COLUMNS = 6, 5
+WIDE, DEEP, LANE = 52, 24, 4  # ft
+
+
+@cache
+def thirty(paper=PlanPaper.BY_SIZE, us_first=True):
+    """Thirty arrays in lanes of 4 ft, units between them and at an end, 58 clearances."""
+    arrays, rows, units = [], [], []
+    for row, column in itertools.product(range(ROWS), range(COLUMNS)):
+        name, x, y = f"A{1 + row * COLUMNS + column}", 16 + column * 56, 8 + row * 28
+        wide = WIDE - 16 if name == "A10" else WIDE
+        arrays.append(stand_in.array(name, 1.0) | sides(x, x + wide, y, y + DEEP))
+        if column:
+            rows.append(stand_in.clearance(name, f"A{row * COLUMNS + column}", LANE * FOOT))
+        if row:
+            rows.append(
+                stand_in.clearance(name, f"A{1 + (row - 1) * COLUMNS + column}", LANE * FOOT)
+            )
+    units = [
+        stand_in.roof_object("RTU-1", "fixed object", 282, 288, 40, 52, 1.0),
+        stand_in.roof_object("RTU-2", "fixed object", 100, 114, 182, 190, 1.0),
+        stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 200, 1.0),
+    ]
+    rows += [
+        stand_in.clearance("A10", "RTU-1", 6 * FOOT),
+        stand_in.clearance("A27", "RTU-2", 0.5 * FOOT),
+        *(stand_in.clearance(f"A{1 + row * COLUMNS}", "W", 16 * FOOT) for row in range(ROWS)),
+    ]
+    roof = sides(0, 310, 0, 200)
+    return scenes.package(
+        arrays=arrays,
+        objects=units,
+        clearances=rows,
+        roof=roof,
+        options={"plan_paper": paper},
+        project=HEAD | {"units_first": "US" if us_first else "SI"},
+    ).assessment
+
+
+PLANS = {"thirty": thirty, **{name: partial(scenes.shipped, name) for name in SHIPPED}}
+
+
+@pytest.fixture(params=PLANS)
+def done(request):
+    return PLANS[request.param]()
+
+
+def words_of(paper):
+    return [item for item in paper.items if isinstance(item, Text)]
+
+
+def area(text):
+    """The area of a text: `TYPE_PT` tall, on its baseline."""
+    wide = width_in(text.words, is_bold=text.is_bold)
+    tall, (x, y) = 0.7 * TYPE_PT / 72.0, text.at
+    start = -wide / 2 if text.is_centered else 0.0
+    low, high = (start, 0.0), (start + wide, tall)
+    if text.is_upright:
+        return shapely.box(x - tall, y + low[0], x, y + high[0])
+    return shapely.box(x + low[0], y, x + high[0], y + tall)
+
+
+def leaders(paper):
+    return [
+        shapely.LineString(points)
+        for item in paper.items
+        if isinstance(item, Lines) and item.look is Mark.LEADER
+        for points in item.lines
+    ]
+
+
+def test_no_leader_crosses_an_array_or_a_label(done):
+    paper = printed_plan(done).plan
+    arrays = [
+        shapely.Polygon(item.points).buffer(-0.01)
+        for item in paper.items
+        if isinstance(item, Outline) and item.look is Layer.ARRAY
+    ]
+    assert len(arrays) == len(done.arrays)
+    labels = [area(text) for text in words_of(paper)]
+    labels += [
+        shapely.Point(item.center).buffer(item.radius - 0.01)
+        for item in paper.items
+        if isinstance(item, Circle)
+    ]
+    for leader in leaders(paper):
+        assert not leader.intersects(shapely.union_all([*arrays, *labels])), leader
+
+
+def test_the_roofs_have_leaders():
+    assert all(leaders(printed_plan(PLANS[name]()).plan) for name in ("thirty", "example"))
+
+
+def test_no_label_is_left_out(done):
+    printed = printed_plan(done)
+    shown = [text.words for text in words_of(printed.plan)]
+    assert not printed.unnamed
+    for count, _ in enumerate(done.clearances, start=1):
+        assert shown.count(str(count)) >= 1
+    numbers = [item for item in printed.plan.items if isinstance(item, Circle)]
+    assert len(numbers) == len(done.clearances)
+    for item in (*done.arrays, *done.project.objects):
+        assert any(words == item.id or words.startswith(f"{item.id}: ") for words in shown)
+    assert printed.beside.has_arrays
+    assert sum(printed.beside.rows) == len(done.clearances)
+
+
+def test_no_label_lies_on_another_or_on_a_dimension_line(done):
+    paper = printed_plan(done).plan
+    areas = [(text, area(text)) for text in words_of(paper)]
+    for (one, of_one), (other, of_other) in itertools.combinations(areas, 2):
+        assert not of_one.intersects(of_other), (one.words, other.words)
+    for item in paper.items:
+        if isinstance(item, Lines) and item.look in (Layer.CLEARANCE, Layer.CLEARANCE_NG):
+            line = shapely.MultiLineString(item.lines[:1])
+            crossed = [text.words for text, of in areas if of.intersects(line)]
+            assert all(words.isdigit() or words == "NG" for words in crossed)
+
+
+def test_equal_gaps_are_dimensioned_once():
+    shown = [text.words for text in words_of(printed_plan(thirty()).plan)]
+    assert shown.count("48.0 in typ. of 49") == 1
+    assert shown.count("192.0 in typ. of 6") == 1
+    assert shown.count("72.0 in") == 1
+    assert not {"48.0 in", "192.0 in"} & set(shown)
+
+
+def test_an_array_says_its_size_where_it_has_room_and_the_table_that_of_all():
+    shown = [text.words for text in words_of(printed_plan(scenes.shipped("example")).plan)]
+    assert {"120 × 92 ft", "120 × 102 ft", "150 × 150 ft"} <= set(shown)
+    rows = [row[:2] for row in printed(thirty(), "plan").tables[0].cells]
+    assert rows == [("A1 to A9, A11 to A30", "52 × 24"), ("A10", "36 × 24")]
+
+
+def test_a_gap_that_is_not_satisfied_is_marked_beside_its_number():
+    paper = printed_plan(thirty()).plan
+    (ng,) = (text for text in words_of(paper) if text.words == "NG")
+    (number,) = (text for text in words_of(paper) if text.words == "51")
+    assert shapely.distance(area(ng), area(number)) < 0.15
+
+
+def test_the_small_plan_has_numbers_without_leaders_across_arrays():
+    paper = plan_on_paper(thirty(), SMALL)
+    solid = shapely.union_all(
+        [
+            shapely.Polygon(item.points).buffer(-0.01)
+            for item in paper.items
+            if isinstance(item, Outline) and item.look is Layer.ARRAY
+        ]
+    )
+    assert not any(leader.intersects(solid) for leader in leaders(paper))
+
+
+@pytest.mark.parametrize(
+    ("paper", "us_first", "size_in"),
+    [
+        (PlanPaper.BY_SIZE, True, (17.0, 11.0)),
+        (PlanPaper.BY_SIZE, False, (420 / 25.4, 297 / 25.4)),
+        (PlanPaper.A3, True, (420 / 25.4, 297 / 25.4)),
+        (PlanPaper.LETTER, True, (11.0, 8.5)),
+    ],
+)
+def test_the_sheet_of_the_plan_is_as_large_as_the_roof_needs_or_as_asked(
+    tmp_path, paper, us_first, size_in
+):
+    package = package_data(thirty(paper, us_first))
+    on = printed_plan(package.assessment)
+    load_charts()
+    drawings = {"plan": [on, *map(charts.paper_svg, (on.plan, on.key))]}
+    path = tmp_path / "plan.pdf"
+    path.write_bytes(lay_out(part(package, None, "plan", drawings)))
+    with pikepdf.open(path) as pdf:
+        first, *rest = ([float(v) / 72 for v in page.mediabox[2:]] for page in pdf.pages)
+    assert first == pytest.approx(size_in, abs=0.01)
+    assert bool(rest) == (paper is PlanPaper.LETTER)
+
+
+def numbers(done):
+    return [str(count) for count, _ in enumerate(done.clearances, start=1)]
+
+
+def scheduled(page):
+    """The rows of the schedule of clearances, which may be in several tables."""
+    return [row for table in page.tables if "No." in table.headings for row in table.cells]
+
+
+def test_the_large_sheet_has_a_title_block_and_the_schedule_beside():
+    page = printed(thirty(), "plan")
+    assert "Roof plan" in page
+    for name, value in (("Scale", "1 in = 40 ft"), ("Sheet title", "Roof plan")):
+        assert f"{name} {value}" in " ".join(page.split())
+    assert [row[0] for row in scheduled(page)] == numbers(thirty())
+
+
+def test_what_has_no_room_beside_the_plan_follows_it():
+    page = printed(thirty(PlanPaper.LETTER), "plan")
+    assert [row[0] for row in scheduled(page)] == numbers(thirty())
