@@ -10,7 +10,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from report.document.tables import by_name
 from report.drawing.callouts import NG_TALL_IN, RADIUS_IN, draw_gap, draw_ng, draw_number, ng_wide
 from report.drawing.items import Mark
 from report.drawing.paper import BASE_IN, LINE_IN
@@ -20,6 +19,7 @@ from report.drawing.widths import width_in
 from report.entities.clearance import callout
 from report.sheet.schema import Rectangle
 from report.sheet.schema.shapes import Point, between
+from report.words.counts import grouped_by
 from report.words.units import compared
 
 _STEP_IN = 0.06  # by which a label slides
@@ -65,7 +65,7 @@ def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:
 
 def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
     """Write what is provided, once for all gaps that are equal."""
-    for words, equal in by_name(lanes, lambda lane: _provided(plan, lane.gap)).items():
+    for words, equal in grouped_by(lanes, lambda lane: _provided(plan, lane.gap)).items():
         _dimension(plan, words, equal)
 
 

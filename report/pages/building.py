@@ -7,11 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from report.document.tables import Column, Table, by_name, listed
+from report.document.tables import Column, Table, listed
 from report.entities.shown import length, plain, text, words
 from report.motions.history import first_period_s
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.sheet.schema import BuildingInput
+from report.words.counts import grouped_by
 from report.words.units import G_MPS2
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M
 from solver.building.roof import RoofMotion
@@ -68,7 +69,7 @@ def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
     """Return the slowest modes of the building in each direction."""
     rows = [
         (name, of[0].roof.building, mode, mode < included)
-        for name, of in by_name(components, lambda item: item.name).items()
+        for name, of in grouped_by(components, lambda item: item.name).items()
         for included in (max(item.roof.n_modes for item in of),)
         for mode in range(min(max(SHOWN_MODES, included + 1), of[0].roof.building.periods_s.size))
     ]
@@ -106,7 +107,7 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
         ),
         (plain("Extended by", 1, "s"), lambda of: of[0].roof.pad_s),
     )
-    by_motion = by_name(components, lambda item: item.motion)
+    by_motion = grouped_by(components, lambda item: item.motion)
     return listed(by_motion.values(), columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 

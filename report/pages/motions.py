@@ -14,7 +14,7 @@ from report.assessment.conditions import DRIFT_M, drifts
 from report.assessment.evidence import Evidence
 from report.assessment.highpass import Beyond
 from report.assessment.spectra import PRINTED_S, Spectra, departures
-from report.document.tables import Column, Table, TableRow, Wide, by_name, listed
+from report.document.tables import Column, Table, TableRow, Wide, listed
 from report.entities.columns import TableColumn
 from report.entities.shown import centered, length, plain, text, words
 from report.motions.history import PreparedMotion
@@ -22,6 +22,7 @@ from report.pages.acceptance import acceptance_table, event_table, lowest_betwee
 from report.pages.building import building_part
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
+from report.words.counts import grouped_by
 from report.words.units import G_MPS2, Unit, number
 from solver.model import Floats, Motion
 from solver.records.processing import AS_RECORDED
@@ -43,7 +44,7 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
     """Return the motions of each source; nothing where every motion has a source of its own."""
-    found = by_name(motions, lambda motion: motion.source or "not given")
+    found = grouped_by(motions, lambda motion: motion.source or "not given")
     if len(found) == len(motions) > 1:
         return {}
     return {source: [motion.id for motion in of] for source, of in found.items()}
