@@ -46,7 +46,7 @@ def building_part(
     ]
     structure = package.data.building.structure
     return {
-        "models": _models(components),
+        "models": by_name(components, lambda item: item.roof.building.words),
         "coefficients": structure and APPROXIMATE_PERIODS[structure],
         "height_ft": package.data.site.structure_height_m / FOOT_M,
         "period_s": first_period_s(package.data),
@@ -55,14 +55,6 @@ def building_part(
         "means_m": [value.mean_m for _, value in variations],
         "variations": _variations(package, variations),
     }
-
-
-def _models(components: Sequence[_Transferred]) -> Mapping[str, Sequence[str]]:
-    """Return the names of the components by the building model that transfers them, in words."""
-    names: dict[str, dict[str, None]] = {}
-    for component in components:
-        names.setdefault(component.roof.building.words, {})[component.name] = None
-    return {words: list(same) for words, same in names.items()}
 
 
 def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:

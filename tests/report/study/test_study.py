@@ -308,7 +308,7 @@ def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(o
     ratio = 1.1 * found.curves.largest_m[0, 1, 1, 6] / wanted
     assert one.ratio[1, 1, 6] == pytest.approx(ratio, nan_ok=True)
     safe = int((one.ratio <= 1.0).sum())
-    assert f"enough in {safe:,} of {one.ratio.size:,} cases" in printed.study(found)
+    assert f"sufficient in {safe:,} of {one.ratio.size:,} cases" in printed.study(found)
     assert export_files(found) == {}
 
 

@@ -148,7 +148,7 @@ def with_analysis(results, ratio):
 @pytest.mark.parametrize(
     ("ratio", "wanted"),
     [
-        (0.5, "enough in 27 of 27 cases and too small in 0."),
+        (0.5, "sufficient in 27 of 27 cases and too small in 0."),
         # Two of three frictions are 0.4 or more, one of three slopes 3 degrees or less.
         (
             2.0,
