@@ -93,7 +93,9 @@ def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_pat
     another = with_file("friction.pdf", LETTER.read_bytes() + b"%")
     done = run(given(path.read_bytes(), another), "--json")
     assert done.exit_code == 3, done.output
-    assert any(text.startswith("sheet 1: ") for text in json.loads(done.stdout)["differences"])
+    said = json.loads(done.stdout)["differences"]
+    assert said[0].startswith("roofslip.json: hash is ")
+    assert any(text.startswith("sheet ") and "where the input gives" in text for text in said)
 
 
 @pytest.mark.nightly("report/proof/", "report/provenance/")
