@@ -22,16 +22,22 @@ def page(**changes):
 
 def test_a_row_has_the_distance_the_reach_and_the_number_of_the_clearance():
     rows = [stand_in.clearance("A1", "RTU-9", FOOT), stand_in.clearance("A2", "A1", 120 * FOOT)]
-    table = page(objects=[NEAR, FAR], clearances=rows).table(CAPTION)
-    assert [[row[part] for part in PARTS] for row in table.rows] == [
-        ["A1", "A2", "array", "1440.0", "81.6", "No. 2", "as in plan; beyond twice displ."],
-        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided as in plan"],
+    made = page(objects=[NEAR, FAR], clearances=rows)
+    assert [[row[part] for part in PARTS] for row in made.table(CAPTION).rows] == [
+        ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided as in plan"]
     ]
-    (note, _) = table.notes
-    assert note.endswith(
-        "The other three pairs are farther apart, and no less than is required; the nearest are A2 "
-        "and RTU-8, 240.0 in (6096 mm)."
+    assert made.line("Clearances to neighbors farther away, provided as in plan: No. 2.")
+    assert made.line("The other three pairs of the plan are farther apart") == (
+        "The other three pairs of the plan are farther apart, and no less than is required; the "
+        "nearest are A2 and RTU-8, 240.0 in (6096 mm)."
     )
+
+
+def test_clearances_to_neighbors_farther_away_are_named_and_not_listed():
+    made = page(clearances=[stand_in.clearance("A1", "A2", 120 * FOOT)])
+    assert made.line("No array, object or roof edge of the plan is within twice the design")
+    assert made.line("Clearances to neighbors farther away, provided as in plan: all.")
+    assert CAPTION not in made
 
 
 def test_a_neighbor_without_a_clearance_is_listed_with_its_verdict():
@@ -50,9 +56,9 @@ def test_what_has_no_place_in_plan_is_named_and_not_measured():
 
 
 def test_without_a_neighbor_the_nearest_pair_is_named():
-    line = page().line("No array, object or roof edge of the plan is within")
-    assert line.endswith("the nearest are A1 and A2, 1440.0 in (36576 mm).")
-    assert "nearest" not in page(arrays=ARRAYS[:1])
+    line = page().line("The other pair of the plan is farther apart, and no less than is required")
+    assert line.endswith(": A1 and A2, 1440.0 in (36576 mm).")
+    assert "of the plan" not in page(arrays=ARRAYS[:1])
 
 
 @pytest.mark.parametrize("is_given", [True, False])
@@ -62,6 +68,6 @@ def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
 
 
 def test_no_pair_is_said_to_have_what_is_required_where_that_is_not_known():
-    (note, *_) = printed(scenes.unpermitted(), "clearances").table(CAPTION).notes
-    assert "or the prescriptive one where none is permitted. The other seven pairs" in note
-    assert "required" not in note
+    made = printed(scenes.unpermitted(), "clearances")
+    assert "or the prescriptive one where none is permitted. " in made.table(CAPTION).notes[0]
+    assert made.line("The other seven pairs of the plan are farther apart; the nearest are A1 and")

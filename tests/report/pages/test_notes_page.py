@@ -64,7 +64,7 @@ def test_membrane_supports_and_report_are_those_of_the_workbook_or_by_others():
     line = notes(friction_tests=scenes.TESTS).line("Roof membrane:")
     assert line.startswith("Roof membrane: TPO, 60 mil. Supports of the arrays: EPDM pad.")
     assert "Example Laboratories, ASTM G115-10, report FT-118, 2025-06-12" in line
-    assert "A1, A2: ASTM G115, Lab 1234, 2025-06-12; entered; no runs of friction tests" in line
+    assert "All arrays: ASTM G115, Lab 1234, 2025-06-12; entered; no runs of friction tests" in line
     line = notes().line("Roof membrane:")
     assert line.startswith("Roof membrane: by others. Supports of the arrays: by others. Frict")
 
@@ -95,7 +95,7 @@ def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
     edge = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
     page = notes(objects=[edge], clearances=[stand_in.clearance("A1", "N", 60.0)])
     assert ("Parapets that the clearances rely on" in page) is (height_m == 1.2)
-    assert ("Height above the roof is measured: N." in page) is (height_m == 1.2)
+    assert ("Height of the parapets above the roof is measured: N." in page) is (height_m == 1.2)
 
 
 def test_the_wiring_between_linked_parts_takes_the_elongation_of_the_links():
