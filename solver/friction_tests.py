@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -195,7 +196,12 @@ def fit_law(velocities_mps: Sequence[float], mus: Sequence[float]) -> FittedLaw 
     FittedLaw or None
         None for fewer than `LEAST_VELOCITIES` distinct velocities.
     """
-    pairs = [(v, mu) for v, mu in zip(velocities_mps, mus, strict=True) if not math.isnan(v)]
+    pairs = zip(velocities_mps, mus, strict=True)
+    return _fitted(tuple((v, mu) for v, mu in pairs if not math.isnan(v)))
+
+
+@cache  # pages ask for the same fit again and again
+def _fitted(pairs: tuple[tuple[float, float], ...]) -> FittedLaw | None:
     if len({v for v, _ in pairs}) < LEAST_VELOCITIES:
         return None
     v, mu = np.array(pairs).T

@@ -6,11 +6,8 @@ from collections.abc import Mapping
 
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
-<<<<<<< ours
-from report.document.tables import Table, listed
-=======
 from report.assessment.neighbors import Cover
->>>>>>> theirs
+from report.document.tables import Table, listed
 from report.entities.evidence import NeighborResult
 from report.entities.shown import length, words
 from report.pages.parts import PackageData
@@ -21,22 +18,12 @@ from solver.rules.provisions import Neighbor
 
 def clearances(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
-<<<<<<< ours
-=======
-    objects = {item.id: item for item in package.data.objects}
-    arrays = {array.id: array for array in package.data.arrays}
-    gaps = [
-        (gap, objects[gap.clearance.object], arrays[gap.clearance.array])
-        for gap in package.assessment.clearances
-        if gap.clearance.object in objects
-    ]
-    listed = list(map(NeighborResult.of, package.assessment.neighbors))
->>>>>>> theirs
+    near = list(map(NeighborResult.of, package.assessment.neighbors))
     beyond = [pair for pair in package.assessment.pairs if not pair.is_listed]
     return {
-        "neighbors": [pair for pair in listed if pair.cover is not Cover.BEYOND],
+        "neighbors": [pair for pair in near if pair.cover is not Cover.BEYOND],
         "farther": [
-            row.clearance for pair in listed if pair.cover is Cover.BEYOND for row in pair.given
+            row.clearance for pair in near if pair.cover is Cover.BEYOND for row in pair.given
         ],
         "n_beyond": len(beyond),
         "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
