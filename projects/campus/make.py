@@ -62,6 +62,8 @@ def project() -> ProjectInput:
                 clearance("A10", "RTU-4", "across", 1.6),
             ],
             "motions": school.motions[:COUNT],
+            # The letter attached to the school is on the school alone.
+            "options": school.options.model_copy(update={"peer_letter": ""}),
         }
     )
 

@@ -46,7 +46,7 @@ def building_part(
     ]
     structure = package.data.building.structure
     return {
-        "models": by_name(components, lambda item: item.roof.building.words),
+        "models": grouped_by(components, lambda item: item.roof.building.words),
         "coefficients": structure and APPROXIMATE_PERIODS[structure],
         "height_ft": package.data.site.structure_height_m / FOOT_M,
         "period_s": first_period_s(package.data),
