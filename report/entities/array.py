@@ -245,7 +245,7 @@ class ArrayResult(LowVelocityResult):
     limits: Annotated[Verdict, at("limits_verdict"), centered("Limits", 0.85)] = printed(
         Verdict.NONE
     )
-    governing_gap: Annotated[str, words("Clearance", 1.4)] = printed("none given")
+    governing_gap: Annotated[str, words("Clearance to", 1.4)] = printed("none given")
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
     gap_required_m: Annotated[Number, length("Required", 0.8)] = printed(math.nan)
     gap_provided_m: Annotated[Number, length("Provided", 0.8)] = printed(math.nan)
@@ -316,7 +316,7 @@ def array_result(
     if gap:
         least, had = compared(gap.required_m, gap.clearance.provided_m)
         near = {
-            "governing_gap": f"to {gap.across_from(item.id)}",
+            "governing_gap": gap.across_from(item.id),
             "largest_dc": gap.ratio_words,
             "gap_required_m": gap.required_m,
             "gap_provided_m": gap.clearance.provided_m,

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from report.assessment.clearances import ClearanceCheck
     from report.assessment.project import Assessment
 
-_COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance", "D/C", "")
+_COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance to", "D/C", "")
 
 _WHAT_WOULD_DO = {
     Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
