@@ -89,8 +89,8 @@ class Table:
         return [dict(zip(self.headings, row, strict=True)) for row in self.cells]
 
     def row(self, first: str) -> dict[str, str]:
-        """Return the one row with such a cell in its first column or, failing that, in any."""
-        found = [row for row in self.cells if row[0] == first] or [
+        """Return the one row with such a name in its first column or, failing that, cell in any."""
+        found = [row for row in self.cells if first in row[0].split(", ")] or [
             row for row in self.cells if first in row
         ]
         assert len(found) == 1, (first, self.cells)

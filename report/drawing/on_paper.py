@@ -24,7 +24,7 @@ from report.drawing.labels import (
 )
 from report.drawing.paper import Paper, Scale, round_scale
 from report.drawing.placer import Frame, Placer
-from report.drawing.schedule import Beside, alike_arrays, beside
+from report.drawing.schedule import Schedule, alike_arrays, beside
 from report.drawing.shapes import draw_coordinates, draw_outlines, take_edges
 from report.drawing.sheet import (
     A3,
@@ -73,7 +73,7 @@ class PrintedPlan(NamedTuple):
     size: PlanSize
     plan: Paper
     key: Paper
-    beside: Beside
+    beside: Schedule
     unnamed: Sequence[str]
 
 

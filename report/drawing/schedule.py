@@ -1,6 +1,6 @@
 """What the tables beside a printed plan have, and how much of them its columns have room for.
 
-Their words are in the template of the page. Read `Beside` first.
+Their words are in the template of the page. Read `Schedule` first.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def size_words(shape: Shape, fmt: UnitFormat) -> str:
     return " × ".join(measured(side, unit).rstrip("0").rstrip(".") for side in sides)
 
 
-class Beside(NamedTuple):
+class Schedule(NamedTuple):
     """What is beside a plan: whether the table of arrays, and rows of the schedule by column."""
 
     has_arrays: bool
@@ -68,7 +68,7 @@ class Beside(NamedTuple):
 
 def beside(
     assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize, key_tall: float
-) -> Beside:
+) -> Schedule:
     """Return what has room beside a plan; the first column has the legend, of a height [in]."""
     room = size.tall + _BELOW_IN - key_tall
     arrays_tall = _AROUND_ARRAYS_IN + ROW_IN * sum(_lines(row.ids, _IDS_IN) for row in arrays)
@@ -84,7 +84,7 @@ def beside(
         used = accumulate(tall[sum(rows) :], initial=_AROUND_SCHEDULE_IN)
         rows.append(max(sum(height <= room for height in used) - 1, 0))
         room = size.tall + _BELOW_IN
-    return Beside(has_arrays, rows)
+    return Schedule(has_arrays, rows)
 
 
 def _lines(words: str, wide: float) -> int:

@@ -105,7 +105,7 @@ def test_a_law_is_fitted_to_four_velocities_and_drawn():
     arrays = [stand_in.array("A1", 0.5, **law)]
     friction = stand_in.project(arrays=arrays).arrays[0].friction
     wet = [run("wet", k, friction.at(v), velocity_mps=v) for k, v in enumerate(VELOCITIES, 1)]
-    shown = page(arrays=arrays, friction_runs=wet)
+    shown = printed(scenes.package(arrays=arrays, friction_runs=wet, clearances=[]), "inputs")
     assert "no dry runs are given" in shown
     assert shown.line("Wet, 4 velocities").startswith(
         "Wet, 4 velocities: least squares gives 0.380 at low velocity, 0.460 at high velocity and"
