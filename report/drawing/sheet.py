@@ -57,7 +57,7 @@ class PlanSize:
     @property
     def fringe(self) -> tuple[float, float, float, float]:
         """Margins [in] of the roof: left, right, bottom, top."""
-        return (0.62, 0.26, 0.64, 0.26) if self.is_full else (0.24, 0.24, 0.24, 0.24)
+        return (0.62, 0.26, 0.65, 0.26) if self.is_full else (0.24, 0.24, 0.24, 0.24)
 
 
 SMALL = PlanSize(wide=6.7, tall=2.95, key_wide=2.05, key_tall=0.95)

@@ -41,7 +41,7 @@ class RequirementRow(Entity):
     title: Annotated[str, words("Requirement", 2.3), Column()]
     found: Annotated[str, words("Found", 2.6), Column()]
     limit: Annotated[str, words("Required", 1.9), Column()]
-    basis: Annotated[str, words("Basis", 1.5), Column()]
+    basis: Annotated[str, words("Basis", 1.75), Column()]
     verdict: Annotated[Verdict, centered("Verdict", 1.8), Column()]
     remedy: Annotated[str, Column("What must be done")]
 
