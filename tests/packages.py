@@ -70,7 +70,7 @@ def reported(factory: pytest.TempPathFactory, name: str, *, by_script: bool = Fa
 
 def _report(top: Path, name: str, run: Callable[[Path, str], tuple[str, str]]) -> None:
     source, project = ROOT / "projects" / name, top / "projects" / name
-    shutil.copytree(source, project, ignore=shutil.ignore_patterns("out", "make.py"))
+    shutil.copytree(source, project, ignore=shutil.ignore_patterns("out", "make.py", "__pycache__"))
     for stream, text in zip(("stdout", "stderr"), run(top, f"projects/{name}"), strict=True):
         (top / stream).write_text(text, encoding="utf-8")
 

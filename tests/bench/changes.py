@@ -98,7 +98,7 @@ FIELD = """    motions_run: Annotated[
 def column(top: Path) -> None:
     """Add a column to the results of arrays."""
     path = top / "report" / "entities" / "array.py"
-    before = "    tipping: TippingResult\n    uplift: UpliftResult\n"
+    before = "    tipping: TippingResult\n"
     replaced(path, before, FIELD + before)
 
 

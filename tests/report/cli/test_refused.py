@@ -126,7 +126,9 @@ def test_without_permission_each_command_says_which_file(tmp_path):
         path.chmod(mode)
     commands = {
         "input.xlsx' is not readable": ["check", books["workbook"]],
-        "x.csv: cannot be read (Permission denied)": ["check", books["record"]],
+        "Motions!C8: horizontal record: 'records/x.csv' cannot be read (Permission denied)": [
+            "check", books["record"]
+        ],
         "'records/x.csv' cannot be read (Permission denied); allow it": ["check", books["records"]],
         f"{closed}: no permission to write; choose another folder": ["report", books["out"]],
         f"{closed}: no permission": ["report", book, "--out", closed / "a" / "b"],

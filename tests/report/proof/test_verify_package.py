@@ -79,7 +79,7 @@ def test_a_package_is_the_same_to_the_last_bit_and_nothing_is_left_behind(
 
 @pytest.mark.nightly("report/proof/", "report/provenance/", "report/sheet/reading/beside.py")
 def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_path, given):
-    ignored = shutil.ignore_patterns("out", "make.py")
+    ignored = shutil.ignore_patterns("out", "make.py", "__pycache__")
     shutil.copytree(ROOT / "projects" / "conditions", tmp_path / "job", ignore=ignored)
     shutil.copy(LETTER, tmp_path / "job" / "friction.pdf")
     named = {"Friction tests/Test report file": "friction.pdf"}
