@@ -148,9 +148,9 @@ def keep_clear_mark(assessment: Assessment, array: ArrayAssessment) -> str:
 
 
 def keep_clear(separation_m: float, us_first: bool) -> str:
-    """Return a distance to keep clear, rounded up to 1 in or 10 mm; `none` for NaN."""
+    """Return a distance to keep clear, rounded up to 1 in or 10 mm; `unknown` for NaN."""
     if math.isnan(separation_m):
-        return "none"
+        return "unknown"  # "none" would read as no distance
     steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
     return f"{steps} in" if us_first else f"{10 * steps} mm"
 

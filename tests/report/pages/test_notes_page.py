@@ -109,7 +109,7 @@ def test_the_wiring_between_linked_parts_takes_the_elongation_of_the_links():
 
 def test_an_array_without_a_permitted_displacement_has_none_on_the_notes():
     row = printed(scenes.unpermitted(), "notes").table("Schedule of arrays").row("A1")
-    assert [row["Design displ. [mm]"], row["Keep clear"]] == ["none", "none"]
+    assert [row["Design displ. [mm]"], row["Keep clear"]] == ["none", "unknown"]
 
 
 def test_the_letter_has_the_governing_clearance_and_the_keep_clear_distance():
@@ -121,6 +121,15 @@ def test_the_letter_has_the_governing_clearance_and_the_keep_clear_distance():
         assert row["Provided [in]"] == "1200.0"
         keep = keep_clear_words(keep_clear_m(made.assessment, item), us_first=True)
         assert f"keep clear {row['Keep clear']}" == keep
+
+
+def test_the_letter_without_clearances_keeps_a_row_for_each_keep_clear_distance():
+    arrays = [stand_in.array("A1", 0.5, i_p=1.0), stand_in.array("A2", 0.5, x=220, i_p=1.5)]
+    made = package(arrays=arrays, clearances=[])
+    table = printed(made, "letter").table("Results")
+    for item in made.assessment.arrays:
+        keep = keep_clear_words(keep_clear_m(made.assessment, item), us_first=True)
+        assert f"keep clear {table.row(item.id)['Keep clear'].rstrip('†')}" == keep
 
 
 def test_the_letter_says_what_its_results_rest_on():
