@@ -79,20 +79,14 @@ def _filled(project: Path, found: RoofPlan, replace: bool) -> tuple[Path, bool]:
     """Fill the plan in; return the workbook, and whether it has formulas."""
     from report.drawing.fill import changes
     from report.sheet.reading.archive import open_book
-    from report.sheet.reading.parts import Formula, write_cells
-    from report.sheet.writing.live import live_formulas
+    from report.sheet.writing.filled import fill_cells
     from solver.model import InputError
 
     if not (found.roof or found.arrays or found.objects):
         lines = list(_unread(found)) or ["the drawing has no closed polylines"]
         raise InputError(["nothing to fill in: give the layers on the sheet Layers", *lines])
     book = open_book(project)
-    before = live_formulas(book)
-    write_cells(book.path, changes(book, found, replace=replace))
-    after = live_formulas(open_book(book.path))
-    # Rows that a table has grown by; Excel gives them their formulas only where they are typed.
-    write_cells(book.path, {at: Formula(after[at]) for at in after.keys() - before.keys()})
-    return book.path, any(scan.formulas for scan in book.scans.values())
+    return book.path, fill_cells(book, changes(book, found, replace=replace))
 
 
 def _line(place: DrawnOutline) -> str:
