@@ -80,7 +80,8 @@ class GrowingTable:
                 " remove the row of totals, or insert rows above it"
             )
         if row > self.last:
-            raise InputError(f"{where}: more rows are needed than the {MAX_ROWS} that a table may have")
+            most = f"the {MAX_ROWS} that a table may have"
+            raise InputError(f"{where}: more rows are needed than {most}")
         return row
 
     def number(self, name: str, value_m: float) -> float:
