@@ -18,6 +18,7 @@ from report.sheet.schema import (
     Array,
     Clearance,
     Direction,
+    DistanceBasis,
     ObjectKind,
     ProjectInput,
     RoofObject,
@@ -48,6 +49,8 @@ class ClearanceCheck:
     ----------
     clearance : Clearance
         Its row of the workbook.
+    basis : DistanceBasis
+        Of its distance.
     neighbor : Neighbor
         What is across it.
     importance : float
@@ -69,6 +72,7 @@ class ClearanceCheck:
     """
 
     clearance: Clearance
+    basis: DistanceBasis
     neighbor: Neighbor
     importance: float
     governing_array: str
@@ -136,24 +140,13 @@ def check_clearance(
     row: Clearance,
 ) -> ClearanceCheck:
     """Return a clearance with its required separation, the larger of the two between arrays."""
-    near = by_id(arrays, row.array)
-    others = [a for a in arrays if a.id == row.object]
     sides = facing(data, arrays, row)
     governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].permitted_toward_m(a[1])))
     design_m = governing.permitted_toward_m(direction)
-    if others:
-        # As entered: a trial with other friction on one side does not make them unlike.
-        entered = {array.id: array for array in data.arrays}
-        is_like = are_alike(entered[row.array], entered[row.object])
-        neighbor = Neighbor.LIKE if is_like else Neighbor.UNLIKE
-        i_p = max(near.array.i_p, others[0].array.i_p)
-    else:
-        obstacle = next(item for item in data.objects if item.id == row.object)
-        neighbor = _neighbor(rules, obstacle, near.array)
-        i_p = max(near.array.i_p, obstacle.i_p)
-    importance = _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
+    neighbor, importance = _across(data, rules, row.array, row.object)
     found = ClearanceCheck(
         clearance=row,
+        basis=data.basis_of(row),
         neighbor=neighbor,
         importance=importance,
         governing_array=governing.id,
@@ -169,6 +162,22 @@ def check_clearance(
         mark="",
     )
     return _marked(found, data, arrays)
+
+
+def _across(data: ProjectInput, rules: RuleSet, near_id: str, other: str) -> tuple[Neighbor, float]:
+    """Return what is across a gap, and the importance factor of the separation."""
+    # As entered: a trial with other friction on one side does not make them unlike.
+    entered = {array.id: array for array in data.arrays}
+    near = entered[near_id]
+    if other in entered:
+        is_like = are_alike(near, entered[other])
+        neighbor = Neighbor.LIKE if is_like else Neighbor.UNLIKE
+        i_p = max(near.i_p, entered[other].i_p)
+    else:
+        obstacle = next(item for item in data.objects if item.id == other)
+        neighbor = _neighbor(rules, obstacle, near)
+        i_p = max(near.i_p, obstacle.i_p)
+    return neighbor, _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
 
 
 def _marked(
@@ -205,20 +214,22 @@ def minimum_gap(
         found = check_clearance(data, rules, arrays, row)
         return found.required_m, found.mark
     array, adopted = by_id(arrays, near.array), as_adopted(data)
-    required_m = _to_edge_m(data, rules, array)
+    required_m = separation_m(data, rules, array.permitted_m, near)
     if adopted is data:
         return required_m, ""
-    other_m = _to_edge_m(adopted, provisions.RULE_SETS[data.site.rule_set], array.adopted or array)
+    other, plain = array.adopted or array, provisions.RULE_SETS[data.site.rule_set]
+    other_m = separation_m(adopted, plain, other.permitted_m, near)
     return required_m, mark_of(required_m, other_m) or array.opened_mark
 
 
-def _to_edge_m(data: ProjectInput, rules: RuleSet, array: ArrayAssessment) -> float:
-    return provisions.required_separation(
-        rules,
-        Neighbor.EDGE,
-        design_m=array.permitted_toward_m(Direction.ANY),
-        importance=_importance(rules, Neighbor.EDGE, i_e=data.site.i_e, i_p=math.nan),
-    )
+def separation_m(data: ProjectInput, rules: RuleSet, design_m: float, near: PlanNeighbor) -> float:
+    """Return the separation [m] that neighbors of the plan require at a design displacement."""
+    if near.kind is NearbyKind.BARE_EDGE:
+        neighbor = Neighbor.EDGE
+        importance = _importance(rules, neighbor, i_e=data.site.i_e, i_p=math.nan)
+    else:
+        neighbor, importance = _across(data, rules, near.array, near.other)
+    return provisions.required_separation(rules, neighbor, design_m=design_m, importance=importance)
 
 
 def facing(

@@ -21,9 +21,9 @@ from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict, stated
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
-from report.sheet.schema import Array, ProjectInput
+from report.sheet.schema import Array, ClearanceSource, DistanceBasis, ProjectInput
 from report.sheet.schema.fields import Place
-from report.words.counts import lowered
+from report.words.counts import lowered, ranged
 from report.words.units import G_MPS2, Quantity, compared, digits_up, number, pair, rounding
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
@@ -208,7 +208,7 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
             remedy=f"{text}.",
         )
         for neighbor in nearby
-        for title in (f"Clearance {neighbor.array} to {neighbor.other}",)
+        for title in (f"Clearance {neighbor.names}",)
         for found, limit in (_found_and_required(neighbor, us_first),)
         for text in neighbor.shortcomings(us_first)
     )
@@ -249,7 +249,33 @@ def rows_before_runs(
 ) -> tuple[Requirement, ...]:
     """Return the requirements on an array that no run is needed for, with the strength [N]."""
     known = _fire_lanes(data, array), _interconnection(data, array, required_n)
-    return *known, *_weight(data, array)
+    return *known, *_weight(data, array), *_drawing_distances(data, array)
+
+
+def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement]:
+    """Yield the distances beside an array that are from the drawing, which no check compares."""
+    drawn = [
+        index
+        for index, row in enumerate(data.clearances)
+        if row.source is ClearanceSource.DRAWING and array.id in (row.array, row.object)
+    ]
+    if drawn:
+        by, date = data.project.drawing_confirmed_by, data.project.drawing_confirmed_date
+        is_confirmed = data.basis_of(data.clearances[drawn[0]]) is DistanceBasis.CONFIRMED
+        state = f"confirmed by {by}, {date}" if is_confirmed else "not confirmed"
+        yield Requirement(
+            id="drawing_distances",
+            title="Clear distances from the drawing",
+            subject=array.id,
+            found=f"No. {ranged(str(index + 1) for index in drawn)}: {state}",
+            limit="measured, or confirmed by name and date",
+            basis="roof plan",
+            is_satisfied=is_confirmed,
+            consequence=Consequence.CONDITION,
+            remedy="Measure them, or confirm the plan: state measured on the sheet Clearances, or "
+            "name and date on the sheet Project.",
+            place=Place("clearances", drawn[0], "source"),
+        )
 
 
 def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:

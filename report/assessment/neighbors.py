@@ -13,7 +13,15 @@ from enum import StrEnum
 from itertools import combinations
 
 from report.assessment.arrays import ArrayAssessment
-from report.sheet.schema import Clearance, ObjectKind, ProjectInput, Rectangle, Shape
+from report.sheet.schema import (
+    Array,
+    Clearance,
+    DistanceBasis,
+    ObjectKind,
+    ProjectInput,
+    Rectangle,
+    Shape,
+)
 from report.sheet.schema.fields import Place
 from report.sheet.schema.shapes import Point, Polygon, gap_m, sides, spans_near
 from report.words.units import Quantity, pair
@@ -46,6 +54,8 @@ class Cover(StrEnum):
     AS_IN_PLAN = "provided as in plan"
     DIFFERS = "provided differs from plan"
     BEYOND = "as in plan; beyond twice displ."
+    DRAWN = "from plan; not confirmed"
+    CONFIRMED = "from plan; confirmed"
     SUFFICIENT = "not given; no less than required"
     SHORT = "not given; NG"
 
@@ -69,6 +79,7 @@ class GivenGap:
 
     number: int  # of its row, from 1
     clearance: Clearance
+    basis: DistanceBasis
     cell: str
 
 
@@ -95,6 +106,11 @@ class PlanNeighbor:
     mark: str = ""  # of the required separation
 
     @property
+    def names(self) -> str:
+        """The two in words."""
+        return f"{self.array} to {self.other}"
+
+    @property
     def is_near(self) -> bool:
         """Whether it is within reach, or nearer than is required."""
         return self.gap_m <= self.reach_m or self.gap_m < self.required_m
@@ -111,7 +127,15 @@ class PlanNeighbor:
             return Cover.SHORT if self.is_short else Cover.SUFFICIENT
         if self.contradictions:
             return Cover.DIFFERS
-        return Cover.AS_IN_PLAN if self.is_near else Cover.BEYOND
+        if not self.is_near:
+            return Cover.BEYOND
+        # What is from the plan is compared with nothing.
+        bases = {row.basis for row in self.given}
+        if DistanceBasis.DRAWN in bases:
+            return Cover.DRAWN
+        if DistanceBasis.CONFIRMED in bases:
+            return Cover.CONFIRMED
+        return Cover.AS_IN_PLAN
 
     @property
     def is_missing(self) -> bool:
@@ -176,6 +200,17 @@ def plan_pairs(
 
     An object without a place in plan is in none of them. An array without a permitted displacement
     reaches twice the prescriptive one.
+    """
+    return pairs_within(data, [(a.array, _reach_m(a)) for a in arrays], addresses, required)
+
+
+def pairs_within(
+    data: ProjectInput,
+    reaches: Sequence[tuple[Array, float]],
+    addresses: Mapping[Place, str],
+    required: Callable[[PlanNeighbor], tuple[float, str]],
+) -> tuple[PlanNeighbor, ...]:
+    """Return the same for arrays, each with its reach [m].
 
     Parameters
     ----------
@@ -183,7 +218,7 @@ def plan_pairs(
         Returns the required separation of a pair [m], and its mark.
     """
     found = []
-    for each in _pairs(data, arrays, addresses):
+    for each in _pairs(data, reaches, addresses):
         required_m, mark = required(each)
         found.append(replace(each, required_m=required_m, mark=mark))
     return tuple(found)
@@ -298,14 +333,14 @@ def _covered(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[float, floa
 
 
 def _pairs(
-    data: ProjectInput, arrays: Sequence[ArrayAssessment], addresses: Mapping[Place, str]
+    data: ProjectInput, reaches: Sequence[tuple[Array, float]], addresses: Mapping[Place, str]
 ) -> Iterator[PlanNeighbor]:
     rows = _rows(data, addresses)
     kinds = {item.id: item.kind.value for item in data.objects}
-    for array, other, kind, far, reach_m in _candidates(data, arrays):
+    for array, other, kind, far, reach_m in _candidates(data, reaches):
         is_bare = kind is NearbyKind.BARE_EDGE
         table = "objects" if is_bare else "clearances"
-        near = array.array.shape
+        near = array.shape
         yield PlanNeighbor(
             array=array.id,
             other=other,
@@ -321,18 +356,18 @@ def _pairs(
 
 
 def _candidates(
-    data: ProjectInput, arrays: Sequence[ArrayAssessment]
-) -> Iterator[tuple[ArrayAssessment, str, NearbyKind, Shape, float]]:
+    data: ProjectInput, reaches: Sequence[tuple[Array, float]]
+) -> Iterator[tuple[Array, str, NearbyKind, Shape, float]]:
     """Yield each array with what may be near it: its name, kind, shape and reach [m]."""
     edges = bare_edges(data)
-    for a, b in combinations(arrays, 2):
-        yield a, b.id, NearbyKind.ARRAY, b.array.shape, max(_reach_m(a), _reach_m(b))
-    for a in arrays:
+    for (a, reach_m), (b, other_m) in combinations(reaches, 2):
+        yield a, b.id, NearbyKind.ARRAY, b.shape, max(reach_m, other_m)
+    for a, reach_m in reaches:
         for item in data.objects:
             if item.placed is not None:
-                yield a, item.id, NearbyKind.OBJECT, item.placed, _reach_m(a)
+                yield a, item.id, NearbyKind.OBJECT, item.placed, reach_m
         for edge in edges:
-            yield a, f"the {edge.name}", NearbyKind.BARE_EDGE, edge.line, _reach_m(a)
+            yield a, f"the {edge.name}", NearbyKind.BARE_EDGE, edge.line, reach_m
 
 
 def _reach_m(array: ArrayAssessment) -> float:
@@ -348,6 +383,6 @@ def _rows(
     for index, row in enumerate(data.clearances):
         cell = addresses.get(Place("clearances", index, "provided_m"), "Clearances")
         key = frozenset((row.array, row.object))
-        given = GivenGap(number=index + 1, clearance=row, cell=cell)
+        given = GivenGap(number=index + 1, clearance=row, basis=data.basis_of(row), cell=cell)
         rows[key] = (*rows.get(key, ()), given)
     return rows

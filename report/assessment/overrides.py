@@ -43,6 +43,19 @@ def override_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     return (*(_override(rules, *pair) for pair in overrides), *_departures(data, rules))
 
 
+def rule_set_of(data: ProjectInput) -> RuleSet:
+    """Return the rule set of a project with its overrides.
+
+    Raises
+    ------
+    InputError
+        For an override of a provision that the rule set does not have.
+    """
+    return RULE_SETS[data.site.rule_set].overridden(
+        {row.provision: (row.value, row.reason) for row in data.overrides}
+    )
+
+
 def as_adopted(data: ProjectInput) -> ProjectInput:
     """Return an input without its overrides and departures; the input itself if it has none."""
     given = data.options

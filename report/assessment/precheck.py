@@ -12,6 +12,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
 from report.assessment.conditions import motion_rows, project_rows, rows_before_runs
+from report.assessment.neighbors import REACH_FACTOR, NearbyKind
+from report.assessment.overrides import rule_set_of
+from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
 from report.assessment.verdict import Requirement, Verdict
 from report.motions.plausible import record_findings
 from report.motions.prepare import Shaking
@@ -22,7 +25,7 @@ from report.sheet.reading.read import Sheet
 from report.sheet.reading.unseen import warnings
 from report.sheet.schema import Array, ProjectInput
 from report.sheet.schema.fields import Finding, Place
-from report.words.counts import lowered
+from report.words.counts import lowered, numbered
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
@@ -40,6 +43,10 @@ _FIELDS: Mapping[str, str] = {
 """The cell that a limit compares, by the key of the limit."""
 
 
+MOST_NAMED = 50
+"""Pairs without a clearance that are named; the nearest."""
+
+
 def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     """Return what an engineer is asked about, with the reasons that the workbook gives."""
     data = sheet.project
@@ -52,19 +59,6 @@ def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
             *implausible(data),
             *record_findings(data, shaking),
         ],
-    )
-
-
-def rule_set_of(data: ProjectInput) -> RuleSet:
-    """Return the rule set of a project with its overrides.
-
-    Raises
-    ------
-    InputError
-        For an override of a provision that the rule set does not have.
-    """
-    return provisions.RULE_SETS[data.site.rule_set].overridden(
-        {row.provision: (row.value, row.reason) for row in data.overrides}
     )
 
 
@@ -136,6 +130,29 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     yield from _requirements(motion_rows(acceptance, (limits.route for limits in routes)))
     for index, array in enumerate(data.arrays):
         yield from _of_array(data, rules, index, array)
+
+
+def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
+    """Yield the pairs of the plan without a clearance, before any run, each with its distance."""
+    data = sheet.project
+    rules, us_first = rule_set_of(data), data.project.units_first.is_us
+    near = [each for each in pairs_before_runs(data, rules, sheet.addresses) if each.is_near]
+    missing = sorted((each for each in near if not each.given), key=lambda each: each.gap_m)
+    if not missing:
+        return
+    named = ", ".join(
+        f"{each.names} {pair(each.gap_m, Quantity.SIZE, us_first)}" for each in missing[:MOST_NAMED]
+    )
+    more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
+    reach = pair(REACH_FACTOR * design_before_runs_m(data, rules), Quantity.SIZE, us_first)
+    is_bare = any(each.kind is NearbyKind.BARE_EDGE for each in missing)
+    text = (
+        f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}{more}."
+        f" Reach before any run: twice the prescriptive displacement, {reach}, or what it requires."
+        f" {'Add the roof edges as objects, then run' if is_bare else 'Run'} roofslip plan"
+        " clearances, or add the rows"
+    )
+    yield limit(Place("clearances"), text)
 
 
 def _limit(check: Limit, section: str, row: int, us_first: bool) -> Iterator[Finding]:

@@ -36,8 +36,9 @@ from report.assessment.friction_velocity import (
 )
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import PlanNeighbor, plan_pairs
+from report.assessment.overrides import rule_set_of
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
-from report.assessment.precheck import building_limits, rule_set_of
+from report.assessment.precheck import building_limits
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst

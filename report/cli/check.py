@@ -77,7 +77,7 @@ def checked(
     ------
     InputError
     """
-    from report.assessment.precheck import findings, limits_before_runs
+    from report.assessment.precheck import findings, limits_before_runs, missing_clearances
     from report.motions.prepare import prepare
     from report.sheet.checking.findings import in_order
     from report.sheet.reading.read import read
@@ -101,6 +101,7 @@ def checked(
                 *what_is_new(sheet.book),
                 *typed_over,
                 *limits_before_runs(sheet.project, shaking),
+                *missing_clearances(sheet),
                 *findings(sheet, shaking),
                 *_in_future(sheet, dt.date.today()),
             ]

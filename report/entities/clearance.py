@@ -30,7 +30,7 @@ from report.entities.shown import (
     unwritten,
     words,
 )
-from report.sheet.schema import Direction
+from report.sheet.schema import Direction, DistanceBasis
 from report.words.units import Quantity, compared, no_less, ratio, rounded_apart
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
@@ -85,6 +85,10 @@ class ClearanceResult(Entity):
         Column("[in]", 1, is_input=True),
         Told(),
     ]
+    basis: Annotated[DistanceBasis, words("Distance", 1.5), Column("Distance from")] = (
+        DistanceBasis.ENTERED
+    )
+    """Basis of the separation entered."""
     demand_capacity: Annotated[
         Number,
         Shown(head="D/C", text=ratio, share=0.75),

@@ -32,7 +32,7 @@ class GapRow(SheetRow, ClearanceResult):
     sheet: ClassVar[str] = "Clearances"
     across: ClassVar[str] = (
         "array object direction neighbor governing design_m factor minimum_m required_m provided_m"
-        " demand_capacity verdict by_roofslip_m difference rule_factor importance"
+        " basis demand_capacity verdict by_roofslip_m difference rule_factor importance"
     )
 
     governing: Annotated[str, Column("Governing array, direction")]

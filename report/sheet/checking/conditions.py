@@ -84,6 +84,7 @@ _OR_NONE = "give all four sides of the rectangle, or none"
 _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet Outlines"
 _LAW = "give high-velocity friction and friction rate, or neither"
 _CODE = "give building code and year, or neither"
+_CONFIRMED = "give who confirmed the drawing distances and when, or neither"
 # A pasted column does not state them.
 _PASTED = _on_the_sheet(lambda refer: f'ISNUMBER(FIND("!",{refer("record")}))')
 
@@ -91,6 +92,8 @@ REQUIRED: Mapping[tuple[str, str], Required] = {
     ("site", "s_ds_g"): Required(_on_the_sheet(lambda _: 'live_s_ds=""')),
     ("site", "building_code"): Required(_filled("building_code_year"), _CODE),
     ("site", "building_code_year"): Required(_filled("building_code"), _CODE),
+    ("project", "drawing_confirmed_by"): Required(_filled("drawing_confirmed_date"), _CONFIRMED),
+    ("project", "drawing_confirmed_date"): Required(_filled("drawing_confirmed_by"), _CONFIRMED),
     **{("roof", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
     **{("arrays", side): Required(_NO_OUTLINE, _OR_OUTLINE) for side in SIDES},
     **{("objects", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},

@@ -101,7 +101,9 @@ def _dates(data: ProjectInput) -> Iterator[Finding]:
         text = f"revision is '{issue.revision}', which is not in the revision block; add its row"
         text += ", or correct it"
         yield warning(f"revision {issue.revision}", Place("project", 0, "revision"), text)
+    confirmed = issue.drawing_confirmed_date
     for section, field, noun, dated in (
+        ("project", "drawing_confirmed_date", "date of confirmed drawing distances", confirmed),
         ("site", "hazard_date", "date of hazard", data.site.hazard_date),
         ("friction_tests", "date", "date of the test report", data.friction_tests.date),
         ("options", "peer_date", "date of review", data.options.peer_date),

@@ -16,7 +16,9 @@ from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInp
 from report.sheet.schema.choices import (
     AccelUnit,
     Baseline,
+    ClearanceSource,
     Direction,
+    DistanceBasis,
     LayerKind,
     ModelChoice,
     ObjectKind,
@@ -65,7 +67,9 @@ __all__ = [
     "Baseline",
     "BuildingInput",
     "Clearance",
+    "ClearanceSource",
     "Direction",
+    "DistanceBasis",
     "FrictionTestRow",
     "FrictionTests",
     "LayerKind",
@@ -331,6 +335,13 @@ class ProjectInput(Frozen):
         if lost:
             raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
         return self
+
+    def basis_of(self, row: Clearance) -> DistanceBasis:
+        """Return the basis of the distance of a clearance."""
+        if row.source is ClearanceSource.DRAWING:
+            is_confirmed = self.project.drawing_confirmed_date is not None
+            return DistanceBasis.CONFIRMED if is_confirmed else DistanceBasis.DRAWN
+        return DistanceBasis.ENTERED if row.source is None else DistanceBasis.MEASURED
 
 
 SECTIONS = sections_of(ProjectInput)

@@ -155,6 +155,22 @@ class Direction(StrEnum):
     ANY = "any"
 
 
+class ClearanceSource(StrEnum):
+    """Where the distance of a clearance comes from, as the workbook states it."""
+
+    MEASURED = "measured"
+    DRAWING = "drawing"
+
+
+class DistanceBasis(StrEnum):
+    """Basis of the distance of a clearance, as the package prints it."""
+
+    ENTERED = "as entered"
+    MEASURED = "measured"
+    DRAWN = "drawing, not confirmed"
+    CONFIRMED = "drawing, confirmed"
+
+
 class AccelUnit(StrEnum):
     """Unit of a motion record: that of the file, or any of `solver.records.units`."""
 

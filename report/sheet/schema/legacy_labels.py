@@ -45,6 +45,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("friction_tests", "report_file"),
         ("options", "peer_letter"),
         ("options", "plan_paper"),
+        ("project", "drawing_confirmed_by drawing_confirmed_date"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook

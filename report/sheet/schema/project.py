@@ -58,6 +58,12 @@ class Project(Frozen):
     """Revision of this issue, printed on every page."""
     units_first: Annotated[UnitsFirst, Cell("Primary units", "US")] = UnitsFirst.US
     """Both systems are printed; this one comes first."""
+    drawing_confirmed_by: Annotated[Text, Cell("Drawing distances confirmed by", "RG")] = ""
+    """Name, if every clearance whose distance is from the drawing is confirmed; with the date."""
+    drawing_confirmed_date: Annotated[
+        dt.date | None, Cell("Drawing distances confirmed on", dt.date(2026, 3, 5))
+    ] = None
+    """When they were confirmed; with the name."""
 
 
 class Revision(Frozen):

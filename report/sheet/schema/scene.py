@@ -11,6 +11,7 @@ from typing import Annotated, Self
 from pydantic import Field, PrivateAttr
 
 from report.sheet.schema.choices import (
+    ClearanceSource,
     Direction,
     Id,
     LayerKind,
@@ -290,3 +291,6 @@ class Clearance(Frozen):
     ] = None
     """Width that the fire code requires of a pathway along this clearance: the package checks that
     it is left after the design displacement. Blank: no pathway."""
+    source: Annotated[ClearanceSource | None, Cell("Distance from", "measured")] = None
+    """Blank: as entered. Drawing: taken from the plan, a condition of the package until it is
+    confirmed, here by measured, or for all by name and date on the sheet Project."""

@@ -1,0 +1,245 @@
+"""The rows that a workbook lacks are those that a package would name, at the distance in plan."""
+
+import shutil
+
+import pytest
+from click.testing import CliRunner
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from openpyxl import load_workbook
+
+import inputs
+import stand_in
+from cells import cell
+from inputs import FT, INCH, clearance, roof_object, sides
+from places import ROOT
+from report.assessment.clearances import separation_m
+from report.assessment.plan_clearances import direction_of, missing_rows, pairs_before_runs
+from report.assessment.project import assess
+from report.cli.main import main
+from report.motions.prepare import prepare
+from report.sheet.reading.read import read
+from report.sheet.schema import ClearanceSource, Direction, ObjectKind, UnitsFirst
+from sheets import SECTIONS, at, edit, make, parts, problems, put, type_into
+from solver.rules.provisions import RULE_SETS
+
+HEADING = "Clearances/heading/Distance from"
+PLACED = [row for row in SECTIONS["objects"] if row["id"] != "OLD"]
+BARE = {"clearances": [], "objects": PLACED}
+
+
+def run(*words, exit_code=0):
+    done = CliRunner().invoke(main, [*map(str, words)])
+    assert done.exit_code == exit_code, done.output
+    return done.output
+
+
+def fill(folder):
+    return run("plan", "clearances", folder)
+
+
+def without_rows(name, folder):
+    """A copy of a shipped project with nothing on the sheet Clearances."""
+    shutil.copytree(ROOT / "projects" / name, folder)
+    sheet = read(folder)
+    typed = {a: None for p, a in sheet.addresses.items() if p.section == "clearances" and p.field}
+    assert typed
+    type_into(sheet.path, typed)
+    return folder
+
+
+@pytest.mark.parametrize("name", ["example", "school", "campus"])
+@pytest.mark.by_day(1)
+def test_a_shipped_project_without_rows_has_none_missing_after_the_command(tmp_path, name):
+    folder = without_rows(name, tmp_path / name)
+    was = {
+        frozenset((row.array, row.object))
+        for row in read(ROOT / "projects" / name).project.clearances
+    }
+    before = any(
+        "pairs within reach have no row" in line for line in run("check", folder).split("\n")
+    )
+    fill(folder)
+    sheet = read(folder)
+    rows = sheet.project.clearances
+    assert before is bool(rows)
+    assert {frozenset((row.array, row.object)) for row in rows} <= was
+    assert {row.source for row in rows} <= {ClearanceSource.DRAWING}
+    done = assess(sheet, prepare(sheet))
+    assert not [near for near in done.pairs if near.is_missing]
+
+
+def test_the_example_gets_the_rows_that_an_engineer_gave_it(tmp_path):
+    fill(without_rows("example", tmp_path / "example"))
+    found, given = (
+        read(path).project.clearances for path in (tmp_path / "example", ROOT / "projects/example")
+    )
+    assert [row.model_copy(update={"source": None, "pathway_m": None}) for row in found] == [
+        row.model_copy(update={"pathway_m": None}) for row in given
+    ]
+
+
+_SIDE = st.integers(1, 60)
+_PLACE = st.tuples(st.integers(0, 300), st.integers(0, 200), _SIDE, _SIDE)
+
+
+@settings(max_examples=25)
+@given(
+    places=st.lists(_PLACE, min_size=3, max_size=7),
+    rule_set=st.sampled_from(sorted(RULE_SETS)),
+    s_ds_g=st.sampled_from([0.3, 1.0, 1.6]),
+    kinds=st.lists(st.sampled_from(list(ObjectKind)), min_size=7, max_size=7),
+)
+def test_before_runs_a_random_plan_has_every_pair_that_its_package_lists(
+    places, rule_set, s_ds_g, kinds
+):
+    boxes = [sides(x, x + wide, y, y + tall) for x, y, wide, tall in places]
+    arrays = [inputs.array(f"A{n}", 0.5) | box for n, box in enumerate(boxes[:2])]
+    objects = [
+        roof_object(f"O{n}", kind, height=0.5) | box
+        for n, (box, kind) in enumerate(zip(boxes[2:], kinds, strict=False))
+    ]
+    data = stand_in.project(
+        arrays=arrays,
+        objects=objects,
+        clearances=[],
+        site=stand_in.site(rule_set=rule_set, s_ds_g=s_ds_g),
+    )
+    done = stand_in.assess_input(data, MOTIONS)
+    before = {near.names: near for near in pairs_before_runs(data, done.rules, {})}
+    assert all(
+        array.permitted_m <= near.reach_m / 2 + 1e-9
+        for near in before.values()
+        for array in done.arrays
+        if array.is_permitted
+    )
+    named = {near.names for near in done.pairs if near.is_missing}
+    assert named <= {name for name, near in before.items() if near.is_missing}
+
+
+MOTIONS = stand_in.motions(3, seconds=6.0, peak_g=0.3)
+
+
+def test_rows_that_stand_are_kept_and_said_where_they_differ_or_are_stale(tmp_path):
+    rows = [clearance("A1", "A2", 120 * INCH, "across"), clearance("A2", "RTU-1", 50 * INCH)]
+    path = make(tmp_path, objects=PLACED, clearances=rows)
+    type_into(path, {"Clearances/2/Object": "GONE", "Clearances/1/Provided clearance": 130})
+    output = fill(tmp_path)
+    assert at("<Clearances/2/Object>: 'GONE' is no longer in Arrays or Objects") in output
+    wanted = "<Clearances/1/Provided clearance>: A1 to A2: 130.0 in (3302 mm) entered, 120.0 in"
+    assert at(wanted) in output
+    assert "A2 to RTU-1, up, 60.0 in (1524 mm)" in output
+    assert "2 kept" in output
+    draft = read(path).draft["clearances"]
+    assert [row["object"] for row in draft[:2]] == ["A2", "GONE"]
+    assert draft[0]["provided_m"] == pytest.approx(130 * INCH)
+    assert "source" not in draft[0] or draft[0]["source"] is None
+    again = path.read_bytes()
+    assert "0 clearances added" in fill(tmp_path)
+    assert path.read_bytes() == again
+
+
+def test_only_the_sheet_clearances_changes(tmp_path):
+    path = make(tmp_path, **BARE)
+    before = parts(path)
+    fill(tmp_path)
+    after = parts(path)
+    assert before.keys() == after.keys()
+    assert len({name for name in before if before[name] != after[name]}) <= 3
+
+
+@pytest.mark.parametrize("units", UnitsFirst)
+@pytest.mark.parametrize("gap_in", [60.0, 60.04999, 59.999999, 0.03])
+def test_a_distance_is_rounded_down_in_the_unit_of_its_column(tmp_path, units, gap_in):
+    near = roof_object("R", "fixed object") | sides(0, 10, 20, 30)
+    near |= {"x_to_m": 20 * FT - gap_in * INCH}  # A1 begins at 20 ft
+    path = make(tmp_path, units, clearances=[], objects=[near],
+                project=inputs.HEAD | {"units_first": units})  # fmt: skip
+    fill(tmp_path)
+    (row,) = (row for row in read(path).project.clearances if row.object == "R")
+    step_m = 0.1 * INCH if units.is_us else 0.001
+    assert gap_in * INCH - step_m < row.provided_m <= gap_in * INCH + 1e-9
+    assert row.provided_m / step_m == pytest.approx(round(row.provided_m / step_m), abs=1e-6)
+
+
+def test_a_column_in_feet_gets_no_more_than_the_plan_has(tmp_path):
+    path = edit(make(tmp_path, **BARE), lambda book: put(
+        book, {"Clearances/heading/Provided clearance": "Provided clearance [ft]"}))  # fmt: skip
+    type_into(path, {"Arrays/A2/x from": 110.013})  # 120.156 in from A1
+    fill(tmp_path)
+    sheet = read(path)
+    gaps = {near.names: near.gap_m for near in pairs_of(sheet)}
+    assert len(sheet.project.clearances) == 2
+    for row in sheet.project.clearances:
+        gap_m = gaps[f"{row.array} to {row.object}"]
+        assert gap_m - 0.1 * INCH < row.provided_m <= gap_m + 1e-9
+
+
+def pairs_of(sheet):
+    return pairs_before_runs(sheet.project, RULE_SETS[sheet.project.site.rule_set], sheet.addresses)
+
+
+@pytest.mark.parametrize(
+    ("downslope_deg", "place", "direction"),
+    [
+        (270.0, sides(30, 40, 0, 10), Direction.DOWN),
+        (90.0, sides(30, 40, 0, 10), Direction.UP),
+        (0.0, sides(30, 40, 0, 10), Direction.ACROSS),
+        (270.0, sides(110, 120, 80, 90), Direction.ANY),  # at a corner
+        (300.0, sides(30, 40, 0, 10), Direction.ANY),
+        (270.0, sides(20, 100, 0, 15), Direction.ANY),  # no distance
+    ],
+)
+def test_a_direction_is_that_of_the_whole_distance_or_any(downslope_deg, place, direction):
+    data = stand_in.project(
+        arrays=[inputs.array("A1", 0.5)],
+        objects=[roof_object("R", "fixed object") | place],
+        clearances=[],
+    )
+    (near,) = pairs_before_runs(data, RULE_SETS[data.site.rule_set], {})
+    assert direction_of(near, downslope_deg) is direction
+
+
+def test_a_plan_needs_no_more_than_the_site_and_takes_what_is_not_known_on_the_safe_side(tmp_path):
+    path = make(tmp_path, **BARE)
+    unknown = ("Arrays/A1/Construction", "Arrays/A1/CG height", "Arrays/A1/Downslope direction")
+    type_into(path, dict.fromkeys((*unknown, "Motions/M1/Horizontal record", "Objects/N/Height")))
+    assert problems(path)
+    found = missing_rows(read(path))
+    assert {row.pair.names for row in found.rows} == {"A1 to A2", "A2 to RTU-1"}
+    assert {row.direction for row in found.rows if row.pair.array == "A1"} == {Direction.ANY}
+    beside = next(row.pair for row in found.rows if row.pair.names == "A1 to A2")
+    rules = RULE_SETS["SEAOC PV1-2012"]
+    data = stand_in.project(arrays=[inputs.array("A1", 0.5), inputs.array("A2", 0.5)])
+    alike_m = separation_m(data, rules, found.design_m, beside)
+    assert beside.required_m > alike_m
+    type_into(path, {"Site/S_DS": None})
+    assert "S_DS" in run("plan", "clearances", tmp_path, exit_code=2)
+
+
+def test_edges_overlaps_and_objects_without_a_place_are_said_and_not_written(tmp_path):
+    inside = roof_object("IN", "edge without parapet", 30, 40, 20, 30)
+    roof = sides(15, 300, 0, 120)
+    path = make(
+        tmp_path, clearances=[], objects=[inside, roof_object("OLD", "unlike array")], roof=roof
+    )
+    output = fill(tmp_path)
+    assert "not added: A1 to the west edge of the roof, 60.0 in (1524 mm); add the edge" in output
+    assert "not added: A1 to IN, which overlap in plan; correct their places" in output
+    assert "not added: clearances to OLD, which has no place in plan" in output
+    assert "IN" not in {row.object for row in read(path).project.clearances}
+
+
+def test_a_workbook_without_the_column_is_told_where_to_type_it(tmp_path):
+    path = make(tmp_path, **BARE)
+    edit(path, lambda book: put(book, {HEADING: None}))
+    where = at(HEADING)
+    before = path.read_bytes()
+    assert not any(row.source for row in read(path).project.clearances)
+    output = run("plan", "clearances", tmp_path, exit_code=2)
+    assert f"{where}: heading 'Distance from' is missing" in output
+    assert path.read_bytes() == before
+    type_into(path, {where: "Distance from"})
+    fill(tmp_path)
+    assert {row.source for row in read(path).project.clearances} == {ClearanceSource.DRAWING}
+    assert cell(load_workbook(path), HEADING).value == "Distance from"
