@@ -267,13 +267,13 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
             id="drawing_distances",
             title="Clear distances from the drawing",
             subject=array.id,
-            found=f"No. {ranged(str(index + 1) for index in drawn)}: {state}",
+            found=f"No. {ranged(str(index + 1) for index in drawn)} {state}",
             limit="measured, or confirmed by name and date",
             basis="roof plan",
             is_satisfied=is_confirmed,
             consequence=Consequence.CONDITION,
-            remedy="Measure them, or confirm the plan: state measured on the sheet Clearances, or "
-            "name and date on the sheet Project.",
+            remedy="State measured on the sheet Clearances, or on the sheet Project who confirmed "
+            "them and when.",
             place=Place("clearances", drawn[0], "source"),
         )
 

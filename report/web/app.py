@@ -26,6 +26,7 @@ from report.web.access import Access, Gate
 from report.web.desk import Desk, RefusedError, desk_of, session_of
 from report.web.downloads import package_routes, workbook
 from report.web.limits import FULL, is_full
+from report.web.packages import copied
 from report.web.receiving import receive_json, received
 from report.web.sessions import EXAMPLE, OtherProjectError, Sessions
 from report.web.uploads import is_alone, remove
@@ -77,6 +78,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             Route("/api/state", _state),
             Route("/api/example", _example, methods=["POST"]),
             Route("/api/upload", _upload, methods=["POST"]),
+            Route("/api/clearances", _clearances, methods=["POST"]),
             *(Route(f"/api/{name}", _job, methods=["POST"]) for name in _JOBS),
             Route("/api/workbook", workbook, methods=["POST"]),
             *package_routes(),
@@ -125,10 +127,30 @@ async def _example(request: Request) -> Response:
 
 
 async def _upload(request: Request) -> Response:
-    """Open what was sent, unless it has errors or something else was opened meanwhile."""
+    """Open what was sent."""
+    folder = session_of(request).new_folder()
+    return await _open_new(request, folder, await received(request, folder))
+
+
+async def _clearances(request: Request) -> Response:
+    """Open a copy of what is open, with a clearance for each pair of the plan that lacks one."""
+    await receive_json(request)
     session = session_of(request)
-    folder = session.new_folder()
-    workbook = await received(request, folder)
+    folder, given = session.new_folder(), session.workbook
+    workbook = folder / "project" / given.name
+    try:
+        await run_in_threadpool(copied, given, workbook.parent)
+        job = {"do": "add_clearances", "workbook": str(given), "to": str(workbook)}
+        await desk_of(request).ask(session, job, Rank.AT_REST)
+    except BaseException:
+        await run_in_threadpool(remove, folder)
+        raise
+    return await _open_new(request, folder, workbook)
+
+
+async def _open_new(request: Request, folder: Path, workbook: Path) -> Response:
+    """Open a workbook of a new folder, unless it has errors or another was opened meanwhile."""
+    session = session_of(request)
     try:
         found = await _whole_state(request, workbook)
         if not session.is_newest(folder):

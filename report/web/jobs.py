@@ -12,9 +12,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from report.assessment.neighbors import NearbyKind
+from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment, anticipate, assess
+from report.sheet.reading.archive import open_book
 from report.sheet.reading.parts import changed
 from report.sheet.reading.what_if import cells
+from report.sheet.writing.filled import fill_cells
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import check, controls, shown
@@ -68,6 +72,10 @@ def state(workbook: Path, job: Json) -> Json:
         "project": {
             "name": given.sheet.project.project.name,
             "sha256": given.sheet.sha256,
+            "lacks_clearances": any(
+                near.is_missing and near.kind is not NearbyKind.BARE_EDGE
+                for near in _as_typed(workbook).pairs
+            ),
         },
         "problems": [],
         "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
@@ -102,6 +110,16 @@ def write(workbook: Path, job: Json) -> Json:
     return {}
 
 
+def add_clearances(workbook: Path, job: Json) -> Json:
+    """Write the workbook with the clearances that it lacks to another path."""
+    designs_m = {array.id: array.permitted_m for array in _as_typed(workbook).arrays}
+    found = missing_rows(_open(workbook).sheet, designs_m)
+    path = Path(job["to"])
+    path.write_bytes(workbook.read_bytes())
+    fill_cells(open_book(path), found.cells)
+    return {}
+
+
 def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Json]:
     return lambda workbook, job: draw(_at_rest(workbook, job["values"]), job)
 
@@ -110,6 +128,7 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "state": state,
     "assess": answer_at,
     "write": write,
+    "add_clearances": add_clearances,
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
     "contour": _view(lambda a, job: views.contour(a, job["array"])),
     "paths": _view(lambda a, job: views.paths(a, job["array"])),

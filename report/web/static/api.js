@@ -75,6 +75,7 @@ export function createApi(announce, room) {
     state: () => open("/api/state"),
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
+    addClearances: () => open("/api/clearances", about({})),
     assess: (moving, values) => computed("assess", { moving, values, room: room() }),
     computed,
     startPackage: (values) => asked("/api/package", about({ values })),

@@ -50,6 +50,7 @@ mountTabs(part("tabs"), (panel) => views.open(panel));
 mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, (files) => opening(() => api.upload(files)));
 part("back").addEventListener("click", showDesk);
 part("example").addEventListener("click", () => opening(api.example));
+part("add-clearances").addEventListener("click", () => opening(api.addClearances, true));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
 addEventListener("hashchange", () => state?.project && restore());
 opening(api.state, true);
@@ -95,10 +96,11 @@ function showErrors({ problems, is_alone: isAlone }) {
 }
 
 function showDesk() {
-  const { name, file, sha256, is_example: isExample } = state.project;
+  const { name, file, sha256, is_example: isExample, lacks_clearances: lacksClearances } = state.project;
   part("problems").hidden = true;
   part("desk").hidden = false;
   part("welcome").hidden = !isExample;
+  part("add-clearances").hidden = !lacksClearances;
   named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
 }
 

@@ -15,12 +15,13 @@ from starlette.testclient import TestClient
 
 from places import ROOT
 from report.sheet.reading.read import read
+from report.sheet.schema import ClearanceSource
 from report.web import receiving
 from report.web.access import Gate
 from report.web.app import made
 from report.web.sessions import Sessions
 from report.web.worker import answered
-from sheets import at, type_into
+from sheets import SECTIONS, at, make, type_into
 
 TOKEN = "a-token-of-this-server"
 EXAMPLE = ROOT / "projects" / "example"
@@ -371,3 +372,23 @@ def test_a_process_that_is_killed_is_replaced(client, served):
             break
         time.sleep(0.1)
     assert workers.pids != [before]
+
+
+def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(client, tmp_path):
+    assert not state_of(client)["project"]["lacks_clearances"]
+    folder = tmp_path / "roof"
+    make(folder, clearances=[], objects=SECTIONS["objects"][:1])
+    before = sent(client, folder_of(folder)).json()
+    assert before["project"]["lacks_clearances"]
+    after = client.post("/api/clearances", json={"opened": before["opened"]}).json()
+    assert not after["project"]["lacks_clearances"]
+    assert after["opened"] != before["opened"]
+    assert state_of(client)["project"] == after["project"]
+    content = client.post("/api/workbook", json={"values": {}}).content
+    (tmp_path / "saved.xlsx").write_bytes(content)
+    rows = read(tmp_path / "saved.xlsx").project.clearances
+    assert {(row.array, row.object, row.source) for row in rows} == {
+        ("A1", "A2", ClearanceSource.DRAWING), ("A2", "RTU-1", ClearanceSource.DRAWING),
+    }  # fmt: skip
+    stale = client.post("/api/clearances", json={"opened": before["opened"]})
+    assert stale.status_code == 412
