@@ -33,6 +33,7 @@ from solver.rules.provisions import RuleSet
 US_STEP_M, SI_STEP_M = 0.1 * INCH_M, 0.001
 """Distances are rounded down to a multiple of this [m]."""
 
+_PER_UNIT = 10.0**DIGITS  # smallest parts of a cell
 _NOISE_M = 1e-9  # coordinates in feet are no round numbers of meters
 _TURNS = (
     (Direction.DOWN, 0.0),
@@ -175,7 +176,7 @@ def _as_far_as_known(sheet: Sheet) -> ProjectInput:
     draft = sheet.draft
 
     def rows(key: str, **unknown: Any) -> tuple[Any, ...]:
-        return tuple(SECTION[key].model.model_construct(**unknown | row) for row in draft[key])
+        return tuple(SECTION[key].model.model_construct(**{**unknown, **row}) for row in draft[key])
 
     arrays = rows("arrays")
     whole = len(entries(SECTION["arrays"].model))
@@ -230,7 +231,7 @@ def _rounded_down(gap_m: float, step_m: float, column: FieldColumn) -> float:
     """Return a distance in the unit of its column."""
     steps = math.floor((max(gap_m, 0.0) + _NOISE_M) / step_m)
     # Down once more: 0.1 in is no round number of feet.
-    return math.floor(steps * step_m / column.si * 10**DIGITS + 0.001) / 10**DIGITS
+    return math.floor(steps * step_m / column.si * _PER_UNIT + 0.001) / _PER_UNIT
 
 
 def _no_column(sheet: Sheet, table: GrowingTable) -> str:

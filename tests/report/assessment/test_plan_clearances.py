@@ -1,5 +1,6 @@
 """The rows that a workbook lacks are those that a package would name, at the distance in plan."""
 
+import datetime as dt
 import shutil
 
 import pytest
@@ -15,6 +16,7 @@ from inputs import FT, INCH, clearance, roof_object, sides
 from places import ROOT
 from report.assessment.clearances import separation_m
 from report.assessment.plan_clearances import direction_of, missing_rows, pairs_before_runs
+from report.assessment.precheck import missing_clearances
 from report.assessment.project import assess
 from report.cli.main import main
 from report.motions.prepare import prepare
@@ -243,3 +245,28 @@ def test_a_workbook_without_the_column_is_told_where_to_type_it(tmp_path):
     fill(tmp_path)
     assert {row.source for row in read(path).project.clearances} == {ClearanceSource.DRAWING}
     assert cell(load_workbook(path), HEADING).value == "Distance from"
+
+
+@pytest.mark.parametrize(("given", "lacks"), [("by", "on"), ("on", "by")])
+def test_a_name_or_a_date_alone_confirms_nothing(tmp_path, given, lacks):
+    label = "Project/Drawing distances confirmed "
+    value = {"by": "MT", "on": dt.date(2026, 3, 5)}[given]
+    path = edit(make(tmp_path), lambda book: put(book, {label + given: value}))
+    (problem,) = problems(path)
+    assert problem == at(
+        f"<{label + lacks}>: drawing distances confirmed {lacks} is missing; give who confirmed the"
+        " drawing distances and when, or neither"
+    )
+
+
+def test_check_names_the_pairs_without_a_row_before_any_run(tmp_path):
+    path = make(tmp_path, **BARE)
+    sheet = read(path)
+    (found,) = missing_clearances(sheet)
+    assert found.text.startswith(
+        "2 of 2 pairs within reach have no row: A2 to RTU-1 60.0 in (1524 mm), A1 to A2 120.0 in"
+        " (3048 mm). Reach before any run: twice the prescriptive displacement, 163.1 in (4144 mm)"
+    )
+    assert found.text.endswith("Run roofslip plan clearances, or add the rows")
+    fill(tmp_path)
+    assert not list(missing_clearances(read(path)))

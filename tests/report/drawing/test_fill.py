@@ -10,7 +10,7 @@ from cells import cell
 from inputs import FT, NO_SIDES
 from report.cli.main import main
 from report.sheet.reading.read import read
-from report.sheet.schema import Polygon, UnitsFirst
+from report.sheet.schema import ClearanceSource, Polygon, UnitsFirst
 from report.sheet.writing.live import overwritten
 from sheets import at, blank, edit, make, parts, project, put, same, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
@@ -42,7 +42,9 @@ def new(tmp_path, units=UnitsFirst.US):
 @pytest.mark.by_day(1)
 def test_a_blank_workbook_is_filled(tmp_path, units):
     path = new(tmp_path, units)
-    assert "A1: array, 6 vertices" in run(drawing(tmp_path), path)
+    output = run(drawing(tmp_path), path)
+    assert "A1: array, 6 vertices" in output
+    assert "Clearances are not filled in yet: Site!" in output
     sheet = read(path)
     draft = sheet.draft
     assert [row["id"] for row in draft["arrays"]] == ["A1", "A2"]
@@ -70,6 +72,9 @@ def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
     path = make(tmp_path, clearances=[])
     run(drawing(tmp_path), tmp_path, "--replace")
     data, was = read(path).project, project(clearances=[])
+    drawn = {(row.array, row.object): row.source for row in data.clearances}
+    assert drawn
+    assert set(drawn.values()) == {ClearanceSource.DRAWING}
     assert isinstance(data.arrays[0].shape, Polygon)
     assert [item.id for item in data.objects] == [
         "RTU-1", "OLD", "N", "S", "EDGE-1", "EDGE-2", "EDGE-3"
@@ -79,7 +84,8 @@ def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
 
 def without_places(data):
     arrays = tuple(array.model_copy(update=NO_SIDES) for array in data.arrays)
-    return data.model_copy(update={"arrays": arrays, "objects": (), "outlines": (), "roof": None})
+    nothing = dict.fromkeys(("objects", "outlines", "clearances"), ())
+    return data.model_copy(update={"arrays": arrays, "roof": None} | nothing)
 
 
 def test_an_outline_is_replaced_by_the_one_that_is_drawn_now(tmp_path):

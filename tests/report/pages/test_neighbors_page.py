@@ -2,9 +2,12 @@
 
 import pytest
 
+import inputs
 import scenes
 import stand_in
 from printed import printed
+from report.assessment.neighbors import Cover
+from report.assessment.verdict import Verdict
 
 FOOT = stand_in.FOOT
 NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
@@ -71,3 +74,45 @@ def test_no_pair_is_said_to_have_what_is_required_where_that_is_not_known():
     made = printed(scenes.unpermitted(), "clearances")
     assert "or the prescriptive one where none is permitted. " in made.table(CAPTION).notes[0]
     assert made.line("The other seven pairs of the plan are farther apart; the nearest are A1 and")
+
+
+def drawn(**changes):
+    """A package with a distance from the drawing, and one that is measured."""
+    rows = [
+        stand_in.clearance("A1", "RTU-9", FOOT) | {"source": "drawing"},
+        stand_in.clearance("A2", "A1", 120 * FOOT) | {"source": "measured"},
+    ]
+    given = {"arrays": ARRAYS, "objects": [NEAR], "clearances": rows}
+    return scenes.package(**given | changes)
+
+
+def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_measured():
+    package = drawn()
+    (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
+    assert (row.subject, row.found, row.is_satisfied) == ("A1", "No. 1 not confirmed", False)
+    assert row.verdict is Verdict.CONDITIONS
+    made = printed(package, "clearances")
+    gaps = made.table("Clearances: required and provided").rows
+    assert [gap["Distance"] for gap in gaps] == ["drawing, not confirmed", "measured"]
+    assert made.table(CAPTION).rows[0]["Remark"] == "from plan; not confirmed"
+    line = printed(package, "notes").line("Gaps to be measured first")
+    assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
+
+
+def test_name_and_date_confirm_every_distance_from_the_drawing():
+    confirmed = {"drawing_confirmed_by": "MT", "drawing_confirmed_date": inputs.HEAD["date"]}
+    package = drawn(project=inputs.HEAD | confirmed)
+    (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
+    assert row.is_satisfied
+    assert row.found == "No. 1 confirmed by MT, 2026-03-05"
+    made = printed(package, "clearances")
+    gaps = made.table("Clearances: required and provided").rows
+    assert [gap["Distance"] for gap in gaps] == ["drawing, confirmed", "measured"]
+    assert made.table(CAPTION).rows[0]["Remark"] == "from plan; confirmed"
+    assert "Gaps to be measured first" not in printed(package, "notes")
+
+
+def test_a_distance_from_the_drawing_that_the_plan_no_longer_has_differs():
+    rows = [stand_in.clearance("A1", "RTU-9", 2 * FOOT) | {"source": "drawing"}]
+    (near,) = (near for near in drawn(clearances=rows).assessment.neighbors)
+    assert near.cover is Cover.DIFFERS
