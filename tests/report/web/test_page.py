@@ -17,7 +17,8 @@ from pypdf import PdfReader
 import cells
 from browsing import PHONE, TABLET, at_rest, moved, opened, processes_of, quiet_page, served
 from places import ROOT
-from sheets import type_into
+from report.sheet.reading.read import read
+from sheets import SECTIONS, make, type_into
 
 EXAMPLE = ROOT / "projects" / "example"
 CONDITIONS = ROOT / "projects" / "conditions"
@@ -446,3 +447,17 @@ def test_when_every_process_is_killed_the_page_goes_on(page, server):
     moved(page, "friction", 0.8)
     page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
     assert verdicts(page)[0] == "NG" != before[0]
+
+
+def test_clearances_that_the_plan_lacks_are_added_by_a_button(page, tmp_path):
+    assert not page.is_visible("#add-clearances")
+    make(tmp_path / "roof", clearances=[], objects=SECTIONS["objects"][:1])
+    page.set_input_files("#folder", tmp_path / "roof")
+    page.wait_for_selector("#add-clearances")
+    page.click("#add-clearances")
+    page.wait_for_selector("#add-clearances", state="hidden")
+    at_rest(page)
+    assert page.locator("#clearances tbody tr").count() == 2
+    name, bytes_ = saved(page, lambda: page.click("#save-workbook"))
+    (tmp_path / name).write_bytes(bytes_)
+    assert [row.object for row in read(tmp_path / name).project.clearances] == ["A2", "RTU-1"]
