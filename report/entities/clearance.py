@@ -85,9 +85,7 @@ class ClearanceResult(Entity):
         Column("[in]", 1, is_input=True),
         Told(),
     ]
-    basis: Annotated[DistanceBasis, words("Distance", 1.5), Column("Distance from")] = (
-        DistanceBasis.ENTERED
-    )
+    basis: Annotated[DistanceBasis, Column("Distance from")] = DistanceBasis.ENTERED
     """Basis of the separation entered."""
     demand_capacity: Annotated[
         Number,

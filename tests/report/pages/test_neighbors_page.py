@@ -92,8 +92,8 @@ def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_meas
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "No. 1 not confirmed", False)
     assert row.verdict is Verdict.CONDITIONS
     made = printed(package, "clearances")
-    gaps = made.table("Clearances: required and provided").rows
-    assert [gap["Distance"] for gap in gaps] == ["drawing, not confirmed", "measured"]
+    line = made.line("Distances provided")
+    assert line == "Distances provided: drawing, not confirmed No. 1; measured No. 2."
     assert made.table(CAPTION).rows[0]["Remark"] == "from plan; not confirmed"
     line = printed(package, "notes").line("Gaps to be measured first")
     assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
@@ -106,8 +106,8 @@ def test_name_and_date_confirm_every_distance_from_the_drawing():
     assert row.is_satisfied
     assert row.found == "No. 1 confirmed by MT, 2026-03-05"
     made = printed(package, "clearances")
-    gaps = made.table("Clearances: required and provided").rows
-    assert [gap["Distance"] for gap in gaps] == ["drawing, confirmed", "measured"]
+    line = made.line("Distances provided")
+    assert line == "Distances provided: drawing, confirmed No. 1; measured No. 2."
     assert made.table(CAPTION).rows[0]["Remark"] == "from plan; confirmed"
     assert "Gaps to be measured first" not in printed(package, "notes")
 
