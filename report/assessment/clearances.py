@@ -143,7 +143,10 @@ def check_clearance(
     sides = facing(data, arrays, row)
     governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].permitted_toward_m(a[1])))
     design_m = governing.permitted_toward_m(direction)
-    neighbor, importance = _across(data, rules, row.array, row.object)
+    # As entered: a trial with other friction on one side does not make them unlike.
+    entered = {item.id: item for item in (*data.objects, *data.arrays)}
+    near = next(array for array in data.arrays if array.id == row.array)
+    neighbor, importance = _across(data, rules, near, entered[row.object])
     found = ClearanceCheck(
         clearance=row,
         basis=data.basis_of(row),
@@ -164,19 +167,15 @@ def check_clearance(
     return _marked(found, data, arrays)
 
 
-def _across(data: ProjectInput, rules: RuleSet, near_id: str, other: str) -> tuple[Neighbor, float]:
+def _across(
+    data: ProjectInput, rules: RuleSet, near: Array, other: Array | RoofObject
+) -> tuple[Neighbor, float]:
     """Return what is across a gap, and the importance factor of the separation."""
-    # As entered: a trial with other friction on one side does not make them unlike.
-    entered = {array.id: array for array in data.arrays}
-    near = entered[near_id]
-    if other in entered:
-        is_like = are_alike(near, entered[other])
-        neighbor = Neighbor.LIKE if is_like else Neighbor.UNLIKE
-        i_p = max(near.i_p, entered[other].i_p)
+    if isinstance(other, Array):
+        neighbor = Neighbor.LIKE if are_alike(near, other) else Neighbor.UNLIKE
     else:
-        obstacle = next(item for item in data.objects if item.id == other)
-        neighbor = _neighbor(rules, obstacle, near)
-        i_p = max(near.i_p, obstacle.i_p)
+        neighbor = _neighbor(rules, other, near)
+    i_p = max(near.i_p, other.i_p)
     return neighbor, _importance(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
 
 
@@ -214,21 +213,27 @@ def minimum_gap(
         found = check_clearance(data, rules, arrays, row)
         return found.required_m, found.mark
     array, adopted = by_id(arrays, near.array), as_adopted(data)
-    required_m = separation_m(data, rules, array.permitted_m, near)
+    required_m = separation_m(data, rules, array.permitted_m, array.array, None)
     if adopted is data:
         return required_m, ""
     other, plain = array.adopted or array, provisions.RULE_SETS[data.site.rule_set]
-    other_m = separation_m(adopted, plain, other.permitted_m, near)
+    other_m = separation_m(adopted, plain, other.permitted_m, array.array, None)
     return required_m, mark_of(required_m, other_m) or array.opened_mark
 
 
-def separation_m(data: ProjectInput, rules: RuleSet, design_m: float, near: PlanNeighbor) -> float:
-    """Return the separation [m] that neighbors of the plan require at a design displacement."""
-    if near.kind is NearbyKind.BARE_EDGE:
+def separation_m(
+    data: ProjectInput,
+    rules: RuleSet,
+    design_m: float,
+    near: Array,
+    other: Array | RoofObject | None,
+) -> float:
+    """Return the separation [m] that a design displacement requires; None for a bare roof edge."""
+    if other is None:
         neighbor = Neighbor.EDGE
         importance = _importance(rules, neighbor, i_e=data.site.i_e, i_p=math.nan)
     else:
-        neighbor, importance = _across(data, rules, near.array, near.other)
+        neighbor, importance = _across(data, rules, near, other)
     return provisions.required_separation(rules, neighbor, design_m=design_m, importance=importance)
 
 

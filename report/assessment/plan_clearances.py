@@ -24,7 +24,15 @@ from report.sheet.reading.locate_tables import FieldColumn
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.reading.read import Sheet
-from report.sheet.schema import SECTION, SIDES, ClearanceSource, Direction, ProjectInput
+from report.sheet.schema import (
+    SECTION,
+    SIDES,
+    Array,
+    ClearanceSource,
+    Direction,
+    ProjectInput,
+    RoofObject,
+)
 from report.sheet.schema.fields import Place, entries
 from solver.model import INCH_M, InputError
 from solver.rules import provisions
@@ -69,10 +77,14 @@ def pairs_before_runs(
     least_m, known = design_before_runs_m(data, rules), designs_m or {}
     # NaN is no larger one.
     slides = {array.id: max(least_m, known.get(array.id, 0.0)) for array in data.arrays}
+    arrays = {array.id: array for array in data.arrays}
+    others: dict[str, Array | RoofObject] = {item.id: item for item in data.objects}
+    others |= arrays
 
     def required(near: PlanNeighbor) -> tuple[float, str]:
         design_m = max(slides[near.array], slides.get(near.other, 0.0))
-        return separation_m(data, rules, design_m, near), ""
+        other = None if near.kind is NearbyKind.BARE_EDGE else others[near.other]
+        return separation_m(data, rules, design_m, arrays[near.array], other), ""
 
     reaches = [(array, REACH_FACTOR * slides[array.id]) for array in data.arrays]
     return pairs_within(data, reaches, addresses, required)
@@ -143,7 +155,7 @@ def missing_rows(sheet: Sheet, designs_m: Mapping[str, float] | None = None) -> 
         ),
         stale=tuple(_stale(sheet, data)),
         bare_edges=tuple(pair for pair in missing if pair.kind is NearbyKind.BARE_EDGE),
-        overlapping=tuple(pair for pair in new if pair not in apart),
+        overlapping=tuple(pair for pair in new if pair.gap_m < -_NOISE_M),
         unplaced=tuple(_unplaced(data)),
     )
 

@@ -213,7 +213,7 @@ def test_a_plan_needs_no_more_than_the_site_and_takes_what_is_not_known_on_the_s
     beside = next(row.pair for row in found.rows if row.pair.names == "A1 to A2")
     rules = RULE_SETS["SEAOC PV1-2012"]
     data = stand_in.project(arrays=[inputs.array("A1", 0.5), inputs.array("A2", 0.5)])
-    alike_m = separation_m(data, rules, found.design_m, beside)
+    alike_m = separation_m(data, rules, found.design_m, *data.arrays)
     assert beside.required_m > alike_m
     type_into(path, {"Site/S_DS": None})
     assert "S_DS" in run("plan", "clearances", tmp_path, exit_code=2)
