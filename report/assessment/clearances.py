@@ -144,9 +144,9 @@ def check_clearance(
     governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].permitted_toward_m(a[1])))
     design_m = governing.permitted_toward_m(direction)
     # As entered: a trial with other friction on one side does not make them unlike.
-    entered = {item.id: item for item in (*data.objects, *data.arrays)}
-    near = next(array for array in data.arrays if array.id == row.array)
-    neighbor, importance = _across(data, rules, near, entered[row.object])
+    entered = {array.id: array for array in data.arrays}
+    other = entered.get(row.object) or next(o for o in data.objects if o.id == row.object)
+    neighbor, importance = _across(data, rules, entered[row.array], other)
     found = ClearanceCheck(
         clearance=row,
         basis=data.basis_of(row),

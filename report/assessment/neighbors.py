@@ -192,28 +192,18 @@ def _both(value_m: float, us_first: bool) -> str:
 
 def plan_pairs(
     data: ProjectInput,
-    arrays: Sequence[ArrayAssessment],
+    reaches: Sequence[tuple[Array, float]],
     addresses: Mapping[Place, str],
     required: Callable[[PlanNeighbor], tuple[float, str]],
 ) -> tuple[PlanNeighbor, ...]:
     """Return each pair of arrays, array and object, array and bare roof edge of the plan.
 
-    An object without a place in plan is in none of them. An array without a permitted displacement
-    reaches twice the prescriptive one.
-    """
-    return pairs_within(data, [(a.array, _reach_m(a)) for a in arrays], addresses, required)
-
-
-def pairs_within(
-    data: ProjectInput,
-    reaches: Sequence[tuple[Array, float]],
-    addresses: Mapping[Place, str],
-    required: Callable[[PlanNeighbor], tuple[float, str]],
-) -> tuple[PlanNeighbor, ...]:
-    """Return the same for arrays, each with its reach [m].
+    An object without a place in plan is in none of them.
 
     Parameters
     ----------
+    reaches : sequence of (Array, float)
+        Each array with its reach [m].
     required : callable
         Returns the required separation of a pair [m], and its mark.
     """
@@ -370,9 +360,16 @@ def _candidates(
             yield a, f"the {edge.name}", NearbyKind.BARE_EDGE, edge.line, reach_m
 
 
-def _reach_m(array: ArrayAssessment) -> float:
-    design_m = array.permitted_m
-    return REACH_FACTOR * (array.prescriptive.value_m if math.isnan(design_m) else design_m)
+def reaches_of(arrays: Sequence[ArrayAssessment]) -> Sequence[tuple[Array, float]]:
+    """Return each array with its reach [m].
+
+    Twice the design displacement, or the prescriptive one where none is permitted.
+    """
+    return [
+        (item.array, REACH_FACTOR * (item.prescriptive.value_m if math.isnan(m) else m))
+        for item in arrays
+        for m in (item.permitted_m,)
+    ]
 
 
 def _rows(

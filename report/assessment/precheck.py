@@ -135,8 +135,8 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
     """Yield the pairs of the plan without a clearance, before any run, each with its distance."""
     data = sheet.project
-    rules, us_first = rule_set_of(data), data.project.units_first.is_us
-    near = [each for each in pairs_before_runs(data, rules, sheet.addresses) if each.is_near]
+    us_first = data.project.units_first.is_us
+    near = [each for each in pairs_before_runs(data, sheet.addresses) if each.is_near]
     missing = sorted((each for each in near if not each.given), key=lambda each: each.gap_m)
     if not missing:
         return
@@ -144,7 +144,7 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
         f"{each.names} {pair(each.gap_m, Quantity.SIZE, us_first)}" for each in missing[:MOST_NAMED]
     )
     more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
-    reach = pair(REACH_FACTOR * design_before_runs_m(data, rules), Quantity.SIZE, us_first)
+    reach = pair(REACH_FACTOR * design_before_runs_m(data), Quantity.SIZE, us_first)
     is_bare = any(each.kind is NearbyKind.BARE_EDGE for each in missing)
     text = (
         f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}{more}."

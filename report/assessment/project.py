@@ -35,7 +35,7 @@ from report.assessment.friction_velocity import (
     with_low_velocity,
 )
 from report.assessment.links import LinkedArray, assess_linked
-from report.assessment.neighbors import PlanNeighbor, plan_pairs
+from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
 from report.assessment.overrides import rule_set_of
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits
@@ -332,7 +332,7 @@ def _assess(
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     required = partial(minimum_gap, data, rules, arrays)
-    pairs = plan_pairs(data, arrays, sheet.addresses, required)
+    pairs = plan_pairs(data, reaches_of(arrays), sheet.addresses, required)
     horizontal, vertical = ac156(data)
     return Assessment(
         sheet=sheet,

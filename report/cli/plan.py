@@ -17,7 +17,6 @@ from report.cli.terminal import SOURCE, input_errors, plain
 from report.words.command import called
 
 if TYPE_CHECKING:
-    from report.assessment.plan_clearances import MissingRows
     from report.drawing.plan_read import DrawnOutline, RoofPlan
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
@@ -39,9 +38,11 @@ def read(drawing: Path, project: Path, units: str | None, replace: bool) -> None
     """Fill in arrays, objects, roof edges and outlines from the closed polylines of a DXF.
 
     The sheet Layers says what each layer is; the layers of plan.dxf are known. Names are texts
-    inside the outlines, or attributes of blocks. Everything else in the workbook is kept. Once the
-    site is filled in, the clearances follow as by plan clearances.
+    inside the outlines, or attributes of blocks. Everything else in the workbook is kept. If
+    the workbook has no other errors, the clearances follow as by plan clearances.
     """
+    from solver.model import InputError
+
     with input_errors(drawing):
         found = _drawn(drawing, project, units)
     with input_errors(project):
@@ -50,7 +51,11 @@ def read(drawing: Path, project: Path, units: str | None, replace: bool) -> None
         click.echo(plain(_line(place)))
     for text in _unread(found):
         click.echo(plain(text))
-    has_formulas |= _clearances_after(project)
+    try:
+        has_formulas |= _with_clearances(project)
+    except InputError as error:
+        click.echo(plain(f"Clearances are not added yet: {error.problems[0]}."))
+        click.echo(f"Once the workbook has no errors, run: {called()} plan clearances {project}")
     click.echo(f"{path}: the plan is filled in. Complete it, then run: {called()} check {project}")
     _note_formulas(has_formulas)
 
@@ -65,77 +70,23 @@ def clearances(project: Path) -> None:
     Distance from: a condition of the package until they are confirmed. Rows that stand are kept.
     """
     with input_errors(project):
-        found, path, has_formulas = _with_clearances(project)
-    for line in _clearance_lines(found):
-        click.echo(plain(line))
-    click.echo(f"{path}: {_added(found)}. Next: {called()} check {project}")
+        has_formulas = _with_clearances(project)
+    click.echo(f"Next: {called()} check {project}")
     _note_formulas(has_formulas)
 
 
-def _with_clearances(project: Path) -> tuple[MissingRows, Path, bool]:
+def _with_clearances(project: Path) -> bool:
     """Add the rows that a workbook lacks; return whether formulas keep their former values."""
     from report.assessment.plan_clearances import missing_rows
     from report.sheet.reading.read import read as read_sheet
     from report.sheet.writing.filled import fill_cells
 
     sheet = read_sheet(project)
-    found = missing_rows(sheet)
-    return found, sheet.path, bool(found.rows) and fill_cells(sheet.book, found.cells)
-
-
-def _clearances_after(project: Path) -> bool:
-    """Add the rows for a plan that was filled in, if what they need is known."""
-    from solver.model import InputError
-
-    try:
-        found, _, has_formulas = _with_clearances(project)
-    except InputError as error:
-        click.echo(plain(f"Clearances are not filled in yet: {error.problems[0]}."))
-        click.echo(f"Correct that, then run: {called()} plan clearances {project}")
-        return False
-    for line in _clearance_lines(found):
+    cells, lines = missing_rows(sheet)
+    has_formulas = bool(cells) and fill_cells(sheet.book, cells)
+    for line in lines:
         click.echo(plain(line))
-    click.echo(f"Clearances: {_added(found)}.")
     return has_formulas
-
-
-def _added(found: MissingRows) -> str:
-    from report.assessment.neighbors import REACH_FACTOR
-    from report.words.counts import numbered
-    from report.words.units import Quantity, pair
-
-    reach = pair(REACH_FACTOR * found.design_m, Quantity.SIZE, found.us_first)
-    text = f"{numbered(len(found.rows), 'clearance')} added, {found.n_kept} kept; reach {reach}"
-    text += ", twice the prescriptive displacement, as nothing is run"
-    if found.rows:
-        text += (
-            ". Distances from the drawing are a condition of the package until the column Distance"
-            " from says measured, or the sheet Project says who confirmed them and when"
-        )
-    return text
-
-
-def _clearance_lines(found: MissingRows) -> Iterator[str]:
-    """Yield each row that was added, and what there is to do by hand."""
-    from report.words.units import Quantity, pair
-
-    def size(value_m: float) -> str:
-        return pair(value_m, Quantity.SIZE, found.us_first)
-
-    for row in found.rows:
-        yield f"{row.cell}: {row.pair.names}, {row.direction}, {size(row.provided_m)}"
-    for near, given in found.differing:
-        entered = size(given.clearance.provided_m)
-        yield f"{given.cell}: {near.names}: {entered} entered, {size(near.gap_m)} in plan"
-    for cell, name in found.stale:
-        yield f"{cell}: '{name}' is no longer in Arrays or Objects; correct or delete the row"
-    for near in found.bare_edges:
-        wanted = "add the edge to Objects, then run this again"
-        yield f"not added: {near.names}, {size(near.gap_m)}; {wanted}"
-    for near in found.overlapping:
-        yield f"not added: {near.names}, which overlap in plan; correct their places"
-    for name in found.unplaced:
-        yield f"not added: clearances to {name}, which has no place in plan"
 
 
 def _note_formulas(has_formulas: bool) -> None:

@@ -12,7 +12,7 @@ import scenes
 import stand_in
 from inputs import FT, INCH, NO_SIDES, sides
 from report.assessment.clearances import minimum_gap
-from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pairs
+from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pairs, reaches_of
 from report.assessment.project import assess
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
@@ -27,7 +27,7 @@ def of(assessment):
     """The neighbors of an assessment, which a test may have changed."""
     data, arrays = assessment.project, assessment.arrays
     required = partial(minimum_gap, data, assessment.rules, arrays)
-    pairs = plan_pairs(data, arrays, assessment.sheet.addresses, required)
+    pairs = plan_pairs(data, reaches_of(arrays), assessment.sheet.addresses, required)
     return [pair for pair in pairs if pair.is_listed]
 
 

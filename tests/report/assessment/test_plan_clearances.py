@@ -14,7 +14,6 @@ import stand_in
 from cells import cell
 from inputs import FT, INCH, clearance, roof_object, sides
 from places import ROOT
-from report.assessment.clearances import separation_m
 from report.assessment.plan_clearances import direction_of, missing_rows, pairs_before_runs
 from report.assessment.precheck import missing_clearances
 from report.assessment.project import assess
@@ -108,7 +107,7 @@ def test_before_runs_a_random_plan_has_every_pair_that_its_package_lists(
         site=stand_in.site(rule_set=rule_set, s_ds_g=s_ds_g),
     )
     done = stand_in.assess_input(data, MOTIONS)
-    before = {near.names: near for near in pairs_before_runs(data, done.rules, {})}
+    before = {near.names: near for near in pairs_before_runs(data, {})}
     assert all(
         array.permitted_m <= near.reach_m / 2 + 1e-9
         for near in before.values()
@@ -178,7 +177,7 @@ def test_a_column_in_feet_gets_no_more_than_the_plan_has(tmp_path):
 
 
 def pairs_of(sheet):
-    return pairs_before_runs(sheet.project, RULE_SETS[sheet.project.site.rule_set], sheet.addresses)
+    return pairs_before_runs(sheet.project, sheet.addresses)
 
 
 @pytest.mark.parametrize(
@@ -198,48 +197,46 @@ def test_a_direction_is_that_of_the_whole_distance_or_any(downslope_deg, place, 
         objects=[roof_object("R", "fixed object") | place],
         clearances=[],
     )
-    (near,) = pairs_before_runs(data, RULE_SETS[data.site.rule_set], {})
+    (near,) = pairs_before_runs(data, {})
     assert direction_of(near, downslope_deg) is direction
 
 
-def test_a_plan_needs_no_more_than_the_site_and_takes_what_is_not_known_on_the_safe_side(tmp_path):
+def test_motions_may_be_missing_and_nothing_else(tmp_path):
     path = make(tmp_path, **BARE)
-    unknown = ("Arrays/A1/Construction", "Arrays/A1/CG height", "Arrays/A1/Downslope direction")
-    type_into(path, dict.fromkeys((*unknown, "Motions/M1/Horizontal record", "Objects/N/Height")))
+    type_into(path, dict.fromkeys(("Motions/M1/ID", "Motions/M2/Horizontal record")))
     assert problems(path)
-    found = missing_rows(read(path))
-    assert {row.pair.names for row in found.rows} == {"A1 to A2", "A2 to RTU-1"}
-    assert {row.direction for row in found.rows if row.pair.array == "A1"} == {Direction.ANY}
-    beside = next(row.pair for row in found.rows if row.pair.names == "A1 to A2")
-    rules = RULE_SETS["SEAOC PV1-2012"]
-    data = stand_in.project(arrays=[inputs.array("A1", 0.5), inputs.array("A2", 0.5)])
-    alike_m = separation_m(data, rules, found.design_m, *data.arrays)
-    assert beside.required_m > alike_m
-    type_into(path, {"Site/S_DS": None})
-    assert "S_DS" in run("plan", "clearances", tmp_path, exit_code=2)
+    _, lines = missing_rows(read(path))
+    assert lines[-2].startswith("2 clearances added, 0 kept; reach 163.1 in (4144 mm)")
+    heading = "Clearances/heading/Provided clearance"
+    edit(path, lambda book: put(book, {heading: "Provided clearance [stone]"}))
+    assert at(f"<{heading}>: ") in run("plan", "clearances", tmp_path, exit_code=2)
+    type_into(path, {"Arrays/A1/Weight": None, "Site/S_DS": None})
+    output = run("plan", "clearances", tmp_path, exit_code=2)
+    assert at("<Arrays/A1/Weight>: weight is missing") in output
+    assert "S_DS" in output
+    assert "Motions!" not in output
 
 
-def test_edges_overlaps_and_objects_without_a_place_are_said_and_not_written(tmp_path):
+def test_bare_edges_and_overlaps_are_said_and_not_written(tmp_path):
     inside = roof_object("IN", "edge without parapet", 30, 40, 20, 30)
     roof = sides(15, 300, 0, 120)
     path = make(
         tmp_path, clearances=[], objects=[inside, roof_object("OLD", "unlike array")], roof=roof
     )
     output = fill(tmp_path)
-    assert "not added: A1 to the west edge of the roof, 60.0 in (1524 mm); add the edge" in output
-    assert "not added: A1 to IN, which overlap in plan; correct their places" in output
-    assert "not added: clearances to OLD, which has no place in plan" in output
+    assert "not added: A1 to the west edge of the roof, 60.0 in (1524 mm); correct" in output
+    assert "not added: A1 to IN, −180.0 in (−4572 mm); correct the plan" in output
     assert "IN" not in {row.object for row in read(path).project.clearances}
 
 
-def test_a_workbook_without_the_column_is_told_where_to_type_it(tmp_path):
+def test_a_workbook_without_the_column_is_refused_as_it_is_until_it_has_the_heading(tmp_path):
     path = make(tmp_path, **BARE)
     edit(path, lambda book: put(book, {HEADING: None}))
     where = at(HEADING)
     before = path.read_bytes()
     assert not any(row.source for row in read(path).project.clearances)
     output = run("plan", "clearances", tmp_path, exit_code=2)
-    assert f"{where}: heading 'Distance from' is missing" in output
+    assert at("<Clearances/heading/Array>: heading 'Distance from' is missing; copy it") in output
     assert path.read_bytes() == before
     type_into(path, {where: "Distance from"})
     fill(tmp_path)

@@ -44,7 +44,7 @@ def test_a_blank_workbook_is_filled(tmp_path, units):
     path = new(tmp_path, units)
     output = run(drawing(tmp_path), path)
     assert "A1: array, 6 vertices" in output
-    assert "Clearances are not filled in yet: Site!" in output
+    assert "Clearances are not added yet: Project!" in output
     sheet = read(path)
     draft = sheet.draft
     assert [row["id"] for row in draft["arrays"]] == ["A1", "A2"]
