@@ -453,9 +453,9 @@ def test_clearances_that_the_plan_lacks_are_added_by_a_button(page, tmp_path):
     assert not page.is_visible("#add-clearances")
     make(tmp_path / "roof", clearances=[], objects=SECTIONS["objects"][:1])
     page.set_input_files("#folder", tmp_path / "roof")
-    page.wait_for_selector("#add-clearances")
+    page.wait_for_selector("#add-clearances", timeout=60_000)
     page.click("#add-clearances")
-    page.wait_for_selector("#add-clearances", state="hidden")
+    page.wait_for_selector("#add-clearances", state="hidden", timeout=60_000)
     at_rest(page)
     assert page.locator("#clearances tbody tr").count() == 2
     name, bytes_ = saved(page, lambda: page.click("#save-workbook"))
