@@ -10,7 +10,7 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,8 +18,10 @@ from report.cli.groups import SectionedGroup
 from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors
 from report.cli.values import TIME_STEP, Number
 from report.words.command import called
+from report.words.counts import numbered
 
 if TYPE_CHECKING:
+    from report.sheet.reading.read import Sheet
     from report.suite.inputs import SuiteTargets
     from solver.formats import MotionFile
     from solver.records.record import Record
@@ -116,12 +118,12 @@ def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float)
 @motion.command()
 @click.argument("folder", metavar="DIR", type=SOURCE)
 @click.argument("more", metavar="", nargs=-1)
-@click.option("--sds", "s_ds_g", type=Number("g"), default=math.nan, help="S_DS.")
-@click.option("--zh", "z_over_h", type=Number(), default=1.0, show_default=True,
-              help="Height ratio z/h of the array.")  # fmt: skip
+@click.option("--sds", "s_ds_g", type=Number("g"), help="S_DS.")
+@click.option("--zh", "z_over_h", type=Number(),
+              help="Height ratio z/h of the array; 1 unless --into has another.")  # fmt: skip
 @click.option("--code", help="Edition for the AC156 target spectrum, e.g. asce7-16 or pv1.")
-@click.option("--tail", type=click.Choice(["ac156", "1/T"]), default="ac156", show_default=True,
-              help="Target below 1.3 Hz: the AC156 line, or 1/T.")  # fmt: skip
+@click.option("--tail", type=click.Choice(["ac156", "1/T"]), help="Target below 1.3 Hz: the AC156 "
+              "line, or 1/T; the line unless --into has another.")  # fmt: skip
 @click.option("--target", metavar="BOOK.xlsx!SHEET|CSV", help="Your own target spectrum, with "
               "columns frequency [Hz] or period [s], horizontal [g], vertical [g].")  # fmt: skip
 @click.option("--count", type=click.IntRange(1, 99), default=7, show_default=True,
@@ -130,18 +132,22 @@ def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float)
               help="The same seed gives the same files.")  # fmt: skip
 @click.option("--records", metavar="FILES", multiple=True, help="Use records as seeds, not "
               "noise: one motion per file, or per files joined by commas. After DIR.")  # fmt: skip
+@click.option("--into", metavar="DIR|WORKBOOK", type=SOURCE, help="Add the motions to the sheet "
+              "Motions; DIR must be in its folder. S_DS, z/h, code and tail that are not given are "
+              "those of the workbook.")  # fmt: skip
 @_reading
 def suite(
     folder: Path,
     more: tuple[str, ...],
-    s_ds_g: float,
-    z_over_h: float,
+    s_ds_g: float | None,
+    z_over_h: float | None,
     code: str | None,
-    tail: str,
+    tail: str | None,
     target: str | None,
     count: int,
     seed: int,
     records: tuple[str, ...],
+    into: Path | None,
     units: str | None,
     dt_s: float,
 ) -> None:
@@ -153,15 +159,25 @@ def suite(
     if more and not records:
         raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
     # The compilation, each motion, and the chart.
-    with input_errors(folder), Progress(count + 2) as progress:
-        from report.results.publish import check_writable, publish
+    with input_errors(into or folder), Progress(count + 2) as progress:
+        from report.results.motions import add_motions, name_beside, row_cells
+        from report.results.publish import STAMP, check_writable, publish, stamp
+        from report.sheet.reading.read import read
         from report.suite.files import suite_files, suite_table
         from report.suite.inputs import check_folder, read_seeds
+        from report.suite.site import suite_rows
         from solver.synthesis import make_suite
 
         check_folder(folder, count)
         check_writable(folder)
-        targets = _targets(code, s_ds_g, z_over_h, tail, target)
+        sheet = read(into) if into else None
+        asked = {"s_ds_g": s_ds_g, "z_over_h": z_over_h, "code": code, "tail": tail}
+        given = {name: value for name, value in asked.items() if value is not None}
+        targets, taken = _targets(given, target, sheet)
+        if sheet:
+            beside = name_beside(sheet.book, folder)
+            rows = suite_rows(count, targets, beside, seed)
+            row_cells(sheet.book, rows)  # refused now rather than after the motions are made
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         progress("compiling the solver (first run only)")
         motions = make_suite(
@@ -174,28 +190,51 @@ def suite(
         )
         progress("plotting the spectra")
         files = suite_files(motions, targets, seed=seed, records=seeds.sha256)
-        publish(files, folder)
-    for line in (*suite_table(motions, targets), *seeds.notes):
+        if sheet:
+            placed = {f"{beside}/{name}": data for name, data in files.items()}
+            placed[f"{beside}/{STAMP}"] = stamp(files)
+            has_formulas = add_motions(sheet.path, rows, placed)
+        else:
+            publish(files, folder)
+    for line in (*taken, *suite_table(motions, targets), *seeds.notes):
         click.echo(line)
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
+    if sheet:
+        _say_added(sheet.path, len(rows), has_formulas)
+        return
     click.echo("Next: copy the records into records/ of a project, list them on its sheet Motions,")
     click.echo(f"then run: {called()} check DIR")
 
 
+def _say_added(workbook: Path, count: int, has_formulas: bool) -> None:
+    click.echo(f"{workbook}: {numbered(count, 'row')} added to the sheet Motions.")
+    click.echo(f"Next: {called()} check {workbook}")
+    if has_formulas:
+        click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
+
+
 def _targets(
-    code: str | None, s_ds_g: float, z_over_h: float, tail: str, target: str | None
-) -> SuiteTargets:
+    given: dict[str, Any], target: str | None, sheet: Sheet | None
+) -> tuple[SuiteTargets, list[str]]:
+    """Return the target of a suite, and what of it is from which cells of a workbook."""
     from report.suite.inputs import ac156_targets, table_targets
+    from report.suite.site import suite_basis
     from report.suite.target_table import read_target
     from solver.model import InputError
     from solver.rules.spectra import Tail
 
-    rule = Tail.RECIPROCAL if tail == "1/T" else Tail.AC156
+    if "tail" in given:
+        given["tail"] = Tail.RECIPROCAL if given["tail"] == "1/T" else Tail.AC156
+    whole = {"s_ds_g": math.nan, "z_over_h": 1.0, "tail": Tail.AC156} | given
     if target:
-        return table_targets(read_target(target), s_ds_g=s_ds_g, tail=rule)
-    if code is None or math.isnan(s_ds_g):
+        table = read_target(target)
+        return table_targets(table, s_ds_g=whole["s_ds_g"], tail=whole["tail"]), []
+    if sheet:
+        basis, taken = suite_basis(sheet, given | ({"edition": ""} if "code" in given else {}))
+        return ac156_targets(**basis), taken
+    if not {"s_ds_g", "code"} <= given.keys():
         raise InputError("no target; give --sds and --code, or --target")
-    return ac156_targets(code, s_ds_g=s_ds_g, z_over_h=z_over_h, tail=rule)
+    return ac156_targets(**whole), []
 
 
 def _read(path: Path, units: str | None, dt_s: float) -> MotionFile:

@@ -40,7 +40,12 @@ _FORWARD, _BACK = "forward.json", "back.json"
 
 
 def publish(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) -> None:
-    """Write files to a folder, all of them or none, and `STAMP`.
+    """Write files to a folder as `write_all` does, and `STAMP`."""
+    write_all({**files, STAMP: stamp(files)}, folder, wait_s)
+
+
+def write_all(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) -> None:
+    """Write files to a folder, all of them or none; a file that is replaced keeps its permissions.
 
     A name may include a subfolder. Two runs that write to one folder do so one after the other.
 
@@ -49,7 +54,6 @@ def publish(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) ->
     InputError
         If the folder or a file in it cannot be written; then no file has changed.
     """
-    files = {**files, STAMP: stamp(files)}
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with locked(folder, wait_s):
@@ -159,6 +163,7 @@ def _stage(files: Mapping[str, bytes], folder: Path, staging: Path) -> None:
             os.fsync(file.fileno())
         if (folder / name).is_file():
             shutil.copy2(folder / name, staging / _OLD / name)
+            shutil.copymode(folder / name, staging / _NEW / name)
     had = {name: (staging / _OLD / name).exists() for name in files}
     write_whole(staging / _FORWARD, json.dumps(had).encode())
 

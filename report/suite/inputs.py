@@ -48,13 +48,17 @@ class SuiteTargets:
         return self.vertical if component == "z" else self.horizontal
 
 
-def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> SuiteTargets:
+def ac156_targets(
+    code: str, *, s_ds_g: float, z_over_h: float, tail: Tail, edition: str = ""
+) -> SuiteTargets:
     """Return the AC156 spectra of a code at a height.
 
     Parameters
     ----------
     code : str
         A key of `CODES`.
+    edition : str
+        Edition of ASCE 7; empty for that of the code.
 
     Raises
     ------
@@ -69,7 +73,9 @@ def ac156_targets(code: str, *, s_ds_g: float, z_over_h: float, tail: Tail) -> S
     if code not in CODES:
         raise InputError(f"--code is {code!r}; give one of {', '.join(CODES)}")
     rules = RULE_SETS[CODES[code]]
-    across = ac156_horizontal(EDITIONS[rules.edition], s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail)
+    across = ac156_horizontal(
+        EDITIONS[edition or rules.edition], s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail
+    )
     upward = ac156_vertical(s_ds_g=s_ds_g, tail=tail)
     return SuiteTargets(
         horizontal=(across.freq_hz, across.sa_g),

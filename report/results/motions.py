@@ -1,0 +1,100 @@
+"""Motions that are added to a project: their records beside the workbook, and rows of Motions.
+
+Read `add_motions`.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from report.motions.files import BAR
+from report.results.publish import write_all
+from report.sheet.checking.motion_checks import LABELS
+from report.sheet.reading.archive import OpenBook, open_book
+from report.sheet.reading.growing import GrowingTable
+from report.sheet.reading.parts import Value
+from report.sheet.reading.positions import CellPosition
+from report.sheet.writing.filled import fill_cells
+from solver.model import InputError, Problem
+
+Row = Mapping[str, Value]
+"""A motion by the fields of `report.sheet.schema.MotionInput`; those not given stay blank."""
+
+
+def add_motions(workbook: Path, rows: Sequence[Row], files: Mapping[str, bytes]) -> bool:
+    """Write files by their path from the workbook, and rows of motions: all of it or nothing.
+
+    Returns
+    -------
+    bool
+        Whether the workbook has formulas, whose cached values stay.
+
+    Raises
+    ------
+    InputError
+        If a motion stands in the workbook already, or something cannot be written.
+    """
+    book = open_book(workbook)
+    cells = row_cells(book, rows)
+    with TemporaryDirectory() as folder:
+        copy = Path(folder) / book.path.name
+        shutil.copyfile(book.path, copy)
+        has_formulas = fill_cells(open_book(copy), cells)
+        write_all({**files, book.path.name: copy.read_bytes()}, book.path.parent)
+    return has_formulas
+
+
+def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Value]:
+    """Return the cells of a workbook that further motions fill; rows that stand are kept.
+
+    Raises
+    ------
+    InputError
+        With each cell that has one of their IDs or records already, or if they have no room.
+    """
+    table = GrowingTable.of(book, "motions")
+    if doubled := list(_doubled(table, rows)):
+        raise InputError(doubled)
+    cells: dict[CellPosition, Value] = {}
+    for row in rows:
+        number = table.added()
+        cells |= {table.position(number, field): value for field, value in row.items()}
+    return cells
+
+
+def name_beside(book: OpenBook, path: Path) -> str:
+    """Return how a workbook names a file or folder, which must be in its own folder.
+
+    Raises
+    ------
+    InputError
+        If it is outside, also by a link, or has a mark in its name that separates something else.
+    """
+    home = book.path.parent.resolve()
+    if not path.resolve().is_relative_to(home):
+        raise InputError(f"{path}: is outside the workbook's folder; give one within {home}")
+    name = path.resolve().relative_to(home).as_posix()
+    if any(mark in name for mark in ("!", BAR)):
+        raise InputError(f"{path}: has '!' or '{BAR}' in its name; rename it")
+    return name
+
+
+def _doubled(table: GrowingTable, rows: Sequence[Row]) -> Iterator[Problem]:
+    fields = [field for field in ("id", *LABELS) if field in table.found.columns]
+    new = {_key(field, str(row[field])) for row in rows for field in fields}
+    for number in table.found.rows:
+        for field in fields:
+            cell = table.cell(number, field)
+            if not cell.is_blank and _key(field, cell.shown) in new:
+                wanted = "remove the row, or leave the motion out"
+                yield Problem(f"has '{cell.shown}' already", wanted, cell.address)
+
+
+def _key(field: str, text: str) -> tuple[bool, str]:
+    """Return what is equal for equal IDs, and for names of the same record."""
+    file, bar, channel = text.replace("\\", "/").casefold().partition(BAR)
+    return field == "id", posixpath.normpath(file.strip()) + bar + " ".join(channel.split())

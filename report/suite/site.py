@@ -1,0 +1,65 @@
+"""The site of a workbook as the basis of a suite, and the rows of its motions. Read `suite_basis`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import PurePosixPath
+from typing import Any
+
+from report.sheet.checking.site_checks import site_parameters
+from report.sheet.reading.read import Sheet
+from report.sheet.schema.fields import Place
+from report.suite.inputs import CODES, SuiteTargets
+from solver.model import InputError
+
+_CODE_OF = {name: code for code, name in CODES.items()}
+
+
+def suite_basis(sheet: Sheet, given: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Return the arguments of `ac156_targets`, and which of them are from which cells.
+
+    Those given are not taken from the workbook.
+
+    Raises
+    ------
+    InputError
+        With the cells of each value that the workbook does not give.
+    """
+    site, target = sheet.draft["site"][0], sheet.draft["target"][0]
+    parameters = site_parameters(site)
+    z_m, h_m = site.get("roof_height_m"), site.get("structure_height_m")
+    stated = [(name,) for name in ("s_ds_g", "s_ms_g") if site.get(name) is not None]
+    found = (
+        ("s_ds_g", "S_DS", parameters and parameters.s_ds, [*stated, ("s_s_g", "f_a")][0]),
+        ("z_over_h", "z/h", None if z_m is None or h_m is None else z_m / h_m,
+         ("roof_height_m", "structure_height_m")),
+        ("code", "code", _CODE_OF.get(site.get("rule_set", "")), ("rule_set",)),
+        ("edition", "edition", site.get("edition_name") or "", ("edition_name",)),
+        ("tail", "tail", target.get("tail"), ("tail",)),
+    )  # fmt: skip
+    values, lines, lacking = dict(given), [], []
+    for name, label, value, fields in found:
+        key = "target" if name == "tail" else "site"
+        cells = " and ".join(sheet.where(Place(key, 0, field)) for field in fields)
+        if name not in given and value is None:
+            lacking.append(f"{cells}: {label} is missing or cannot be read; fill it in")
+        elif name not in given and value != "":
+            shown = f"{value:.4g}" if isinstance(value, float) else value
+            lines.append(f"{label} {shown}{' g' if label == 'S_DS' else ''} from {cells}")
+        values.setdefault(name, value)
+    if lacking:
+        raise InputError(lacking)
+    return values, lines
+
+
+def suite_rows(
+    count: int, targets: SuiteTargets, folder: str, seed: int
+) -> list[dict[str, str | None]]:
+    """Return a row of the sheet Motions for each motion of a suite whose files are in a folder."""
+    basis = targets.lines[0].removeprefix("target: ").partition(": ")[0]
+    rows = []
+    for motion in (f"motion-{k:02d}" for k in range(1, count + 1)):
+        x, y, z = (str(PurePosixPath(folder, f"{motion}-{axis}.csv")) for axis in "xyz")
+        names = {"id": motion, "record": x, "transverse": y, "vertical": z}
+        rows.append({**names, "source": f"Generated, seed {seed}; {basis}"})
+    return rows

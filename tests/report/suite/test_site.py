@@ -1,0 +1,114 @@
+"""A suite in a workbook: what its target takes from which cells, its rows, and all or nothing."""
+
+import json
+
+import pytest
+from test_suite_small import wave
+
+import commands
+import solver.synthesis
+from report.results.publish import STAMP
+from report.sheet.reading.read import read
+from report.suite.inputs import ac156_targets
+from report.suite.site import suite_basis
+from sheets import at, make, type_into
+from solver.model import InputError
+from solver.rules.spectra import Tail
+from solver.synthesis import SuiteMotion
+
+
+def test_the_basis_of_a_suite_is_the_site_of_the_workbook_with_its_cells(tmp_path):
+    sheet = read(make(tmp_path))
+    basis, lines = suite_basis(sheet, {})
+    site = sheet.project.site
+    assert basis["s_ds_g"] == site.s_ds
+    assert basis["z_over_h"] == pytest.approx(site.z_over_h, rel=1e-11)
+    assert (basis["tail"], basis["code"]) == (Tail.AC156, "pv1")
+    given = at("Site/S_DS") if site.s_ds_g else f"{at('Site/S_S')} and {at('Site/F_a')}"
+    assert lines[0] == f"S_DS {site.s_ds:.4g} g from {given}"
+    assert f"code pv1 from {at('Site/Rule set')}" in lines
+    asked = {"s_ds_g": 0.5, "z_over_h": 0.5, "code": "asce7-22"}
+    asked |= {"tail": Tail.RECIPROCAL, "edition": ""}
+    assert suite_basis(sheet, asked) == (asked, [])
+
+
+def test_the_edition_of_the_workbook_has_its_spectrum(tmp_path):
+    path = type_into(make(tmp_path), {"Site/Edition of ASCE 7": "ASCE 7-22", "Site/S_DS": 1.2})
+    basis, lines = suite_basis(read(path), {})
+    assert f"edition ASCE 7-22 from {at('Site/Edition of ASCE 7')}" in lines
+    alike = ac156_targets("asce7-22", **{k: basis[k] for k in ("s_ds_g", "z_over_h", "tail")})
+    assert ac156_targets(**basis).horizontal[1].tolist() == alike.horizontal[1].tolist()
+
+
+def test_each_value_that_the_workbook_lacks_is_an_error_at_its_cells(tmp_path):
+    cells = ("S_S", "F_a", "S_DS", "S_MS", "Rule set", "Structure height h")
+    path = type_into(make(tmp_path), {f"Site/{label}": None for label in cells})
+    with pytest.raises(InputError) as caught:
+        suite_basis(read(path), {})
+    assert [text.partition(": ")[2].split()[0] for text in caught.value.problems] == [
+        "S_DS",
+        "z/h",
+        "code",
+    ]
+    assert caught.value.problems[2].startswith(at("Site/Rule set"))
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Two motions of sines at once."""
+    motions = [SuiteMotion(x=wave("x", 0.5), y=wave("y", 2.5), z=wave("z", 5.0),
+                           seeds=("noise",) * 3, hold_s=2.0)]  # fmt: skip
+    monkeypatch.setattr(solver.synthesis, "make_suite", lambda *_, **__: motions)
+
+
+def suite(*words):
+    return ("motion", "suite", *words, "--count", 1)
+
+
+def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
+    path = make(tmp_path)
+    path.chmod(0o640)
+    before = read(path).project.motions
+    told = commands.printed(*suite(tmp_path / "records" / "made", "--into", path))
+    assert f"{path}: 1 row added to the sheet Motions." in told
+    assert f"code pv1 from {at('Site/Rule set')}" in told
+    *standing, new = read(path).project.motions
+    assert tuple(standing) == before
+    assert (new.id, new.record) == ("motion-01", "records/made/motion-01-x.csv")
+    assert (new.transverse, new.vertical) == tuple(
+        f"records/made/motion-01-{axis}.csv" for axis in "yz"
+    )
+    document = json.loads((tmp_path / "records" / "made" / "suite.json").read_text())
+    assert new.source == (
+        f"Generated, seed 1; AC156 with SEAOC PV1-2012, S_DS {document['target']['s_ds_g']:g} g,"
+        f" z/h {document['target']['z_over_h']:g}"
+    )
+    assert (tmp_path / "records" / "made" / STAMP).is_file()
+    assert path.stat().st_mode & 0o777 == 0o640
+    # The second time everything is refused, before any motion is made.
+    after = path.read_bytes()
+    refused = commands.refused(*suite(tmp_path / "records" / "made", "--into", path))
+    assert refused.count("already; remove the row, or leave the motion out") == 4
+    assert path.read_bytes() == after
+
+
+@pytest.mark.parametrize("place", ["../other", "link", "a!b", "a|b"])
+def test_a_suite_outside_the_folder_of_the_workbook_is_refused(tmp_path, quick, place):
+    path, outside = make(tmp_path / "p"), tmp_path / "outside"
+    outside.mkdir()
+    (tmp_path / "p" / "link").symlink_to(outside)
+    before = path.read_bytes()
+    told = commands.refused(*suite(tmp_path / "p" / place, "--into", path))
+    assert "is outside the workbook's folder" in told or "in its name; rename it" in told
+    assert path.read_bytes() == before
+    assert not list(outside.iterdir())
+    assert {entry.name for entry in (tmp_path / "p").iterdir()} == {"input.xlsx", "link", "records"}
+
+
+def test_where_a_file_cannot_be_written_nothing_changes(tmp_path, quick, files_up_to):
+    path = make(tmp_path)
+    before = path.read_bytes()
+    with files_up_to(5_000):
+        commands.refused(*suite(tmp_path / "made", "--into", path))
+    assert path.read_bytes() == before
+    assert not (tmp_path / "made").exists() or not list((tmp_path / "made").iterdir())
