@@ -1,4 +1,4 @@
-"""The commands on records: `roofslip motion info`, `motion convert`, `motion suite`.
+"""The commands on records: `roofslip motion info`, `convert`, `suite`, `rows`.
 
 Parses, calls, prints; heavy imports stay inside the commands. Read `report.cli.terminal` for what
 all commands share, then `solver.records.record`.
@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import json
 import math
+import tomllib
 from collections.abc import Callable, Sequence
+from fnmatch import fnmatchcase
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from report.cli.groups import SectionedGroup
-from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors
+from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors, plain
 from report.cli.values import TIME_STEP, Number
 from report.words.command import called
 from report.words.counts import numbered
@@ -206,6 +209,81 @@ def suite(
     click.echo(f"then run: {called()} check DIR")
 
 
+@motion.command()
+@click.argument("source", metavar="FOLDER|ZIP", type=SOURCE)
+@click.argument("project", metavar="[DIR|WORKBOOK]", type=SOURCE, required=False)
+@click.option("--at", type=click.Choice(["roof", "ground"]),
+              help="Where they were recorded; required with a workbook.")  # fmt: skip
+@click.option("--only", metavar="NAME", multiple=True,
+              help="Take the motions of this name; * stands for any letters.")  # fmt: skip
+@_reading
+def rows(
+    source: Path,
+    project: Path | None,
+    at: str | None,
+    only: tuple[str, ...],
+    units: str | None,
+    dt_s: float,
+) -> None:
+    """List the motions in FOLDER or ZIP, sets of three records; add them to a workbook.
+
+    Sets that are not clear are listed with the reason and not added. Records are copied into
+    records/ beside the workbook, unless they are in its folder. A FOLDER that does not exist is
+    sought in the library: the folder that the key "motions" of your config.toml names.
+    """
+    with input_errors(source), TemporaryDirectory() as temporary:
+        from report.motions.sets import sets_of, table
+        from report.results.motions import add_motions, set_rows
+        from report.sheet.reading.archive import open_book
+        from report.web.uploads import unpack
+        from solver.model import InputError
+
+        if project and not at:
+            raise InputError("where were they recorded; add --at roof or --at ground")
+        folder = _in_library(source)
+        if folder.is_file():
+            unpack(folder, Path(temporary))
+            folder = Path(temporary)
+        sets, left = sets_of(folder, units or "", dt_s)
+        wanted = [name.casefold() for name in only or ("*",)]
+        for name in list(sets):
+            if not any(fnmatchcase(name.casefold(), each) for each in wanted):
+                del sets[name]
+        for line in (*table(sets), *(f"not taken: {what}: {why}" for what, why in left)):
+            click.echo(plain(line))
+        if not sets:
+            raise InputError("no set of two horizontal records and a vertical one to take")
+        if project:
+            book = open_book(project)
+            about = {"recorded_at": at, "units": units, "dt_s": None if math.isnan(dt_s) else dt_s}
+            added, files = set_rows(book, folder, sets, about)
+            has_formulas = add_motions(book.path, added, files)
+            click.echo(f"{book.path.parent}: {numbered(len(files), 'record')} copied.")
+            _say_added(book.path, len(added), has_formulas)
+
+
+def _in_library(source: Path) -> Path:
+    """Return a folder or zip as given, or of that name in the user's library of motions."""
+    from solver.meant import meant
+    from solver.model import InputError
+
+    if source.exists():
+        return source
+    config = Path(click.get_app_dir("roofslip")) / "config.toml"
+    try:
+        given = tomllib.loads(config.read_text(encoding="utf-8")).get("motions")
+    except FileNotFoundError:
+        hint = f"give one, or write motions = '/folder/of/motions' in {config}"
+        raise InputError(f"no such folder or zip; {meant(source) or hint}") from None
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{config}: cannot be read ({error}); write motions = '/a/folder'"
+        ) from error
+    if not isinstance(given, str) or not (found := Path(given).expanduser() / source).exists():
+        raise InputError(f"no such folder or zip, here or in the motions of {config} ({given})")
+    return found
+
+
 def _say_added(workbook: Path, count: int, has_formulas: bool) -> None:
     click.echo(f"{workbook}: {numbered(count, 'row')} added to the sheet Motions.")
     click.echo(f"Next: {called()} check {workbook}")
@@ -225,7 +303,7 @@ def _targets(
 
     if "tail" in given:
         given["tail"] = Tail.RECIPROCAL if given["tail"] == "1/T" else Tail.AC156
-    whole = {"s_ds_g": math.nan, "z_over_h": 1.0, "tail": Tail.AC156} | given
+    whole: dict[str, Any] = {"s_ds_g": math.nan, "z_over_h": 1.0, "tail": Tail.AC156} | given
     if target:
         table = read_target(target)
         return table_targets(table, s_ds_g=whole["s_ds_g"], tail=whole["tail"]), []

@@ -12,6 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from report.motions.files import BAR
+from report.motions.sets import Sets
 from report.results.publish import write_all
 from report.sheet.checking.motion_checks import LABELS
 from report.sheet.reading.archive import OpenBook, open_book
@@ -81,6 +82,43 @@ def name_beside(book: OpenBook, path: Path) -> str:
     if any(mark in name for mark in ("!", BAR)):
         raise InputError(f"{path}: has '!' or '{BAR}' in its name; rename it")
     return name
+
+
+def set_rows(
+    book: OpenBook, folder: Path, sets: Sets, about: Row
+) -> tuple[list[Row], dict[str, bytes]]:
+    """Return the rows of sets, and the files to copy into `records` beside the workbook.
+
+    Files that are in its folder stay where they are; `about` is the same for all motions.
+
+    Raises
+    ------
+    InputError
+        For each file in whose place another one is.
+    """
+    names: dict[str, str] = {}
+    files: dict[str, bytes] = {}
+    taken: list[str] = []
+    for file in {each.file: None for group in sets.values() for each in group}:
+        source, target = folder / file, book.path.parent / "records" / file
+        if source.resolve().is_relative_to(book.path.parent.resolve()):
+            names[file] = name_beside(book, source)
+            continue
+        names[file], content = name_beside(book, target), source.read_bytes()
+        if not target.exists():
+            files[names[file]] = content
+        elif target.read_bytes() != content:
+            taken.append(f"{target}: is another file than {source}; rename one")
+    if taken:
+        raise InputError(taken)
+    rows: list[Row] = []
+    for name, group in sets.items():
+        cells = (f"{names[each.file]}{each.name.removeprefix(each.file)}" for each in group)
+        source_text = f"{name}, {group[0].format}"
+        rows.append(
+            {"id": name, **dict(zip(LABELS, cells, strict=True)), "source": source_text, **about}
+        )
+    return rows, files
 
 
 def _doubled(table: GrowingTable, rows: Sequence[Row]) -> Iterator[Problem]:

@@ -1,4 +1,7 @@
-"""The site of a workbook as the basis of a suite, and the rows of its motions. Read `suite_basis`."""
+"""The site of a workbook as the basis of a suite, and the rows of its motions.
+
+Read `suite_basis`.
+"""
 
 from __future__ import annotations
 
@@ -54,10 +57,10 @@ def suite_basis(sheet: Sheet, given: Mapping[str, Any]) -> tuple[dict[str, Any],
 
 def suite_rows(
     count: int, targets: SuiteTargets, folder: str, seed: int
-) -> list[dict[str, str | None]]:
+) -> list[Mapping[str, str]]:
     """Return a row of the sheet Motions for each motion of a suite whose files are in a folder."""
     basis = targets.lines[0].removeprefix("target: ").partition(": ")[0]
-    rows = []
+    rows: list[Mapping[str, str]] = []
     for motion in (f"motion-{k:02d}" for k in range(1, count + 1)):
         x, y, z = (str(PurePosixPath(folder, f"{motion}-{axis}.csv")) for axis in "xyz")
         names = {"id": motion, "record": x, "transverse": y, "vertical": z}

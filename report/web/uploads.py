@@ -62,6 +62,20 @@ def store(files: Sequence[File], folder: Path, maximum_bytes: int = MOST_STORED)
     return _workbook(room.paths)
 
 
+def unpack(zipped: Path, folder: Path) -> None:
+    """Store the files of a zip in an empty folder.
+
+    Raises
+    ------
+    InputError
+        With what is refused; the folder may then hold a part of the files.
+    """
+    if zipped.stat().st_size > MOST_SENT:
+        raise InputError(f"more than {MOST_SENT / MB:g} MB; give fewer records")
+    with zipped.open("rb") as content, _opened(content) as archive:
+        _unpack(archive, _Room(folder, MOST_STORED))
+
+
 class _Room:
     """A folder while it is filled: its names without regard to capitals, and its bytes."""
 

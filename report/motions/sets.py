@@ -1,0 +1,227 @@
+"""Which records of a folder are the two horizontal components and the vertical of one motion.
+
+Told by the heading of a channel or the end of its file's name, by time step and by length; what is
+not clear is left out with the reason, never guessed. Read `sets_of`.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from report.motions.files import BAR, MAX_BYTES
+from report.words.formats import aligned
+from solver.formats import MotionFile, read_motion_file
+from solver.model import InputError
+from solver.records.record import Record
+
+MOST_FILES = 500
+MOST_NAME = 40  # of an ID
+LENGTHS_WITHIN = 0.05
+"""Part by which components may differ in length: those of one recording often end apart."""
+
+_UP, _DOWN, _AZIMUTH = "up", "down", "azimuth"
+_SPELLED = {
+    (_UP, 0): "up u ud u-d v ver vert vertical z", (_DOWN, 0): "dn dwn down",
+    ("xy", 0): "x", ("xy", 90): "y", ("12", 0): "h1 1", ("12", 90): "h2 2",
+    ("en", 0): "e ew e-w", ("en", 90): "n ns n-s", ("en", 180): "w", ("en", 270): "s",
+    ("lt", 0): "l long longitudinal", ("lt", 90): "t tran transverse",
+}  # fmt: skip
+_NAMED = {word: meant for meant, words in _SPELLED.items() for word in words.split()}
+_SEED = re.compile(r"([befhs][gln])([enz12])")  # band and instrument of SEED, then the component
+_KIK_NET = re.compile(r"()(ns|ew|ud)(\d)")
+_BEARING = re.compile(r"([ns])(\d{1,2})([ew])")
+_CHANNEL = re.compile(r"\b(?:(?:sta|rcrdr)\s+)?cha?nn?(?:el)?\s*:?\s*\d+\s*:?", re.IGNORECASE)
+_CHANNEL_OF_NAME = re.compile(r"[-_. ]?cha?nn?(?:el)?[-_ ]?\d+", re.IGNORECASE)
+_NOISE = re.compile("comp(onent)?|deg|axis|accelerometer|longitudinal|transverse|vertical")
+_END = re.compile(
+    r"(.*?)(?:(?:^|[-_. ]+)(u-d|n-s|e-w|[a-z]+\d?|[ns]\d+[ew]|\d\d\d?)|(?<!\d)(\d{3}))",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Channel:
+    """A channel of a file as a component of a motion."""
+
+    file: str  # its path from the folder
+    channel: str  # empty where the file has one
+    format: str
+    record: Record
+    family: str  # of names for components, one of `_SPELLED` or azimuths
+    degrees: int  # within the family
+    motion: tuple[str, str]  # what names the motion: the file without the component, the heading
+
+    @property
+    def name(self) -> str:
+        """How it is named from the folder."""
+        return f"{self.file} {BAR} {self.channel}" if self.channel else self.file
+
+    @property
+    def is_horizontal(self) -> bool:
+        """Whether it is neither up nor down."""
+        return self.family not in (_UP, _DOWN)
+
+
+Sets = dict[str, Sequence[Channel]]
+"""The channels of x, y and z by the name of the motion."""
+
+Left = tuple[str, str]
+"""What was not taken, and why."""
+
+
+def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets, Sequence[Left]]:
+    """Return the sets of three in a folder and the folders in it, and what is left.
+
+    Raises
+    ------
+    InputError
+        If it has more than `MOST_FILES` files.
+    """
+    paths = sorted(path for path in folder.rglob("[!.~]*") if path.is_file())
+    if len(paths) > MOST_FILES:
+        raise InputError(f"has {len(paths)} files, more than {MOST_FILES}; name a folder within it")
+    left: list[Left] = []
+    groups: dict[tuple[str, ...], list[Channel]] = {}
+    for path in paths:
+        file = path.relative_to(folder).as_posix()
+        try:
+            if path.stat().st_size > MAX_BYTES:
+                raise InputError(f"has more than {MAX_BYTES / 1e6:.0f} MB")
+            for each in _channels(file, read_motion_file(path, units=units, dt_s=dt_s)):
+                suffix = path.suffix.casefold()
+                kind = "" if _by_word(suffix[1:]) else suffix  # that of K-NET is a component
+                key = (str(PurePosixPath(file).parent), *each.motion, each.format, kind)
+                groups.setdefault(key, []).append(each)
+        except InputError as error:
+            left.append((file, error.problems[0].removeprefix(f"{path.name}: ")))
+    clear: list[tuple[str, str, list[Channel]]] = []
+    for (parent, stem, rest, *_), group in groups.items():
+        group.sort(key=lambda each: (not each.is_horizontal, each.degrees))
+        if why := next(_unclear(group), ""):
+            left.append((_listed(group), why))
+        else:
+            name = stem or PurePosixPath(parent).name or folder.resolve().name
+            clear.append((name, f"{name} {rest}".strip(), group))
+    plain = Counter(name for name, _, _ in clear)
+    named = [(name if plain[name] == 1 else longer, group) for name, longer, group in clear]
+    times = Counter(name for name, _ in named)
+    for name, group in named:
+        if times[name] > 1 or len(name) > MOST_NAME:
+            wanted = f"give them one of at most {MOST_NAME} letters that no other set has"
+            left.append((_listed(group), f"their name is {name}; {wanted}"))
+    return {
+        name: group for name, group in named if times[name] == 1 and len(name) <= MOST_NAME
+    }, left
+
+
+def table(sets: Sets) -> Iterator[str]:
+    """Yield the lines of a table: which channel is x, y and z of each set."""
+    rows = [("motion", "", "record", "dt [s]", "samples", "format")]
+    for name, group in sets.items():
+        for axis, each in zip("xyz", group, strict=True):
+            size = f"{each.record.dt_s:.4g}", str(len(each.record.a_mps2))
+            rows.append((name if axis == "x" else "", axis, each.name, *size, each.format))
+    return aligned(rows, "<<<>><")
+
+
+def _listed(group: Sequence[Channel]) -> str:
+    return ", ".join(each.name for each in group)
+
+
+def _unclear(group: Sequence[Channel]) -> Iterator[str]:
+    """Yield why a group in the order of x, y, z is not the set of a motion."""
+    level = [each for each in group if each.is_horizontal]
+    if (len(level), len(group)) != (2, 3):
+        counts = f"{len(level)} horizontal and {len(group) - len(level)} vertical of one motion"
+        yield f"{counts}; a set has 2 and 1"
+    elif group[2].family == _DOWN:
+        yield "the vertical is positive downward; a motion has it upward"
+    elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:
+        yield "the horizontal components are not perpendicular by their names"
+    steps = [each.record.dt_s for each in group]
+    lengths = [len(each.record.a_mps2) for each in group]
+    if max(steps) - min(steps) > 1e-9 * max(steps):
+        yield f"time steps differ: {min(steps):g} to {max(steps):g} s"
+    if min(lengths) < (1.0 - LENGTHS_WITHIN) * max(lengths):
+        yield f"lengths differ: {min(lengths)} to {max(lengths)} samples"
+
+
+def _channels(file: str, motion_file: MotionFile) -> Sequence[Channel]:
+    """Return the channels of a file; raise where the component of one is not clear."""
+    found = []
+    is_alone = len(motion_file.channels) == 1
+    for record in motion_file.channels:
+        said = "" if record.name == motion_file.name else record.name
+        stem, of_name = PurePosixPath(file).stem, None
+        if is_alone:
+            stem, of_name = _by_name(stem)
+        of_heading = _by_heading(said)
+        meant = of_heading or of_name
+        if meant is None:
+            raise InputError(f"neither its heading ({said or 'none'}) nor its name has a component")
+        family, degrees, rest = meant
+        if of_heading and of_name and _differ(of_heading, of_name):
+            raise InputError(f"its heading ({said}) and its name have different components")
+        if not of_name and family == _AZIMUTH:
+            stem = stem.removesuffix(f"{degrees:03d}")
+        found.append(
+            Channel(
+                file=file,
+                channel="" if is_alone else record.name,
+                format=motion_file.format,
+                record=record,
+                family=family,
+                degrees=degrees,
+                motion=(stem, rest),
+            )
+        )
+    return found
+
+
+_Meant = tuple[str, int, str]  # family, degrees, and the rest of what was said
+
+
+def _differ(first: _Meant, second: _Meant) -> bool:
+    """Whether one is vertical and the other not, or both are azimuths and not the same."""
+    is_vertical = [family in (_UP, _DOWN) for family, _, _ in (first, second)]
+    is_other = first[0] == second[0] == _AZIMUTH and (first[1] - second[1]) % 360 != 0
+    return is_other or is_vertical[0] != is_vertical[1]
+
+
+def _by_heading(text: str) -> _Meant | None:
+    """Return the first component that a heading names, with its other words."""
+    words = re.findall(r"[a-z0-9]+(?:-[a-z](?![a-z]))?", _CHANNEL.sub(" ", text.casefold()))
+    for k, word in enumerate(words):
+        if found := _by_word(word):
+            rest = [each for each in (*words[:k], *words[k + 1 :]) if not _NOISE.fullmatch(each)]
+            return found[0], found[1], " ".join(filter(None, (found[2], *rest)))
+    return None
+
+
+def _by_name(stem: str) -> tuple[str, _Meant | None]:
+    """Return the name of a file without the component at its end, and that component."""
+    if match := re.fullmatch(rf"(.+?){_CHANNEL_OF_NAME.pattern}", stem, re.IGNORECASE):
+        return match[1], None
+    match = _END.fullmatch(stem)
+    found = _by_word((match[2] or match[3]).casefold()) if match else None
+    return (match[1], found) if match and found else (stem, None)
+
+
+def _by_word(word: str) -> _Meant | None:
+    if word in _NAMED and not word.isdigit():
+        return (*_NAMED[word], "")
+    if word.isdigit() and int(word) <= 360:
+        return _AZIMUTH, int(word), ""
+    if match := _BEARING.fullmatch(word):
+        degrees = int(match[2]) * (1 if match[3] == "e" else -1)
+        return _AZIMUTH, (degrees if match[1] == "n" else 180 - degrees) % 360, ""
+    if match := _SEED.fullmatch(word):
+        return (*_NAMED[match[2]], match[1])
+    if match := _KIK_NET.fullmatch(word):
+        return (*_NAMED[match[2]], match[3])
+    return None

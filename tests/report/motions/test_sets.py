@@ -1,0 +1,174 @@
+"""Which records of a folder are the three components of a motion, by names and headings."""
+
+import numpy as np
+import pytest
+
+from places import ROOT
+from report.motions.sets import LENGTHS_WITHIN, sets_of, table
+from solver.model import InputError
+
+SHARED = ROOT.parent / "shared" / "records"
+
+
+def plain(path, dt_s=0.01, count=100):
+    """A record with times, whose heading names no component."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    rows = (f"{k * dt_s:.4f},{0.1 * np.sin(0.3 * k):.5f}" for k in range(count))
+    path.write_text("time_s,acceleration_g\n" + "\n".join(rows) + "\n")
+    return path
+
+
+def peer(path, component, dt_s=0.01):
+    """A record of PEER, whose heading names its component."""
+    values = "\n".join(f"{0.1 * np.sin(0.3 * k):.7E}" for k in range(100))
+    heading = f"PEER\nKOBE 01/16/95, KJMA, {component}\nACCELERATION IN UNITS OF G\n"
+    path.write_text(f"{heading}NPTS= 100, DT= {dt_s:.4f} SEC\n{values}\n")
+
+
+def taken(folder):
+    sets, left = sets_of(folder)
+    return {name: [each.name for each in group] for name, group in sets.items()}, dict(left)
+
+
+@pytest.mark.parametrize(
+    ("names", "motion"),
+    [
+        ("PET-000 PET-090 PET-UP", "PET"),
+        ("KJM_H1 KJM_H2 KJM_V", "KJM"),
+        ("RM1-x RM1-y RM1-z", "RM1"),
+        ("CI.PAS.HNE CI.PAS.HNN CI.PAS.HNZ", "CI.PAS"),
+        ("PAS.HN1 PAS.HN2 PAS.HNZ", "PAS"),
+        ("AKT_E AKT_N AKT_Z", "AKT"),
+        ("AKT-EW AKT-NS AKT-UD", "AKT"),
+        ("AKT_E-W AKT_N-S AKT_U-D", "AKT"),
+        ("A-ELC180 A-ELC270 A-ELC-UP", "A-ELC"),
+        ("site-270 site-360 site-UP", "site"),
+        ("site_45 site_135 site_vert", "site"),
+        ("WTMC_N28W WTMC_S62W WTMC_up", "WTMC"),
+        ("x y z", "quake"),
+    ],
+)
+def test_sets_of_three_are_told_by_the_ends_of_names(tmp_path, names, motion):
+    for name in names.split():
+        plain(tmp_path / "quake" / f"{name}.csv")
+    (found,), left = taken(tmp_path)[0].items(), taken(tmp_path)[1]
+    assert left == {}
+    assert found[0] == motion
+    first, second, vertical = (f"quake/{name}.csv" for name in names.split())
+    assert {*found[1][:2]} == {first, second}
+    assert found[1][2] == vertical
+
+
+@pytest.mark.parametrize(
+    ("names", "why"),
+    [
+        ("PET-000 PET-090", "2 horizontal and 0 vertical of one motion; a set has 2 and 1"),
+        ("P-000 P-090 P-180 P-UP", "3 horizontal and 1 vertical of one motion; a set has 2 and 1"),
+        ("P-000 P-090 P-UP P-V", "2 horizontal and 2 vertical of one motion; a set has 2 and 1"),
+        ("P-000 P-180 P-UP", "the horizontal components are not perpendicular by their names"),
+        ("P-000 P-H2 P-UP", "the horizontal components are not perpendicular by their names"),
+        ("P-000 P-090 P-DWN", "the vertical is positive downward; a motion has it upward"),
+    ],
+)
+def test_what_is_not_clear_is_left_with_the_reason(tmp_path, names, why):
+    for name in names.split():
+        plain(tmp_path / f"{name}.csv")
+    sets, left = taken(tmp_path)
+    assert sets == {}
+    ((what, said),) = left.items()
+    assert said == why
+    assert sorted(what.split(", ")) == sorted(f"{name}.csv" for name in names.split())
+
+
+@pytest.mark.parametrize("names", ["one two three", "site1 site2 site3", "a-x b-y c-z"])
+def test_records_without_a_common_name_make_no_set(tmp_path, names):
+    for name in names.split():
+        plain(tmp_path / f"{name}.csv")
+    sets, left = taken(tmp_path)
+    assert (sets, len(left)) == ({}, 3)
+
+
+@pytest.mark.parametrize(
+    ("dt_s", "count", "why"),
+    [
+        (0.02, 100, "time steps differ: 0.01 to 0.02 s"),
+        (0.01, 94, "lengths differ: 94 to 100 samples"),
+        (0.01, 95, ""),
+    ],
+)
+def test_components_have_one_time_step_and_about_one_length(tmp_path, dt_s, count, why):
+    assert LENGTHS_WITHIN == 0.05
+    for axis in "xy":
+        plain(tmp_path / f"A-{axis}.csv")
+    plain(tmp_path / "A-z.csv", dt_s, count)
+    sets, left = taken(tmp_path)
+    assert (list(sets), list(left.values())) == (([], [why]) if why else (["A"], []))
+
+
+def test_headings_go_before_names_and_must_not_contradict_them(tmp_path):
+    for number, component in (("012", "272 (STA 7)"), ("013", "UP (STA 7)"), ("014", "2 (STA 7)")):
+        peer(tmp_path / f"free_CHAN{number}.AT2", component)
+    for end, component in (("021", "21"), ("111", "111"), ("-UP", "UP")):
+        peer(tmp_path / f"RSN4_36695{end}.AT2", component)
+    for end, component in (("000", "0 (STA 7)"), ("090", "90 (STA 8)"), ("UP", "UP (STA 7)")):
+        peer(tmp_path / f"two-{end}.AT2", component)
+    peer(tmp_path / "wrong-UP.AT2", "180")
+    peer(tmp_path / "wrong-090.AT2", "180")
+    sets, left = taken(tmp_path)
+    assert sets == {
+        "RSN4_36695": [f"RSN4_36695{end}.AT2" for end in ("021", "111", "-UP")],
+        "free": [f"free_CHAN{number}.AT2" for number in ("014", "012", "013")],
+    }
+    assert (
+        left["wrong-UP.AT2"]
+        == left["wrong-090.AT2"]
+        == ("its heading (180) and its name have different components")
+    )
+    assert left["two-090.AT2"].startswith("1 horizontal and 0 vertical")
+
+
+def test_several_channels_of_a_file_are_named_as_in_the_sheet(tmp_path):
+    rows = "".join(f"{0.01 * k:.2f},0.1,{0.2 * (k % 2)},0.{k}\n" for k in range(8))
+    (tmp_path / "PAS.csv").write_text(f"time [s],HNZ [g],HNN [g],HNE [g]\n{rows}")
+    (tmp_path / "many.csv").write_text(f"time [s],a [g],b [g],c [g]\n{rows}")
+    sets, left = taken(tmp_path)
+    assert sets == {"PAS": ["PAS.csv | HNE", "PAS.csv | HNN", "PAS.csv | HNZ"]}
+    assert left == {"many.csv": "neither its heading (a) nor its name has a component"}
+    assert "PAS     x  PAS.csv | HNE    0.01        8  text" in list(table(sets_of(tmp_path)[0]))
+
+
+def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):
+    for name in ("a/M", "b/M", f"{'n' * 41}/x", "c/K"):
+        for axis in "xyz":
+            plain(tmp_path / f"{name}-{axis}.csv")
+    for axis in "xyz":
+        plain(tmp_path / "d" / f"{'q' * 41}-{axis}.csv")
+    sets, left = taken(tmp_path)
+    assert list(sets) == ["K", "x"]
+    assert len(left) == 3
+    assert {why.partition(";")[0] for why in left.values()} == {
+        "their name is M",
+        f"their name is {'q' * 41}",
+    }
+
+
+def test_more_files_than_a_session_takes_are_refused(tmp_path):
+    for number in range(501):
+        (tmp_path / f"{number}.csv").touch()
+    with pytest.raises(InputError, match="has 501 files, more than 500"):
+        sets_of(tmp_path)
+
+
+@pytest.mark.skipif(not SHARED.is_dir(), reason="the real records are not on this machine")
+def test_real_records_are_told_by_their_headings():
+    sets, left = taken(SHARED)
+    channels = {name: [each.partition("| ")[2][:16] for each in sets[name]] for name in sets}
+    assert channels == {
+        "20161113_110259_WTMC_20": ["Component S62W T", "Component N28W L", "Component Up Ver"],
+        "20161113_110300_HSES_20": ["Component N10E L", "Component N80W T", "Component Up Ver"],
+        "Free_Field": [""] * 3,
+        "angol1002271parte1": ["CHAN 1: EW (STA ", "CHAN 2: NS (STA ", "CHAN 3: V (STA C"],
+        "llolleo1002271": ["CHAN 1: L (STA C", "CHAN 3: T (STA C", "CHAN 2: V (STA C"],
+    }  # fmt: skip
+    # Three channels of one structure at different places are no set.
+    assert sum("Structure_CHAN" in what for what in left) == 3

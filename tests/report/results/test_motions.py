@@ -1,0 +1,144 @@
+"""Motions that are added to a workbook: rows and records, all or nothing, nothing doubled."""
+
+import zipfile
+
+import pytest
+from test_sets import plain
+
+import commands
+from report.motions.prepare import prepare
+from report.sheet.reading.read import read
+from sheets import make, problems, type_into
+
+
+@pytest.fixture
+def library(tmp_path):
+    """Two sets, one in a folder, and a record that belongs to none."""
+    for axis in "xyz":
+        plain(tmp_path / "library" / "kobe" / f"KJM-{axis}.csv", count=200)
+        plain(tmp_path / "library" / f"PET-{axis}.csv", count=200)
+    plain(tmp_path / "library" / "lone.csv")
+    return tmp_path / "library"
+
+
+def rows(*words):
+    return ("motion", "rows", *words)
+
+
+def test_a_folder_is_listed_without_a_workbook(library):
+    told = commands.printed(*rows(library))
+    assert "KJM     x  kobe/KJM-x.csv" in told
+    assert "not taken: lone.csv: neither its heading (none) nor its name has a component" in told
+
+
+def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
+    path = make(tmp_path / "p")
+    before = read(path).project.motions
+    told = commands.printed(*rows(library, tmp_path / "p", "--at", "roof"))
+    assert "6 records copied." in told
+    assert f"{path}: 2 rows added to the sheet Motions." in told
+    *standing, first, second = read(path).project.motions
+    assert tuple(standing) == before
+    assert [m.id for m in (first, second)] == ["PET", "KJM"]
+    assert second.record == "records/kobe/KJM-x.csv"
+    assert (second.transverse, second.vertical) == (
+        "records/kobe/KJM-y.csv",
+        "records/kobe/KJM-z.csv",
+    )
+    assert (first.recorded_at, first.source) == ("roof", "PET, text")
+    copied = tmp_path / "p" / "records" / "kobe" / "KJM-z.csv"
+    assert copied.read_bytes() == (library / "kobe" / "KJM-z.csv").read_bytes()
+    assert not (tmp_path / "p" / "records" / "lone.csv").exists()
+    # Everything stands already: each cell is listed, and nothing changes.
+    after = path.read_bytes()
+    told = commands.refused(*rows(library, path, "--at", "ground", "--only", "k*"))
+    assert told.count("already; remove the row, or leave the motion out") == 4
+    assert path.read_bytes() == after
+
+
+def test_records_with_given_units_are_read_by_their_rows(library, tmp_path):
+    for axis in "xyz":
+        (library / f"raw-{axis}.txt").write_text("".join(f"0.{k:03d}\n" for k in range(200)))
+    path = make(tmp_path / "p")
+    words = ("--at", "roof", "--only", "raw", "--units", "m/s2", "--dt", 0.02)
+    commands.printed(*rows(library, path, *words))
+    new = prepare(read(path)).motions[-1]
+    assert (new.id, new.dt_s) == ("raw", 0.02)
+    assert abs(new.ax_mps2).max() == pytest.approx(0.199)
+
+
+def test_the_level_goes_into_the_rows(library, tmp_path):
+    path = make(tmp_path / "p")
+    commands.printed(*rows(library, path, "--at", "ground"))
+    assert [row["recorded_at"] for row in read(path).draft["motions"]][-2:] == ["ground"] * 2
+
+
+def test_records_in_the_project_stay_where_they_are(library, tmp_path):
+    path = make(tmp_path / "p")
+    library.rename(tmp_path / "p" / "own")
+    told = commands.printed(*rows(tmp_path / "p" / "own", path, "--at", "roof"))
+    assert "0 records copied." in told
+    assert read(path).project.motions[-1].record == "own/kobe/KJM-x.csv"
+
+
+def test_another_file_is_never_overwritten(library, tmp_path):
+    path = make(tmp_path / "p")
+    other = plain(tmp_path / "p" / "records" / "PET-y.csv", count=7)
+    before = path.read_bytes(), other.read_bytes()
+    told = commands.refused(*rows(library, path, "--at", "roof"))
+    assert f"{other}: is another file than {library / 'PET-y.csv'}; rename one" in told
+    assert (path.read_bytes(), other.read_bytes()) == before
+    assert not (tmp_path / "p" / "records" / "PET-x.csv").exists()
+
+
+def test_a_link_out_of_the_folder_is_not_followed(library, tmp_path):
+    path, outside = make(tmp_path / "p"), tmp_path / "outside"
+    (tmp_path / "p" / "records").rename(outside)
+    (tmp_path / "p" / "records").symlink_to(outside)
+    names = {entry.name for entry in outside.iterdir()}
+    assert "is outside the workbook's folder" in commands.refused(
+        *rows(library, path, "--at", "roof")
+    )
+    assert {entry.name for entry in outside.iterdir()} == names
+
+
+@pytest.mark.parametrize("name", ["../out.csv", "/etc/x.csv", "a/../../b.csv"])
+def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
+    path, zipped = make(tmp_path / "p"), tmp_path / "kobe.zip"
+    with zipfile.ZipFile(zipped, "w") as archive:
+        for axis in "xyz":
+            archive.write(library / "kobe" / f"KJM-{axis}.csv", f"kobe/KJM-{axis}.csv")
+    commands.printed(*rows(zipped, path, "--at", "roof"))
+    assert read(path).project.motions[-1].vertical == "records/kobe/KJM-z.csv"
+    with zipfile.ZipFile(zipped, "a") as archive:
+        archive.writestr(name, "0,0")
+    assert "is no path within a folder" in commands.refused(*rows(zipped))
+
+
+def test_where_they_were_recorded_is_asked(library, tmp_path):
+    path = make(tmp_path / "p")
+    assert "add --at roof or --at ground" in commands.refused(*rows(library, path))
+    assert not (tmp_path / "p" / "records" / "kobe").exists()
+    told = commands.refused(*rows(library, path, "--at", "roof", "--only", "nothing"))
+    assert "no set of two horizontal records and a vertical one to take" in told
+
+
+def test_the_library_of_the_user_is_searched(library, tmp_path, monkeypatch):
+    monkeypatch.setattr("click.get_app_dir", lambda _: str(tmp_path / "config"))
+    config = tmp_path / "config" / "config.toml"
+    assert f"write motions = '/folder/of/motions' in {config}" in commands.refused(*rows("kobe"))
+    config.parent.mkdir()
+    for text, why in (
+        ("motions = 3", "no such folder or zip, here or in"),
+        ("motions", "cannot be read"),
+    ):
+        config.write_text(text)
+        assert why in commands.refused(*rows("kobe"))
+    config.write_text(f"motions = '{library}'")
+    path = make(tmp_path / "p")
+    commands.printed(*rows("kobe", path, "--at", "roof"))
+    # The workbook names the copy beside it, never the library.
+    assert read(path).project.motions[-1].record == "records/KJM-x.csv"
+    assert "is outside the workbook's folder" in "".join(
+        problems(type_into(path, {"Motions/KJM/Horizontal record": str(library / "PET-x.csv")}))
+    )
