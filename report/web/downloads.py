@@ -16,9 +16,10 @@ from starlette.routing import Route
 
 from report.making import OUTPUTS
 from report.web.desk import RefusedError, desk_of, session_of
-from report.web.packages import Package, State, copied
-from report.web.receiving import receive_json
+from report.web.packages import SUITE, Package, State, copied
+from report.web.receiving import receive_json, received
 from report.web.uploads import remove
+from report.web.worker import PROJECT
 from report.web.workers import Rank
 from solver.model import InputError
 
@@ -27,6 +28,7 @@ _TYPES = {
     ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
     ".json": "application/json",
     ".dxf": "image/vnd.dxf",
+    ".zip": "application/zip",
 }
 
 
@@ -34,6 +36,7 @@ def package_routes() -> list[Route]:
     """Return the routes of packages."""
     return [
         Route("/api/package", _begin, methods=["POST"]),
+        Route("/api/motions", _motions, methods=["POST"]),
         Route("/api/package/{ticket}", _about, methods=["GET"]),
         Route("/api/package/{ticket}", _cancel, methods=["DELETE"]),
         Route("/api/package/{ticket}/{name}", _file, methods=["GET"]),
@@ -70,6 +73,16 @@ async def _begin(request: Request) -> Response:
     return JSONResponse(desk.packages.about(desk.packages.begin(session, path, values)))
 
 
+async def _motions(request: Request) -> Response:
+    """Begin a suite of motions for a workbook without any, which is sent again for it."""
+    session, packages = session_of(request), desk_of(request).packages
+    folder = session.folder / f"package-{secrets.token_hex(8)}"
+    folder.mkdir()
+    workbook = await received(request, folder)
+    await packages.cancel_unfinished(session, SUITE)
+    return JSONResponse(packages.about(packages.begin(session, workbook, {}, SUITE)))
+
+
 def _writing(values: Any, to: str) -> dict[str, Any]:
     return {"do": "write", "values": values, "to": to}
 
@@ -87,7 +100,7 @@ async def _cancel(request: Request) -> Response:
 async def _file(request: Request) -> Response:
     package, name = _package(request), request.path_params["name"]
     path = package.out / name
-    if package.state is not State.DONE or name not in OUTPUTS:
+    if package.state is not State.DONE or name not in (*OUTPUTS, PROJECT) or not path.is_file():
         raise HTTPException(404, "There is no such file of this package")
     response = FileResponse(path, media_type=_TYPES[path.suffix])
     return response if "view" in request.query_params else _attached(response, name)

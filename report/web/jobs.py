@@ -17,6 +17,7 @@ from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment, anticipate, assess
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.parts import changed
+from report.sheet.reading.read import read
 from report.sheet.reading.what_if import cells
 from report.sheet.writing.filled import fill_cells
 from report.web import views
@@ -66,7 +67,8 @@ def state(workbook: Path, job: Json) -> Json:
     try:
         given = _open(workbook)
     except InputError as error:
-        return {"project": None, "problems": problems(workbook, error), "answer": None}
+        found = {"project": None, "problems": problems(workbook, error), "answer": None}
+        return {**found, "lacks_motions": _lacks_motions(workbook)}
     answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
         "project": {
@@ -86,6 +88,15 @@ def state(workbook: Path, job: Json) -> Json:
         },
         "answer": answered,
     }
+
+
+def _lacks_motions(workbook: Path) -> bool:
+    """Whether a workbook can be read, and has the sheet Motions but no motion on it."""
+    try:
+        sheet = read(workbook)
+    except InputError:
+        return False
+    return "motions" not in sheet.unfound and not sheet.draft["motions"]
 
 
 def answer_at(workbook: Path, job: Json) -> Json:

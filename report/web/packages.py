@@ -20,13 +20,24 @@ from typing import Any
 from report.making import STEPS
 from report.web.sessions import Session
 from report.web.values import Values
-from report.web.worker import made, making
+from report.web.worker import MOTIONS, made, making, motions_made
 
 LONGEST_S = 900.0
 """Longest time of a package [s]; then its process is ended."""
 
 KEPT = 5
 """Packages that a session keeps; older ones are removed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """What a process makes of a workbook, `report.web.worker`, and the steps that it tells."""
+
+    do: Callable[[Path, Path], str]
+    steps: int
+
+
+PACKAGE, SUITE = Task(made, len(STEPS)), Task(motions_made, MOTIONS + 1)
 
 
 class State(StrEnum):
@@ -46,7 +57,7 @@ class State(StrEnum):
 
 @dataclass(slots=True, eq=False)
 class Package:
-    """A package of a session: the workbook as written, beside it its records and out/.
+    """A package or suite of a session: the workbook as written, beside it its records and out/.
 
     Attributes
     ----------
@@ -61,6 +72,7 @@ class Package:
     opened: str
     workbook: Path
     values: Values
+    task: Task
     state: State = State.QUEUED
     words: str = "Waiting"
     step: int = 0
@@ -95,12 +107,14 @@ class Packages:
         """The sessions that have a package."""
         return {each.owner for each in self._all.values()}
 
-    def begin(self, session: Session, workbook: Path, values: Values) -> Package:
+    def begin(
+        self, session: Session, workbook: Path, values: Values, task: Task = PACKAGE
+    ) -> Package:
         """Queue the package of a workbook that has a folder of its own, with its records.
 
         While another one of the session waits or is made, that one is returned.
         """
-        if (unfinished := self.unfinished(session)) is not None:
+        if (unfinished := self.unfinished(session, task)) is not None:
             shutil.rmtree(workbook.parent, ignore_errors=True)
             return unfinished
         own = self._of(session)
@@ -114,20 +128,23 @@ class Packages:
             opened=session.opened,
             workbook=workbook,
             values=values,
+            task=task,
         )
         self._all[package.ticket] = package
-        task = asyncio.create_task(self._make(package))
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        running = asyncio.create_task(self._make(package))
+        self._tasks.add(running)
+        running.add_done_callback(self._tasks.discard)
         return package
 
-    def unfinished(self, session: Session) -> Package | None:
+    def unfinished(self, session: Session, task: Task = PACKAGE) -> Package | None:
         """Return the package of a session that waits or is made."""
-        return next((each for each in self._of(session) if not each.state.is_over), None)
+        own = (each for each in self._of(session) if each.task is task)
+        return next((each for each in own if not each.state.is_over), None)
 
     def last(self, session: Session) -> Package | None:
         """Return the last package of what a session has open, unless it was canceled."""
-        found = [each for each in self._of(session) if each.opened == session.opened]
+        own = (each for each in self._of(session) if each.task is PACKAGE)
+        found = [each for each in own if each.opened == session.opened]
         return found[-1] if found and found[-1].state is not State.CANCELED else None
 
     def find(self, session: Session, ticket: str) -> Package | None:
@@ -144,7 +161,7 @@ class Packages:
             "values": package.values,
             "state": package.state.value,
             "words": f"In line, place {queued.index(package) + 1}" if is_queued else package.words,
-            "part": None if is_queued else package.step / (len(STEPS) + 1),
+            "part": None if is_queued else package.step / (package.task.steps + 1),
         }
 
     async def cancel(self, package: Package) -> None:
@@ -155,9 +172,9 @@ class Packages:
         if package.worker is not None:
             package.worker.shutdown()
 
-    async def cancel_unfinished(self, session: Session) -> None:
+    async def cancel_unfinished(self, session: Session, task: Task = PACKAGE) -> None:
         """Cancel the package of a session that waits or is made."""
-        if (package := self.unfinished(session)) is not None:
+        if (package := self.unfinished(session, task)) is not None:
             await self.cancel(package)
 
     async def forget(self, owner: str) -> None:
@@ -189,7 +206,7 @@ class Packages:
         """Have a process make a package; return why there is none, empty if there is."""
         with self._start(package) as worker:
             package.worker = worker
-            asked = worker.submit(made, package.workbook, package.out)
+            asked = worker.submit(package.task.do, package.workbook, package.out)
             try:
                 async with asyncio.timeout(LONGEST_S):
                     return await asyncio.wrap_future(asked)

@@ -7,12 +7,14 @@ then `made`.
 from __future__ import annotations
 
 import gc
+import tempfile
 import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile
 
 from report.making import Step
 from report.web.limits import FULL, INTERNAL, confine, is_full
@@ -21,6 +23,12 @@ from report.workers import WorkerProcess, started_worker, tell
 
 NICE = 5
 """How far the others give way to the process of quick jobs, as the command nice has it."""
+
+MOTIONS, SEED = 7, 1
+"""Number and seed of the motions that are made for a workbook without any."""
+
+PROJECT = "project.zip"
+"""The workbook with its motions and all files beside it."""
 
 _OF_JOBS = {"RLIMIT_AS": 6 << 30}
 _OF_PACKAGES = {"RLIMIT_AS": 8 << 30, "RLIMIT_FSIZE": 1 << 30, "RLIMIT_CPU": 900}
@@ -75,9 +83,50 @@ def made(workbook: Path, out: Path) -> str:
     """Make a package, telling its steps; return why there is none, in the words of the page."""
     from report.making import make
 
-    try:
+    def do() -> None:
         with started_worker() as worker:
             make(workbook, out, None, lambda step: tell(in_words(step)), worker)
+
+    return _failure(do)
+
+
+def motions_made(workbook: Path, out: Path) -> str:
+    """Make motions for the site of a workbook and list them in it, likewise; zip the project."""
+
+    def do() -> None:
+        from report.results.motions import add_motions
+        from report.sheet.reading.read import read
+        from report.suite.files import suite_files
+        from report.suite.inputs import ac156_targets
+        from report.suite.site import suite_basis, suite_rows
+        from solver.synthesis import make_suite
+
+        targets = ac156_targets(**suite_basis(read(workbook), {})[0])
+        tell("Preparing the motions")
+        suite = make_suite(
+            targets.horizontal,
+            targets.vertical,
+            count=MOTIONS,
+            seed=SEED,
+            progress=lambda words: tell(capitalized(words)),
+        )
+        files = suite_files(suite, targets, seed=SEED, records={})
+        rows = suite_rows(MOTIONS, targets, "records", SEED)
+        add_motions(workbook, rows, {f"records/{name}": data for name, data in files.items()})
+        out.mkdir(exist_ok=True)
+        left_out = {out, Path(tempfile.gettempdir())}
+        with ZipFile(out / PROJECT, "w", ZIP_DEFLATED) as archive:
+            for path in sorted(workbook.parent.rglob("*")):
+                if left_out.isdisjoint((path, *path.parents)):
+                    archive.write(path, path.relative_to(workbook.parent))
+
+    return _failure(do)
+
+
+def _failure(do: Callable[[], None]) -> str:
+    """Do something; return why it failed, in the words of the page."""
+    try:
+        do()
     except MemoryError:
         return "It needs more memory than a package may use."
     except Exception as error:

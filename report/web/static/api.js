@@ -81,6 +81,8 @@ export function createApi(announce, room) {
     startPackage: (values) => asked("/api/package", about({ values })),
     packageState: (ticket) => asked(`/api/package/${ticket}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),
     cancelPackage: (ticket) => asked(`/api/package/${ticket}`, { method: "DELETE" }),
+    startMotions: (files) => asked("/api/motions", { method: "POST", body: form(files) }),
+    project: (url) => downloaded(url),
     workbook: (values) => downloaded("/api/workbook", about({ values })),
   };
 }

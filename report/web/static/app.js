@@ -5,6 +5,7 @@ import { showBars } from "./bars.js";
 import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
 import { button, html, replace } from "./make.js";
+import { mountMotions } from "./motions.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
 import { showNoVerdict, showProvisional, showTable, showVerdict, withoutVerdicts } from "./results.js";
@@ -41,13 +42,19 @@ const takeaway = mountTakeaway(
   { values: session.values, words: (values) => changes(values, state), fail, forget: hideError },
 );
 
+const motions = mountMotions(part("no-motions"), api, { open: opening, fail });
+
+let dropped = null; // the files of the last upload
 let state = null; // of the project that is open
 let answer = null; // the last that was shown
 let controls = null;
 const chosen = { array: null, motion: null };
 
 mountTabs(part("tabs"), (panel) => views.open(panel));
-mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, (files) => opening(() => api.upload(files)));
+mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, (files) => {
+  dropped = files;
+  opening(() => api.upload(files));
+});
 part("back").addEventListener("click", showDesk);
 part("example").addEventListener("click", () => opening(api.example));
 part("add-clearances").addEventListener("click", () => opening(api.addClearances, true));
@@ -71,6 +78,7 @@ async function opening(fetched, isRestored = false) {
 }
 
 function open(next, isRestored) {
+  motions.offer(next.lacks_motions ? dropped : null);
   if (next.problems.length > 0) {
     showErrors(next);
     return;
@@ -85,8 +93,8 @@ function open(next, isRestored) {
 }
 
 // A workbook with errors is not opened: what was open stays so.
-function showErrors({ problems, is_alone: isAlone }) {
-  const isLost = isAlone && problems.some(({ cell }) => cell); // a workbook, but no records
+function showErrors({ problems, is_alone: isAlone, lacks_motions: lacksMotions }) {
+  const isLost = isAlone && !lacksMotions && problems.some(({ cell }) => cell); // a workbook, but no records
   showProblems(part("problems"), problems, isLost ? "The records were not sent" : "Errors in the workbook", isLost ? ALONE : CORRECT);
   part("back").hidden = !state;
   if (state) part("back").textContent = `Back to ${state.project.name}`;

@@ -76,8 +76,8 @@ export function say(status, api, sentence) {
   api.announce(sentence);
 }
 
-// Show a package, from what the server told of it, until it is over or no longer wanted.
-async function follow(api, told, { isWanted, show }) {
+/** Show a package, from what the server told of it, until it is over or no longer wanted. */
+export async function follow(api, told, { isWanted, show }) {
   let latest = told;
   while (isWanted()) {
     show(latest);
@@ -111,12 +111,12 @@ function noteValues(status, words) {
   shown.textContent = words && `${when} before the last change of values, with ${words}.`;
 }
 
-function isOver({ state }) {
+export function isOver({ state }) {
   return state !== "queued" && state !== "running";
 }
 
-// The elements stay while the package is made, so that Cancel keeps the focus.
-function showProgress(status, api, { words, part }, cancel) {
+/** Show how far a package is; the elements stay while it is made, so that Cancel keeps the focus. */
+export function showProgress(status, api, { words, part }, cancel) {
   if (!status.querySelector("progress")) {
     replace(
       status,
