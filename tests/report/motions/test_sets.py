@@ -6,16 +6,9 @@ import pytest
 from places import ROOT
 from report.motions.sets import LENGTHS_WITHIN, sets_of, table
 from solver.model import InputError
+from waves import plain
 
 SHARED = ROOT.parent / "shared" / "records"
-
-
-def plain(path, dt_s=0.01, count=100):
-    """A record with times, whose heading names no component."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    rows = (f"{k * dt_s:.4f},{0.1 * np.sin(0.3 * k):.5f}" for k in range(count))
-    path.write_text("time_s,acceleration_g\n" + "\n".join(rows) + "\n")
-    return path
 
 
 def peer(path, component, dt_s=0.01):

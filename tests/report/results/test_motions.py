@@ -3,12 +3,12 @@
 import zipfile
 
 import pytest
-from test_sets import plain
 
 import commands
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
 from sheets import make, problems, type_into
+from waves import plain
 
 
 @pytest.fixture

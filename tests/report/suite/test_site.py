@@ -3,10 +3,10 @@
 import json
 
 import pytest
-from test_suite_small import wave
 
 import commands
 import solver.synthesis
+import waves
 from report.results.publish import STAMP
 from report.sheet.reading.read import read
 from report.suite.inputs import ac156_targets
@@ -14,7 +14,6 @@ from report.suite.site import suite_basis
 from sheets import at, make, type_into
 from solver.model import InputError
 from solver.rules.spectra import Tail
-from solver.synthesis import SuiteMotion
 
 
 def test_the_basis_of_a_suite_is_the_site_of_the_workbook_with_its_cells(tmp_path):
@@ -55,10 +54,8 @@ def test_each_value_that_the_workbook_lacks_is_an_error_at_its_cells(tmp_path):
 
 @pytest.fixture
 def quick(monkeypatch):
-    """Two motions of sines at once."""
-    motions = [SuiteMotion(x=wave("x", 0.5), y=wave("y", 2.5), z=wave("z", 5.0),
-                           seeds=("noise",) * 3, hold_s=2.0)]  # fmt: skip
-    monkeypatch.setattr(solver.synthesis, "make_suite", lambda *_, **__: motions)
+    """Motions of sines at once."""
+    monkeypatch.setattr(solver.synthesis, "make_suite", lambda *_, count, **__: waves.suite(count))
 
 
 def suite(*words):

@@ -4,29 +4,18 @@ import hashlib
 import json
 import math
 
-import numpy as np
 import pytest
 
+import waves
 from report.suite.files import suite_files, suite_table
 from report.suite.inputs import ac156_targets
 from report.words.units import G_MPS2
-from solver.records.record import record_from_values
 from solver.rules.spectra import Tail
-from solver.synthesis import SuiteMotion
-
-DT_S, SECONDS, PEAK_G = 0.01, 4.0, 0.25
-
-
-def wave(axis, hz):
-    """Whole periods of a sine."""
-    times = np.arange(0.0, SECONDS + DT_S / 2, DT_S)
-    name = f"motion-01-{axis}"
-    return record_from_values(name, PEAK_G * np.sin(2 * math.pi * hz * times), units="g", dt_s=DT_S)
+from waves import PEAK_G
 
 
 def test_the_files_of_a_suite_say_what_its_samples_are():
-    x, y, z = (wave(axis, hz) for axis, hz in zip("xyz", (0.5, 2.5, 5.0), strict=True))
-    suite = [SuiteMotion(x=x, y=y, z=z, seeds=("noise",) * 3, hold_s=2.0)]
+    suite = waves.suite(1)
     targets = ac156_targets("asce7-16", s_ds_g=1.2, z_over_h=1.0, tail=Tail.AC156)
     files = suite_files(suite, targets, seed=3, records={})
     document = json.loads(files["suite.json"])

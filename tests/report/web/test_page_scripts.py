@@ -387,3 +387,55 @@ def test_text_has_the_contrast_of_wcag_aa(theme):
     # What bounds a control or draws a curve needs 3 (WCAG 1.4.11).
     for line in ("rule", "across"):
         assert _contrast(colors[line], colors["paper"]) >= 3.0, line
+
+
+MOTIONS = """
+    document.body.innerHTML = "<div hidden></div>";
+    const [element] = document.body.children;
+    let state = { ticket: "t", state: "running", words: "Motion 1 of 7", part: 0.2 };
+    const sent = [], failed = [], opened = [];
+    const api = {
+      announce() {},
+      startMotions: async (files) => (sent.push(files), state),
+      packageState: async () => state,
+      cancelPackage: async () => (state = { ...state, state: "canceled", words: "Canceled." }),
+      project: async (url) => ({ name: "project.zip", blob: url }),
+      upload: async (files) => (opened.push(files), {}),
+    };
+    const open = async (fetched) => { await fetched(); motions.offer(null); };
+    const fail = (error) => failed.push(error.message);
+    const motions = m.mountMotions(element, api, { open, fail });
+    const pause = () => new Promise((done) => setTimeout(done, 20));
+    const until = async (selector) => {
+      for (let k = 0; k < 150 && !element.querySelector(selector); k += 1) await pause();
+      return element.querySelector(selector);
+    };
+    const isHidden = [element.hidden];
+    motions.offer(["a"]); isHidden.push(element.hidden);
+    element.querySelector("button").click();
+    await until("progress");
+"""
+
+
+def test_motions_that_are_made_are_opened_and_can_be_saved(page):
+    steps = """
+        state = { ...state, state: "done" };
+        const link = await until("a");
+        motions.offer(null); isHidden.push(element.hidden);
+        return [isHidden, sent, opened, link.getAttribute("href"), failed];"""
+    url = "/api/package/t/project.zip"
+    zipped = [{"file": url, "path": "project.zip"}]
+    assert called(page, "motions", MOTIONS + steps) == [
+        [True, False, True], [["a"]], [zipped], url, [],
+    ]  # fmt: skip
+
+
+def test_motions_that_are_canceled_are_offered_again(page):
+    steps = """
+        element.querySelector("button").click();
+        for (let k = 0; k < 150 && element.querySelector("progress"); k += 1) await pause();
+        return [element.textContent, opened];"""
+    text, opened = called(page, "motions", MOTIONS + steps)
+    assert text.startswith("No motions? Make seven for this site")
+    assert text.endswith("Canceled.")
+    assert opened == []

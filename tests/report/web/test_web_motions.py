@@ -1,0 +1,115 @@
+"""Motions for a workbook that has none: who is offered them, how they are made and saved."""
+
+import io
+import tempfile
+import time
+import zipfile
+
+import pytest
+
+import solver.synthesis
+import waves
+from browsing import opened, quiet_page, served
+from report.sheet.reading.read import read
+from report.web import worker
+from report.web.jobs import perform
+from report.web.packages import SUITE
+from report.web.worker import MOTIONS, PROJECT, motions_made
+from sheets import at, make, type_into
+
+MOTION_CELLS = ("ID", "Horizontal record", "Vertical record", "Time step", "Scaling",
+                "Factor or PPA", "Polarity", "Source", "Record units", "Recorded at")  # fmt: skip
+
+
+def without_motions(folder, **cells):
+    """A workbook without a row of motions, nor records beside it."""
+    path = make(folder)
+    rows = {f"Motions/M{n}/{heading}": None for heading in MOTION_CELLS for n in (1, 2, 3)}
+    type_into(path, rows | {f"Site/{label}": value for label, value in cells.items()})
+    for record in (folder / "records").iterdir():
+        record.unlink()
+    return path
+
+
+@pytest.mark.parametrize("cells", [{}, {"S_DS": None, "S_MS": None, "S_S": None}])
+def test_a_workbook_without_motions_is_offered_some(tmp_path, cells):
+    answer = perform({"do": "state", "workbook": str(without_motions(tmp_path, **cells))})["answer"]
+    assert answer["lacks_motions"]
+    assert any("no motion is given" in each["text"] for each in answer["problems"])
+
+
+def test_a_workbook_with_motions_or_none_at_all_is_not(tmp_path):
+    path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": "records/none.csv"})
+    assert not perform({"do": "state", "workbook": str(path)})["answer"]["lacks_motions"]
+    path.write_bytes(b"none")
+    assert not perform({"do": "state", "workbook": str(path)})["answer"]["lacks_motions"]
+
+
+def test_motions_are_made_into_the_copy_and_its_zip(tmp_path, monkeypatch):
+    told = []
+
+    def motions(*_, count, progress, **__):
+        progress("motion 1 of 7")
+        return waves.suite(count)
+
+    monkeypatch.setattr(solver.synthesis, "make_suite", motions)
+    monkeypatch.setattr(worker, "tell", told.append)
+    path, out = without_motions(tmp_path / "p"), tmp_path / "p" / "out"
+    # As `report.workers` has it: the process has its temporary files beside the workbook.
+    (tmp_path / "p" / "own").mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "p" / "own"))
+    assert motions_made(path, out) == ""
+    assert told == ["Preparing the motions", "Motion 1 of 7"]
+    with zipfile.ZipFile(out / PROJECT) as archive:
+        names = set(archive.namelist())
+        archive.extractall(tmp_path / "unpacked")
+    assert {"input.xlsx", "records/motion-07-z.csv", "records/suite.json"} <= names
+    assert not any(name.startswith(("out", "own")) for name in names)
+    made = read(tmp_path / "unpacked" / "input.xlsx").project.motions
+    assert [motion.id for motion in made] == [f"motion-{k:02d}" for k in range(1, MOTIONS + 1)]
+    assert made[0].record == "records/motion-01-x.csv"
+
+
+def test_a_site_that_lacks_a_value_is_told_with_its_cell(tmp_path, monkeypatch):
+    path = without_motions(tmp_path / "p", **{"Rule set": None})
+    before = path.read_bytes()
+    said = motions_made(path, tmp_path / "p" / "out")
+    assert said.startswith(f"{at('Site/Rule set')}: ") or "missing" in said
+    assert path.read_bytes() == before
+
+
+def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(client, tmp_path):
+    path = without_motions(tmp_path, **{"Rule set": None})
+    files = [("files", ("p/input.xlsx", path.read_bytes()))]
+    began = client.post("/api/motions", files=files).json()
+    assert client.get("/api/state").json()["package"] is None
+    ticket = began["ticket"]
+    deadline = time.monotonic() + 60.0
+    while (told := client.get(f"/api/package/{ticket}").json())["state"] in ("queued", "running"):
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
+    assert told["state"] == "failed"
+    assert "missing or cannot be read" in told["words"]
+    assert client.get(f"/api/package/{ticket}/{PROJECT}").status_code == 404
+    assert client.post("/api/motions", files=[("files", ("../x.xlsx", b""))]).status_code == 422
+    assert SUITE.steps > MOTIONS
+
+
+@pytest.mark.nightly("report/web/")
+def test_the_page_makes_motions_and_goes_on_with_them(browser, tmp_path):
+    path = without_motions(tmp_path)
+    with served() as (address, _), quiet_page(browser) as page:
+        opened(page, address)
+        assert page.locator("#no-motions").is_hidden()
+        page.set_input_files("#files", [str(path)])
+        page.click("#no-motions button")
+        page.wait_for_selector("#no-motions progress")
+        page.wait_for_selector("#no-motions a", timeout=600_000)
+        page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
+        assert page.inner_text("h1") == "Alameda Warehouse"
+        with page.expect_download() as download:
+            page.click("#no-motions a")
+        content = io.BytesIO(download.value.path().read_bytes())
+        assert len([n for n in zipfile.ZipFile(content).namelist() if n.endswith(".csv")]) == 21
+        page.click("#example")
+        page.wait_for_selector("#no-motions", state="hidden")
