@@ -242,8 +242,8 @@ def rows(
             raise InputError("where were they recorded; add --at roof or --at ground")
         folder = _in_library(source)
         if folder.is_file():
-            unpack(folder, Path(temporary))
-            folder = Path(temporary)
+            zipped, folder = folder, Path(temporary, folder.stem)
+            unpack(zipped, folder)
         sets, left = sets_of(folder, units or "", dt_s)
         wanted = [name.casefold() for name in only or ("*",)]
         for name in list(sets):

@@ -17,7 +17,6 @@ from report.motions.files import BAR, MAX_BYTES
 from report.words.formats import aligned
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
-from solver.records.record import Record
 
 MOST_FILES = 500
 MOST_NAME = 40  # of an ID
@@ -25,6 +24,7 @@ LENGTHS_WITHIN = 0.05
 """Part by which components may differ in length: those of one recording often end apart."""
 
 _UP, _DOWN, _AZIMUTH = "up", "down", "azimuth"
+_HIDDEN = re.compile(r"/(\.|~\$|__MACOSX/)")
 _SPELLED = {
     (_UP, 0): "up u ud u-d v ver vert vertical z", (_DOWN, 0): "dn dwn down",
     ("xy", 0): "x", ("xy", 90): "y", ("12", 0): "h1 1", ("12", 90): "h2 2",
@@ -45,13 +45,14 @@ _END = re.compile(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Channel:
+class Candidate:
     """A channel of a file as a component of a motion."""
 
     file: str  # its path from the folder
     channel: str  # empty where the file has one
     format: str
-    record: Record
+    dt_s: float
+    npts: int
     family: str  # of names for components, one of `_SPELLED` or azimuths
     degrees: int  # within the family
     motion: tuple[str, str]  # what names the motion: the file without the component, the heading
@@ -67,7 +68,7 @@ class Channel:
         return self.family not in (_UP, _DOWN)
 
 
-Sets = dict[str, Sequence[Channel]]
+Sets = dict[str, Sequence[Candidate]]
 """The channels of x, y and z by the name of the motion."""
 
 Left = tuple[str, str]
@@ -82,11 +83,15 @@ def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets
     InputError
         If it has more than `MOST_FILES` files.
     """
-    paths = sorted(path for path in folder.rglob("[!.~]*") if path.is_file())
+    paths = sorted(
+        path
+        for path in folder.rglob("*")
+        if not _HIDDEN.search(f"/{path.relative_to(folder).as_posix()}") and path.is_file()
+    )
     if len(paths) > MOST_FILES:
         raise InputError(f"has {len(paths)} files, more than {MOST_FILES}; name a folder within it")
     left: list[Left] = []
-    groups: dict[tuple[str, ...], list[Channel]] = {}
+    groups: dict[tuple[str, ...], list[Candidate]] = {}
     for path in paths:
         file = path.relative_to(folder).as_posix()
         try:
@@ -99,7 +104,7 @@ def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets
                 groups.setdefault(key, []).append(each)
         except InputError as error:
             left.append((file, error.problems[0].removeprefix(f"{path.name}: ")))
-    clear: list[tuple[str, str, list[Channel]]] = []
+    clear: list[tuple[str, str, list[Candidate]]] = []
     for (parent, stem, rest, *_), group in groups.items():
         group.sort(key=lambda each: (not each.is_horizontal, each.degrees))
         if why := next(_unclear(group), ""):
@@ -124,16 +129,16 @@ def table(sets: Sets) -> Iterator[str]:
     rows = [("motion", "", "record", "dt [s]", "samples", "format")]
     for name, group in sets.items():
         for axis, each in zip("xyz", group, strict=True):
-            size = f"{each.record.dt_s:.4g}", str(len(each.record.a_mps2))
-            rows.append((name if axis == "x" else "", axis, each.name, *size, each.format))
+            first = name if axis == "x" else ""
+            rows.append((first, axis, each.name, f"{each.dt_s:.4g}", str(each.npts), each.format))
     return aligned(rows, "<<<>><")
 
 
-def _listed(group: Sequence[Channel]) -> str:
+def _listed(group: Sequence[Candidate]) -> str:
     return ", ".join(each.name for each in group)
 
 
-def _unclear(group: Sequence[Channel]) -> Iterator[str]:
+def _unclear(group: Sequence[Candidate]) -> Iterator[str]:
     """Yield why a group in the order of x, y, z is not the set of a motion."""
     level = [each for each in group if each.is_horizontal]
     if (len(level), len(group)) != (2, 3):
@@ -143,15 +148,14 @@ def _unclear(group: Sequence[Channel]) -> Iterator[str]:
         yield "the vertical is positive downward; a motion has it upward"
     elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:
         yield "the horizontal components are not perpendicular by their names"
-    steps = [each.record.dt_s for each in group]
-    lengths = [len(each.record.a_mps2) for each in group]
+    steps, lengths = [each.dt_s for each in group], [each.npts for each in group]
     if max(steps) - min(steps) > 1e-9 * max(steps):
         yield f"time steps differ: {min(steps):g} to {max(steps):g} s"
     if min(lengths) < (1.0 - LENGTHS_WITHIN) * max(lengths):
         yield f"lengths differ: {min(lengths)} to {max(lengths)} samples"
 
 
-def _channels(file: str, motion_file: MotionFile) -> Sequence[Channel]:
+def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
     """Return the channels of a file; raise where the component of one is not clear."""
     found = []
     is_alone = len(motion_file.channels) == 1
@@ -170,11 +174,12 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Channel]:
         if not of_name and family == _AZIMUTH:
             stem = stem.removesuffix(f"{degrees:03d}")
         found.append(
-            Channel(
+            Candidate(
                 file=file,
                 channel="" if is_alone else record.name,
                 format=motion_file.format,
-                record=record,
+                dt_s=record.dt_s,
+                npts=len(record.a_mps2),
                 family=family,
                 degrees=degrees,
                 motion=(stem, rest),
@@ -213,10 +218,10 @@ def _by_name(stem: str) -> tuple[str, _Meant | None]:
 
 
 def _by_word(word: str) -> _Meant | None:
-    if word in _NAMED and not word.isdigit():
+    if word.isdecimal():
+        return (_AZIMUTH, int(word), "") if len(word) <= 3 and int(word) <= 360 else None
+    if word in _NAMED:
         return (*_NAMED[word], "")
-    if word.isdigit() and int(word) <= 360:
-        return _AZIMUTH, int(word), ""
     if match := _BEARING.fullmatch(word):
         degrees = int(match[2]) * (1 if match[3] == "e" else -1)
         return _AZIMUTH, (degrees if match[1] == "n" else 180 - degrees) % 360, ""

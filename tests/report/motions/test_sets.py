@@ -145,6 +145,15 @@ def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):
     }
 
 
+def test_hidden_files_and_numbers_that_are_no_azimuth_are_no_components(tmp_path):
+    for name in (".git/A-x", "__MACOSX/A-x", ".A-x", "B.400", "C.x²", "D-361"):
+        plain(tmp_path / f"{name}.csv")
+    (tmp_path / "B.²").write_bytes((tmp_path / "D-361.csv").read_bytes())
+    sets, left = taken(tmp_path)
+    assert (sets, sorted(left)) == ({}, ["B.400.csv", "B.²", "C.x².csv", "D-361.csv"])
+    assert all("nor its name has a component" in why for why in left.values())
+
+
 def test_more_files_than_a_session_takes_are_refused(tmp_path):
     for number in range(501):
         (tmp_path / f"{number}.csv").touch()

@@ -111,6 +111,10 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
     commands.printed(*rows(zipped, path, "--at", "roof"))
     assert read(path).project.motions[-1].vertical == "records/kobe/KJM-z.csv"
     with zipfile.ZipFile(zipped, "a") as archive:
+        for axis in "xyz":
+            archive.write(library / "kobe" / f"KJM-{axis}.csv", f"{axis}.csv")
+    assert "kobe    x  x.csv" in commands.printed(*rows(zipped))  # the zip gives the name
+    with zipfile.ZipFile(zipped, "a") as archive:
         archive.writestr(name, "0,0")
     assert "is no path within a folder" in commands.refused(*rows(zipped))
 
