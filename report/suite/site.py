@@ -50,6 +50,10 @@ def suite_basis(sheet: Sheet, given: Mapping[str, Any]) -> tuple[dict[str, Any],
             shown = f"{value:.4g}" if isinstance(value, float) else value
             lines.append(f"{label} {shown}{' g' if label == 'S_DS' else ''} from {cells}")
         values.setdefault(name, value)
+    if sheet.draft["spectrum"]:
+        at = sheet.where(Place("spectrum"))
+        lacking.append(f"{at}: a target spectrum is given, not that of AC156; add --target to the"
+                       " command motion suite, with that spectrum as CSV")  # fmt: skip
     if lacking:
         raise InputError(lacking)
     return values, lines

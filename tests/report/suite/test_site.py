@@ -52,6 +52,13 @@ def test_each_value_that_the_workbook_lacks_is_an_error_at_its_cells(tmp_path):
     assert caught.value.problems[2].startswith(at("Site/Rule set"))
 
 
+def test_a_target_spectrum_of_the_workbook_is_not_passed_over(tmp_path):
+    points = [{"period_s": t, "horizontal_g": a} for t, a in ((0.02, 0.5), (5.0, 0.1))]
+    sheet = read(make(tmp_path, spectrum=points))
+    with pytest.raises(InputError, match="a target spectrum is given, not that of AC156; add --ta"):
+        suite_basis(sheet, {})
+
+
 @pytest.fixture
 def quick(monkeypatch):
     """Motions of sines at once."""
