@@ -28,7 +28,7 @@ def suite_basis(sheet: Sheet, given: Mapping[str, Any]) -> tuple[dict[str, Any],
     InputError
         With the cells of each value that the workbook does not give.
     """
-    site, target = sheet.draft["site"][0], sheet.draft["target"][0]
+    site, target = ([*sheet.draft[key], {}][0] for key in ("site", "target"))
     parameters = site_parameters(site)
     z_m, h_m = site.get("roof_height_m"), site.get("structure_height_m")
     stated = [(name,) for name in ("s_ds_g", "s_ms_g") if site.get(name) is not None]

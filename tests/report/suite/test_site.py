@@ -11,7 +11,7 @@ from report.results.publish import STAMP
 from report.sheet.reading.read import read
 from report.suite.inputs import ac156_targets
 from report.suite.site import suite_basis
-from sheets import at, make, type_into
+from sheets import at, edit, make, type_into
 from solver.model import InputError
 from solver.rules.spectra import Tail
 
@@ -50,6 +50,13 @@ def test_each_value_that_the_workbook_lacks_is_an_error_at_its_cells(tmp_path):
         "code",
     ]
     assert caught.value.problems[2].startswith(at("Site/Rule set"))
+
+
+def test_a_workbook_without_the_sheet_lacks_all_its_values(tmp_path):
+    path = edit(make(tmp_path), lambda book: book.remove(book["Site"]))
+    with pytest.raises(InputError) as caught:
+        suite_basis(read(path), {})
+    assert len(caught.value.problems) == 3
 
 
 def test_a_target_spectrum_of_the_workbook_is_not_passed_over(tmp_path):
