@@ -37,7 +37,7 @@ NEVER_DRAWS = frozenset({"click", "ezdxf", "pypdf", "xlsxwriter", "zlib"})
 def sbom() -> bytes:
     """Return the software bill of materials as CycloneDX JSON, without a time stamp."""
     needs = _needs()
-    components = {name: _component(found) for name, found in distributions().items()}
+    components = {name: _component(about) for name, about in distributions().items()}
     document = {
         "bomFormat": "CycloneDX",
         "specVersion": SPEC_VERSION,
@@ -64,9 +64,15 @@ def sbom_sha256() -> str:
 
 
 @cache
-def distributions() -> Mapping[str, metadata.Distribution]:
-    """Return every installed distribution that the command needs, by name, in order."""
-    return {name: metadata.distribution(name) for name in sorted(_needs())}
+def distributions() -> Mapping[str, metadata.PackageMetadata]:
+    """Return what every installed distribution that the command needs says of itself, by name."""
+    return {name: _about(name) for name in sorted(_needs())}
+
+
+@cache
+def _about(name: str) -> metadata.PackageMetadata:
+    """Return what a distribution says of itself, read once: each of its properties reads it all."""
+    return metadata.distribution(name).metadata
 
 
 @cache
@@ -80,7 +86,7 @@ def _needs() -> Mapping[str, Set[str]]:
             continue
         seen.add(asked)
         try:
-            lines = metadata.distribution(name).requires or ()
+            lines = _about(name).get_all("Requires-Dist") or ()
         except metadata.PackageNotFoundError:
             continue  # left out at the installation
         below = [found for line in lines for found in _required(Requirement(line), extra)]
@@ -96,11 +102,11 @@ def _required(requirement: Requirement, extra: str) -> Iterator[tuple[str, str]]
         yield from ((name, wanted) for wanted in ("", *sorted(requirement.extras)))
 
 
-def _component(distribution: metadata.Distribution) -> dict[str, Any]:
-    name, version = canonicalize_name(distribution.name), distribution.version
+def _component(about: metadata.PackageMetadata) -> dict[str, Any]:
+    name, version = canonicalize_name(about["Name"]), about["Version"]
     purl = f"pkg:pypi/{name}@{version}"
-    about = {"type": "library", "bom-ref": purl, "name": name, "version": version, "purl": purl}
-    return about | _license(distribution.metadata)
+    library = {"type": "library", "bom-ref": purl, "name": name, "version": version, "purl": purl}
+    return library | _license(about)
 
 
 def _license(about: metadata.PackageMetadata) -> dict[str, Any]:
@@ -125,7 +131,7 @@ def environment() -> Mapping[str, str]:
         "system": f"{platform.system()} {platform.machine()} {' '.join(platform.libc_ver())}",
         "zlib": zlib.ZLIB_RUNTIME_VERSION,
         **{name: _native(*known) for name, known in _NATIVE.items()},
-        **{name: found.version for name, found in distributions().items()},
+        **{name: about["Version"] for name, about in distributions().items()},
     }
 
 
