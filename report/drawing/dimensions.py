@@ -1,7 +1,7 @@
-"""The clearances of a printed plan: numbered in their gaps, and equal ones dimensioned once.
+"""The clearances of a plan: numbered in their gaps, and equal ones dimensioned once.
 
 A number slides along its gap to where it touches nothing, and only where no place is left has it a
-leader. Required separations are in the schedule beside the plan. Read `draw_numbers` first.
+leader. Required separations are in a table beside the plan. Read `draw_numbers` first.
 """
 
 from __future__ import annotations
@@ -10,18 +10,19 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from report.drawing.callouts import NG_TALL_IN, RADIUS_IN, draw_gap, draw_ng, draw_number, ng_wide
 from report.drawing.items import Mark
-from report.drawing.paper import BASE_IN, LINE_IN
+from report.drawing.layers import Layer
+from report.drawing.paper import BASE_IN, LINE_IN, Paper
 from report.drawing.placer import Frame, centered
 from report.drawing.sheet import Gap, PlanSheet
-from report.drawing.widths import width_in
-from report.entities.clearance import callout
+from report.drawing.widths import TYPE_PT, width_in
 from report.sheet.schema import Rectangle
 from report.sheet.schema.shapes import Point, between
 from report.words.counts import grouped_by
 from report.words.units import compared
 
+RADIUS_IN = 0.1
+NG_TALL_IN = TYPE_PT / 72.0 + 0.03
 _STEP_IN = 0.06  # by which a label slides
 _ALIGNED_IN = 1e-6
 _OVERHANG_IN = 0.6  # of a dimension beyond the facing sides, where they are short
@@ -129,10 +130,15 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
 
 
 def _provided(plan: PlanSheet, gap: Gap) -> str:
-    if not gap.of.is_given:  # it is not in the schedule
-        return ", ".join(callout(gap.of, plan.fmt))
-    _, show = compared(gap.of.required_m, gap.of.provided_m)
-    return plan.fmt.short(gap.of.provided_m, show=show)
+    of, fmt = gap.of, plan.fmt
+    show_required, show_provided = compared(of.required_m, of.provided_m)
+    provided = fmt.short(of.provided_m, show=show_provided)
+    if of.is_given:
+        return provided
+    # It is in no table.
+    mark = "" if math.isnan(of.required_m) else of.mark
+    required = fmt.short(of.required_m, show=show_required)
+    return f"not given; in plan {provided}, required {required}{mark}"
 
 
 def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
@@ -164,3 +170,31 @@ def _beside(lane: Lane, long: float, overhang: float) -> Iterator[float]:
     for away in _steps(apart, most + abs(shift)):
         if abs(shift + away) <= most:
             yield shift + away
+
+
+def draw_gap(plan: PlanSheet, gap: Gap) -> None:
+    """Draw a dimension line; a gap that is not satisfied is hatched."""
+    is_ng = plan.is_ng(gap)
+    area = between(gap.of.near, gap.of.far) if is_ng else None
+    if area is not None:
+        plan.paper.shape(Mark.FAILED, area.points)
+    plan.paper.dimension(Layer.CLEARANCE_NG if is_ng else Layer.CLEARANCE, gap.a, gap.b)
+    plan.paper.placer.take_segment(gap.a, gap.b)
+
+
+def draw_number(paper: Paper, middle: Point, gap: Gap) -> None:
+    """Draw the number of a clearance in its circle."""
+    paper.circle(Mark.NUMBER, middle, RADIUS_IN - 0.01)
+    paper.text(middle[0], middle[1] - BASE_IN, str(gap.of.number), is_centered=True)
+
+
+def draw_ng(paper: Paper, middle: Point) -> None:
+    """Draw the mark of a gap that is not satisfied about a point: white on black."""
+    x, y = middle
+    paper.box(Mark.NG, centered(x, y, ng_wide(), NG_TALL_IN))
+    paper.text(x, y - 0.038, "NG", is_centered=True, is_bold=True, is_light=True)
+
+
+def ng_wide() -> float:
+    """Return the width of the mark of a gap that is not satisfied [in]."""
+    return width_in("NG", is_bold=True) + 0.06

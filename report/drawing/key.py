@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from report.drawing.callouts import draw_ng
+from report.drawing.dimensions import draw_ng
 from report.drawing.items import Arrow, Look, Mark
 from report.drawing.layers import Layer
 from report.drawing.paper import BASE_IN, LINE_IN, Paper

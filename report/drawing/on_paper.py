@@ -11,7 +11,6 @@ from functools import partial
 from typing import NamedTuple
 
 from report.assessment.project import Assessment
-from report.drawing.callouts import draw_callout, draw_gap
 from report.drawing.dimensions import draw_dimensions, draw_numbers
 from report.drawing.items import level
 from report.drawing.key import draw_key, key_on_paper
@@ -151,16 +150,10 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
     spots = [spot for item in plan.placed if (spot := name_spot(plan, item)) is not None]
     for spot in spots:
         plan.paper.placer.take(spot)
-    if plan.size.is_screen:
-        take_edges(plan)
-        for draw in (draw_gap, draw_callout):
-            for gap in plan.gaps:
-                draw(plan, gap)
-    else:
-        lanes = draw_numbers(plan)
-        take_edges(plan)
-        if plan.size.is_full:
-            draw_dimensions(plan, lanes)
+    lanes = draw_numbers(plan)
+    take_edges(plan)
+    if plan.size.is_full or plan.size.is_screen:
+        draw_dimensions(plan, lanes)
     for array, name in zip(plan.assessment.arrays, names, strict=True):
         if name is not None:
             plan.paper.placer.release(name)

@@ -50,10 +50,9 @@ def draw_outlines(plan: PlanSheet) -> None:
 
 
 def _avoid(plan: PlanSheet) -> None:
-    """Let labels cover objects, and on paper sides of arrays, only where there is no other room."""
+    """Let labels cover objects and sides of arrays only where there is no other room."""
     paper = plan.paper
-    arrays = () if plan.size.is_screen else plan.assessment.arrays
-    for array in arrays:
+    for array in plan.assessment.arrays:
         for side in paper.sides(array.array.shape):
             paper.placer.wall(side)
     frames: list[Frame] = []

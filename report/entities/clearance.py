@@ -13,10 +13,8 @@ from pydantic import BeforeValidator
 
 from report.assessment.changes import ChangeKind
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.plan_gaps import PlanGap
 from report.assessment.verdict import Verdict
 from report.entities.cells import Column, Told
-from report.entities.columns import UnitFormat
 from report.entities.marks import Marked, joined
 from report.entities.shown import (
     Entity,
@@ -149,15 +147,3 @@ def clearance_results(
             },
             rounds={"required_m": required, "provided_m": provided, "least_m": no_less},
         )
-
-
-def callout(gap: PlanGap, fmt: UnitFormat) -> tuple[str, str]:
-    """Return what a plan says of a gap: provided and required, in the preferred system."""
-    show_required, show_provided = compared(gap.required_m, gap.provided_m)
-    provided = fmt.short(gap.provided_m, show=show_provided)
-    required = fmt.short(gap.required_m, show=show_required)
-    mark = "" if math.isnan(gap.required_m) else gap.mark
-    return (
-        f"{'provided' if gap.is_given else 'not given; in plan'} {provided}",
-        f"required {required}{mark}",
-    )

@@ -15,7 +15,7 @@ from printed import printed
 from report.drawing.items import Circle, Lines, Mark, Outline, Text
 from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper, printed_plan
-from report.drawing.sheet import SMALL
+from report.drawing.sheet import SMALL, PlanSize
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures import charts
 from report.package.html import part
@@ -143,6 +143,19 @@ def test_no_label_lies_on_another_or_on_a_dimension_line(done):
             line = shapely.MultiLineString(item.lines[:1])
             crossed = [text.words for text, of in areas if of.intersects(line)]
             assert all(words.isdigit() or words == "NG" for words in crossed)
+
+
+def test_the_page_has_each_number_once_in_its_gap_and_equal_gaps_dimensioned_once(done):
+    size = PlanSize(wide=7.5, tall=4.3, key_wide=7.5, key_tall=0.5, is_screen=True)
+    paper = plan_on_paper(done, size, {array.id: "9 in" for array in done.arrays})
+    shown = [text.words for text in words_of(paper)]
+    circles = [item.center[0] for item in paper.items if isinstance(item, Circle)]
+    numbers = [text.words for text in words_of(paper) if text.at[0] in circles]
+    assert {*numbers} >= {str(count) for count, _ in enumerate(done.clearances, start=1)}
+    assert len(circles) == len(done.clearances)
+    assert not [words for words in shown if "required" in words]
+    equal = [words for words in shown if " typ. of " in words]
+    assert len(set(equal)) == len(equal)
 
 
 def test_equal_gaps_are_dimensioned_once():

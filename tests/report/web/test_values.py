@@ -111,7 +111,7 @@ def test_where_no_run_gives_a_displacement_the_page_says_no_value():
     found = answer(stand_in.assess_input(data, [lifted]), is_provisional=True)
     (array,), (gap,) = (rows(found[name]) for name in ("arrays", "clearances"))
     assert array["Mean PRD"] == gap["Required"] == {"text": "no value"}
-    assert "required no value" in [item.get("text") for item in found["plan"]["items"]]
+    assert "required no value" in found["plan"]["described"][0]["text"]
     assert '"none"' not in json.dumps(found)
 
 
@@ -250,10 +250,11 @@ def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_
     for gap in rows(found["clearances"]):
         assert gap["Required"] == gap["D/C"] == {"text": "no value"}
         assert gap["Verdict"]["text"] == "none"
-    items = found["plan"]["items"]
-    required = [item["text"] for item in items if item.get("text", "").startswith("required")]
-    assert set(required) == {"required no value"}
-    assert not {"envelope", "ng-area", "ng-box"} & {item["class"] for item in items}
+    said = [gap["text"] for gap in found["plan"]["described"]]
+    assert len(said) == 7
+    assert all(text.endswith("required no value") for text in said)
+    drawn = {item["class"] for item in found["plan"]["items"]}
+    assert not {"envelope", "ng-area", "ng-box"} & drawn
     assert found["verdict"]["text"] == "NG"
     design = rows(answer(done, is_provisional=True)["arrays"])[0]["Design"]
     assert design == {"text": "0 mm", "title": "0 mm (0.0 in), analysis"}
