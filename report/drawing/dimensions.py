@@ -158,7 +158,7 @@ def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
             base = (x + BASE_IN, y) if is_upright else (x, y - BASE_IN)
             plan.paper.text(*base, words, is_centered=True, is_upright=is_upright)
             return
-    plan.beside(equal[0].number, words, RADIUS_IN)
+    plan.beside(equal[0].number, words.split(", "), RADIUS_IN)
 
 
 def _beside(lane: Lane, long: float, overhang: float) -> Iterator[float]:

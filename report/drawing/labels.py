@@ -31,7 +31,7 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
     for item in plan.edges:
         shape, words = plan.shapes[item.id], _edge_words(plan, item)
         if not isinstance(shape, Rectangle):
-            plan.beside(plan.room(item.id), words)
+            plan.beside(plan.room(item.id), [words])
             continue
         frame = plan.paper.frame(shape)
         if width_in(words) > max(frame.wide, frame.tall) or not plan.size.is_full:
@@ -106,7 +106,7 @@ def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
     else:
         lines = []
         if frame.wide < name.wide or frame.tall < name.tall:
-            plan.beside(frame, tick_text(array.id))
+            plan.beside(frame, [tick_text(array.id)])
         else:
             plan.paper.placer.take(name)
             plan.paper.label(name, [tick_text(array.id)], first_bold=True)
@@ -168,7 +168,7 @@ def label_object(plan: PlanSheet, item: RoofObject) -> None:
     wide, tall = text_size([words])
     label = plan.paper.placer.place(wide, tall, frame.middle, _inner(frame))
     if label is None:
-        plan.beside(frame, words)
+        plan.beside(frame, [words])
         return
     plan.paper.box(Mark.BACKING, label)
     plan.paper.label(label, [words])

@@ -184,16 +184,16 @@ class PlanSheet:
             self.paper.lines(Mark.LEADER, (start, end))
             self.paper.placer.take_segment(start, end)
 
-    def beside(self, frame: Frame, words: str, radius: float = 0.0) -> None:
+    def beside(self, frame: Frame, lines: Sequence[str], radius: float = 0.0) -> None:
         """Name something outside of it, with a leader from its middle or a circle about that."""
-        size = text_size([words])
+        size = text_size(lines)
         label = self.paper.placer.place(*size, frame.middle, maximum=self.leader_in)
         if label is None:
-            self.unnamed.append(words)
+            self.unnamed.append(", ".join(lines))
             return
         self.leader(frame.middle, label, radius)
         self.paper.box(Mark.FRAME, label)
-        self.paper.label(label, [words])
+        self.paper.label(label, lines)
 
 
 def unit_format(assessment: Assessment) -> UnitFormat:
