@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from itertools import combinations
+from itertools import combinations, starmap
 
 from report.assessment.arrays import ArrayAssessment
 from report.sheet.schema import (
@@ -225,68 +225,49 @@ def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:
 def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tuple[BareEdge, ...]:
     """Return the parts of an outline along which no strip lies."""
     found = []
-    for side in _sides(outline):
+    for number, side in enumerate(starmap(_Side, sides(outline.points)), start=1):
         # East, first in the list, is a quarter turn clockwise of north.
         point = _COMPASS[round((side.outward_deg - north_deg + 90.0) / 45.0) % 8]
-        found += [BareEdge(f"{point} {side.title}", ends) for ends in _bare(side, strips)]
+        name = f"{point} edge of the roof"
+        if isinstance(outline, Polygon):
+            name += f" (side {number})"
+        found += [BareEdge(name, ends) for ends in _bare(side, strips)]
     return tuple(found)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class _Side:
-    """A side of the roof: a range of distances [m] from a point of its line, in a direction."""
+    """A side of the roof, from a vertex to the next, counterclockwise."""
 
-    title: str
-    outward_deg: float
-    origin: Point
-    direction: Point
-    low: float
-    high: float
+    start: Point
+    end: Point
+
+    @property
+    def long(self) -> float:
+        """Its length [m]."""
+        return math.dist(self.start, self.end)
+
+    @property
+    def direction(self) -> Point:
+        """From its start to its end, of length 1."""
+        (x0, y0), (x1, y1) = self.start, self.end
+        return (x1 - x0) / self.long, (y1 - y0) / self.long
+
+    @property
+    def outward_deg(self) -> float:
+        """Direction out of the roof, counterclockwise from x."""
+        ux, uy = self.direction
+        return math.degrees(math.atan2(-ux, uy))
 
     def at(self, along: float) -> Point:
-        """Return the point at a distance."""
-        (x, y), (ux, uy) = self.origin, self.direction
+        """Return the point at a distance from its start [m]."""
+        (x, y), (ux, uy) = self.start, self.direction
         return x + along * ux, y + along * uy
 
     def along(self, point: Point) -> float:
-        """Return the distance of a point's foot."""
-        (x, y), (ux, uy) = self.origin, self.direction
+        """Return the distance of a point's foot from its start [m]."""
+        (x, y), (ux, uy) = self.start, self.direction
         return (point[0] - x) * ux + (point[1] - y) * uy
-
-
-def _sides(outline: Shape) -> Iterator[_Side]:
-    """Yield the sides of a roof; those of a polygon are numbered from its first vertex."""
-    if isinstance(outline, Polygon):
-        for number, (start, end) in enumerate(sides(outline.points), start=1):
-            yield _side(f"edge of the roof (side {number})", start, end)
-        return
-    x0, x1, y0, y1 = outline.x_from_m, outline.x_to_m, outline.y_from_m, outline.y_to_m
-    for outward_deg, low, high in ((0.0, y0, y1), (90.0, x0, x1), (180.0, y0, y1), (270.0, x0, x1)):
-        # Distances are the coordinates themselves.
-        on_x = outward_deg in (0.0, 180.0)
-        yield _Side(
-            title="edge of the roof",
-            outward_deg=outward_deg,
-            origin=({0.0: x1, 180.0: x0}[outward_deg], 0.0) if on_x
-            else (0.0, {90.0: y1, 270.0: y0}[outward_deg]),
-            direction=(0.0, 1.0) if on_x else (1.0, 0.0),
-            low=low,
-            high=high,
-        )  # fmt: skip
-
-
-def _side(title: str, start: Point, end: Point) -> _Side:
-    """Return the side from a vertex to the next, counterclockwise."""
-    long = math.dist(start, end)
-    direction = (end[0] - start[0]) / long, (end[1] - start[1]) / long
-    return _Side(
-        title=title,
-        outward_deg=math.degrees(math.atan2(-direction[0], direction[1])),
-        origin=start,
-        direction=direction,
-        low=0.0,
-        high=long,
-    )
 
 
 def _line(start: Point, end: Point) -> Shape:
@@ -299,25 +280,22 @@ def _line(start: Point, end: Point) -> Shape:
 
 def _bare(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[Point, Point]]:
     """Yield the parts of a side along which no strip lies; none shorter than `EDGE_STRIP_M`."""
-    at = side.low
-    for start, end in [*sorted(_covered(side, strips)), (side.high, side.high)]:
+    at = 0.0
+    for start, end in [*sorted(_covered(side, strips)), (side.long, side.long)]:
         if start - at > EDGE_STRIP_M:
-            yield side.at(at), side.at(min(start, side.high))
+            yield side.at(at), side.at(start) if start < side.long else side.end
         at = max(at, end)
 
 
 def _covered(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[float, float]]:
     """Yield the ranges of a side near which strips lie."""
-    ends = side.at(side.low), side.at(side.high)
-    line = _line(*ends)
+    line = _line(side.start, side.end)
     for strip in strips:
         if isinstance(line, Rectangle) and isinstance(strip, Rectangle):
-            if gap_m(line, strip) <= EDGE_STRIP_M:
-                (x0, y0), _, (x1, y1), _ = strip.points
-                low, high = sorted((side.along((x0, y0)), side.along((x1, y1))))
-                yield low, high
-            continue
-        for points in spans_near(strip, *ends, EDGE_STRIP_M):
+            parts = [strip.points] if gap_m(line, strip) <= EDGE_STRIP_M else []
+        else:
+            parts = spans_near(strip, side.start, side.end, EDGE_STRIP_M)
+        for points in parts:
             found = [side.along(point) for point in points]
             yield min(found), max(found)
 

@@ -195,14 +195,16 @@ def crossing(points: tuple[Point, ...]) -> Point | None:
     return float(x), float(y)
 
 
-def spans_near(shape: Shape, start: Point, end: Point, within_m: float) -> list[list[Point]]:
+def spans_near(
+    shape: Shape, start: Point, end: Point, within_m: float
+) -> list[tuple[Point, ...]]:
     """Return the vertices of each part of a shape that lies within a distance of a line [m]."""
     import shapely
 
     band = shapely.LineString((start, end)).buffer(within_m, cap_style="flat")
     common = solid(shape).intersection(band)
     parts = [part for part in getattr(common, "geoms", (common,)) if not part.is_empty]
-    return [[(x, y) for x, y in shapely.get_coordinates(part)] for part in parts]
+    return [tuple((x, y) for x, y in shapely.get_coordinates(part)) for part in parts]
 
 
 def merged(rings: Sequence[Sequence[Point]]) -> tuple[Point, ...]:
