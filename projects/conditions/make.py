@@ -20,8 +20,8 @@ from report.sheet.writing.rows import (
     write_motions,
 )
 from report.sheet.writing.template import write_template
-from solver.rules.hazard import EDITIONS
-from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from report.suite.inputs import ac156_targets
+from solver.rules.spectra import Tail
 from solver.synthesis import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent
@@ -39,15 +39,8 @@ def main() -> None:
 
 def suite(count: int) -> list[SuiteMotion]:
     """Return the roof motions, of which the project uses the first component alone."""
-    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=S_DS_G, z_over_h=1.0)
-    upward = ac156_vertical(s_ds_g=S_DS_G)
-    return make_suite(
-        (across.freq_hz, across.sa_g),
-        (upward.freq_hz, upward.sa_g),
-        count=count,
-        seed=SEED,
-        dt_s=DT_S,
-    )
+    roof = ac156_targets("pv1", s_ds_g=S_DS_G, z_over_h=1.0, tail=Tail.AC156)
+    return make_suite(roof.horizontal, roof.vertical, count=count, seed=SEED, dt_s=DT_S)
 
 
 def project() -> ProjectInput:

@@ -22,8 +22,8 @@ from report.sheet.writing.rows import (
     write_motions,
 )
 from report.sheet.writing.template import write_template
-from solver.rules.hazard import EDITIONS
-from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from report.suite.inputs import ac156_targets
+from solver.rules.spectra import Tail
 from solver.synthesis import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent
@@ -48,12 +48,12 @@ def main() -> None:
 
 def suite(count: int) -> list[SuiteMotion]:
     """Return the ground motions: horizontal components to AC156 at grade."""
-    across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=S_DS_G, z_over_h=0.0)
-    upward = ac156_vertical(s_ds_g=S_DS_G)
+    grade = ac156_targets("asce7-16", s_ds_g=S_DS_G, z_over_h=0.0, tail=Tail.AC156)
+    freq_hz, sa_g = grade.vertical
     return make_suite(
-        (across.freq_hz, across.sa_g),
+        grade.horizontal,
         # The factor acts on all components, and the building does not amplify the vertical one.
-        (upward.freq_hz, upward.sa_g / FACTOR),
+        (freq_hz, sa_g / FACTOR),
         count=count,
         seed=SEED,
         dt_s=DT_S,

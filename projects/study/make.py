@@ -9,12 +9,11 @@ import datetime as dt
 from pathlib import Path
 
 from report.sheet.schema import UnitsFirst
+from report.sheet.writing.rows import write_motions
 from report.study.schema import Intensity, Mat, Study, StudyArray, StudyInput
 from report.study.template import write_study
-from solver.records.record import write_record
-from solver.rules.hazard import EDITIONS
-from solver.rules.provisions import RULE_SETS
-from solver.rules.spectra import ac156_horizontal, ac156_vertical
+from report.suite.inputs import ac156_targets
+from solver.rules.spectra import Tail
 from solver.synthesis import make_suite
 
 HERE = Path(__file__).resolve().parent
@@ -25,17 +24,9 @@ COUNT, SEED = 7, 15
 
 def main() -> None:
     """Write records/ and input.xlsx beside this file."""
-    records = HERE / "records"
-    records.mkdir(exist_ok=True)
-    rules = RULE_SETS["SEAOC PV1-2012"]
-    across = ac156_horizontal(EDITIONS[rules.edition], s_ds_g=S_DS_G, z_over_h=1.0)
-    upward = ac156_vertical(s_ds_g=S_DS_G)
-    suite = make_suite(
-        (across.freq_hz, across.sa_g), (upward.freq_hz, upward.sa_g), count=COUNT, seed=SEED
-    )
-    for number, motion in enumerate(suite, start=1):
-        for record, letter in zip(motion.components, "xyz", strict=True):
-            write_record(records / f"RM{number}-{letter}.csv", record, hold_s=motion.hold_s)
+    roof = ac156_targets("pv1", s_ds_g=S_DS_G, z_over_h=1.0, tail=Tail.AC156)
+    suite = make_suite(roof.horizontal, roof.vertical, count=COUNT, seed=SEED)
+    write_motions(HERE / "records", "RM", suite)
     write_study(HERE / "input.xlsx", units=UnitsFirst.US, example=study())
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from report.figures.base import load_fonts
 from report.figures.suite import Panel, suite_png
 from report.suite.acceptance import acceptance_facts, acceptance_lines, suite_acceptance
-from report.suite.info import without_noise
+from report.suite.info import facts, without_noise
 from report.suite.inputs import SuiteTargets
 from report.typeset.pdf import TEMPLATES
 from report.words.formats import aligned
@@ -180,7 +180,7 @@ def _motion(
 
 
 def _component(part: SuiteComponent, files: Mapping[str, bytes]) -> dict[str, Any]:
-    name, values = f"{part.record.name}.csv", part.measures
+    name = f"{part.record.name}.csv"
     return {
         "component": part.component,
         "file": name,
@@ -191,11 +191,7 @@ def _component(part: SuiteComponent, files: Mapping[str, bytes]) -> dict[str, An
         "least_ratio": part.fit.minimum,
         "greatest_ratio": part.fit.maximum,
         "mean_ratio": part.fit.mean,
-        "pga_g": values.pga_mps2 / G_MPS2,
-        "pgv_mps": values.pgv_mps,
-        "pgd_m": values.pgd_m,
-        "arias_mps": values.arias_mps,
-        "d5_95_s": values.d5_95_s,
+        **facts(part.measures),
         "final_velocity_mps": part.final_velocity_mps,
         "final_displacement_m": part.final_displacement_m,
     }

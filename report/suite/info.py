@@ -6,6 +6,7 @@ Prints and plots nothing. Read `report.cli.motion` for the command.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from report.words.formats import aligned
 from report.words.units import G_MPS2
 from solver.model import Floats
-from solver.records.measures import measures
+from solver.records.measures import Measures, measures
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 
@@ -46,14 +47,14 @@ def summary(record: Record) -> dict[str, Any]:
         "dt_s": record.dt_s,
         "npts": npts,
         "duration_s": (npts - 1) * record.dt_s,
-        "pga_g": values.pga_mps2 / G_MPS2,
-        "pgv_mps": values.pgv_mps,
-        "pgd_m": values.pgd_m,
-        "arias_mps": values.arias_mps,
-        "d5_95_s": values.d5_95_s,
-        "final_velocity_mps": values.final_velocity_mps,
-        "final_displacement_m": values.final_displacement_m,
+        **facts(values),
     }
+
+
+def facts(values: Measures) -> dict[str, float]:
+    """Return measures, in SI except g, with units in the keys."""
+    given = asdict(values)
+    return {"pga_g": given.pop("pga_mps2") / G_MPS2, **given}
 
 
 def table(channels: Sequence[Mapping[str, Any]]) -> Iterator[str]:
