@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,13 +19,13 @@ from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
-from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict, stated
+from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
 from report.sheet.schema import Array, ClearanceSource, DistanceBasis, ProjectInput
 from report.sheet.schema.fields import Place
 from report.words.counts import lowered, ranged
-from report.words.units import G_MPS2, Quantity, compared, digits_up, number, pair, rounding
+from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, number, pair
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
@@ -67,14 +68,13 @@ def _building_code(data: ProjectInput) -> Requirement:
     site = data.site
     given = ("building code", site.code_text), ("jurisdiction", site.jurisdiction)
     found, is_complete = stated(given)
-    return Requirement(
+    return condition(
         id="building_code",
         title="Building code and jurisdiction",
         found=found,
         limit="code with its year, and jurisdiction",
         basis="plan check",
         is_satisfied=is_complete,
-        consequence=Consequence.CONDITION,
         remedy="State on the sheet Site the adopted building code and the jurisdiction.",
         place=Place("site", 0, "building_code"),
     )
@@ -86,14 +86,13 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
         return
     fields = ("reviewer", "license", "date", "letter")
     found, is_complete = stated([(name, getattr(options, f"peer_{name}")) for name in fields])
-    yield Requirement(
+    yield condition(
         id="peer_review",
         title="Peer review of the analysis",
         found=found,
         limit="reviewer, license, date and letter",
         basis=data.site.rule_set,
         is_satisfied=is_complete,
-        consequence=Consequence.CONDITION,
         remedy="Give reviewer, license, date and letter. Without peer review the floor and the "
         "slope limit of the analysis route apply.",
         place=Place("options", 0, "peer_reviewer"),
@@ -105,16 +104,15 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
     for index, motion in enumerate(prepared):
         if drifts(motion):
             largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
-            more, most = compared(largest, DRIFT_M)
-            yield Requirement(
+            found, most, _ = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, us_first)
+            yield condition(
                 id="drift",
                 title="Final displacement of the record",
                 subject=motion.motion_id,
-                found=pair(largest, Quantity.DISPLACEMENT, us_first, more),
-                limit=f"≤ {pair(DRIFT_M, Quantity.DISPLACEMENT, us_first, most)}",
+                found=found,
+                limit=f"≤ {most}",
                 basis="limit of this program",
                 is_satisfied=False,
-                consequence=Consequence.CONDITION,
                 remedy="Drift of a record is computed as slip: correct its baseline, or show that "
                 "the displacement is real.",
                 place=Place("motions", index, "record"),
@@ -138,14 +136,13 @@ def _ground_motions(
                 (ratio, where), (float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s")
             )
     if where:
-        yield Requirement(
+        yield condition(
             id="ground_motions",
             title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to 10 s",
             found=f"{digits_up(ratio, 3)} ({where})",
             limit=f"≤ {number(MOST_LONG_RATIO, 2)}",
             basis="limit of this program",
             is_satisfied=ratio <= MOST_LONG_RATIO,
-            consequence=Consequence.CONDITION,
             remedy="Obtain the peer reviewer's acceptance of the ground motions in writing, or use "
             "ground motions that match the target at long periods.",
             place=Place("motions"),
@@ -223,13 +220,9 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
         given = " and ".join(pair(each, Quantity.SIZE, us_first) for each in sorted(entered))
         gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
         return f"differs from the plan: {given} entered, {gap} measured", "as in the plan"
-    shown, had = compared(neighbor.required_m, neighbor.gap_m)
-    gap = pair(neighbor.gap_m, Quantity.SIZE, us_first, had)
-    required = NO_DESIGN
-    if not math.isnan(neighbor.required_m):
-        up = rounding(neighbor.required_m, neighbor.gap_m, Quantity.SIZE)
-        least = pair(neighbor.required_m, Quantity.SIZE, us_first, shown)
-        required = f"≥ {least}{neighbor.mark}{up}"
+    required_m = neighbor.required_m
+    least, gap, up = compared_pairs(required_m, neighbor.gap_m, Quantity.SIZE, us_first)
+    required = NO_DESIGN if math.isnan(required_m) else f"≥ {least}{neighbor.mark}{up}"
     return f"{NOT_GIVEN}; {gap} in plan", required
 
 
@@ -283,14 +276,13 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
     us_first, here_pa = data.project.units_first.is_us, array.weight_pa
     capacity_pa, wind_pa = array.roof_capacity_pa, array.wind_weight_pa
     if capacity_pa is not None:
-        shown, had = compared(here_pa, capacity_pa)
+        found, most, up = compared_pairs(here_pa, capacity_pa, Quantity.PRESSURE, us_first)
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
             subject=array.id,
-            found=pair(here_pa, Quantity.PRESSURE, us_first, shown),
-            limit=f"≤ {pair(capacity_pa, Quantity.PRESSURE, us_first, had)}"
-            + rounding(here_pa, capacity_pa, Quantity.PRESSURE),
+            found=found,
+            limit=f"≤ {most}{up}",
             basis="roof capacity",
             is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
             consequence=Consequence.NG,
@@ -299,15 +291,16 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
         )
     if wind_pa is not None:
         found, here = (pair(value, Quantity.PRESSURE, us_first) for value in (wind_pa, here_pa))
-        yield Requirement(
+        unit = Quantity.PRESSURE.us if us_first else Quantity.PRESSURE.si
+        wind, weight = (round(value / unit.si, unit.decimals) for value in (wind_pa, here_pa))
+        yield condition(
             id="wind_weight",
             title="Weight in wind design",
             subject=array.id,
             found=found,
             limit=f"= {here}",
             basis="wind, by others",
-            is_satisfied=found.split()[0] == here.split()[0],  # as the first unit prints them
-            consequence=Consequence.CONDITION,
+            is_satisfied=wind == weight,  # to the digits that are printed
             remedy="Use one weight with ballast in both: correct it, or the wind design.",
             place=_place(data, array, "wind_weight_pa"),
         )
@@ -317,7 +310,7 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
     us_first = data.project.units_first.is_us
     plan = array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
-    return Requirement(
+    return condition(
         id="fire_lanes",
         title="Largest plan dimension between fire lanes",
         subject=array.id,
@@ -325,24 +318,21 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
         limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, us_first)}",
         basis="fire code†",
         is_satisfied=largest <= FIRE_LANE_M * (1.0 + _NOISE),
-        consequence=Consequence.CONDITION,
         remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
         place=_place(data, array, "x_from_m"),
     )
 
 
 def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
-    us_first = data.project.units_first.is_us
-    provided = array.interconnection_n
+    us_first, provided = data.project.units_first.is_us, array.interconnection_n
     given = math.nan if provided is None else provided
-    shown, had = compared(required_n, given)
+    least, had, up = compared_pairs(required_n, given, Quantity.WEIGHT, us_first)
     return Requirement(
         id="interconnection",
         title="Interconnection strength provided",
         subject=array.id,
-        found=NOT_GIVEN if provided is None else pair(provided, Quantity.WEIGHT, us_first, had),
-        limit=f"≥ {pair(required_n, Quantity.WEIGHT, us_first, shown)}"
-        + rounding(required_n, given, Quantity.WEIGHT),
+        found=NOT_GIVEN if provided is None else had,
+        limit=f"≥ {least}{up}",
         basis=data.site.rule_set,
         is_satisfied=provided is not None and provided >= required_n,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
@@ -360,14 +350,13 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
     provided, design = assessed.array.slack_m, assessed.permitted_m
     has_value = not math.isnan(design)
     given = math.nan if provided is None else provided
-    shown, had = compared(design, given)
-    least = f"≥ {pair(design, Quantity.SIZE, us_first, shown)}"
+    least, had, up = compared_pairs(design, given, Quantity.SIZE, us_first)
     return Requirement(
         id="electrical_slack",
         title="Electrical slack provided",
         subject=assessed.array.id,
-        found=NOT_GIVEN if provided is None else pair(provided, Quantity.SIZE, us_first, had),
-        limit=least + rounding(design, given, Quantity.SIZE) if has_value else NO_DESIGN,
+        found=NOT_GIVEN if provided is None else had,
+        limit=f"≥ {least}{up}" if has_value else NO_DESIGN,
         basis="design displacement",
         is_satisfied=provided is not None and has_value and provided >= design,
         consequence=Consequence.CONDITION if provided is None else Consequence.NG,
@@ -391,16 +380,15 @@ def pathway_rows(
         if gap.neighbor is Neighbor.LIKE:
             slides = [gap.design_m]
         left_m = row.provided_m - math.fsum(slides)
-        shown, had = compared(row.pathway_m, left_m)
+        least, left, up = compared_pairs(row.pathway_m, left_m, Quantity.SIZE, us_first)
         terms = " − ".join(pair(m, Quantity.SIZE, us_first) for m in (row.provided_m, *slides))
-        found = f"{terms} = {pair(left_m, Quantity.SIZE, us_first, had)}{gap.design_mark}"
+        found = f"{terms} = {left}{gap.design_mark}"
         yield Requirement(
             id="fire_pathway",
             title=f"Fire pathway {row.array} to {row.object} after displacement",
             subject=row.array,
             found=NO_DESIGN if math.isnan(left_m) else found,
-            limit=f"≥ {pair(row.pathway_m, Quantity.SIZE, us_first, shown)}"
-            + rounding(row.pathway_m, left_m, Quantity.SIZE),
+            limit=f"≥ {least}{up}",
             basis="fire code, as entered",
             is_satisfied=left_m >= row.pathway_m * (1.0 - _NOISE),
             consequence=Consequence.NG,
@@ -414,39 +402,23 @@ def less_friction_rows(
 ) -> Iterator[Requirement]:
     """Yield the routes and clearances that are permitted as given, and not with less friction."""
     friction = f"{number(100.0 * SHIFT, 0)} % less friction"
-    routes = (
-        (
-            given.id,
-            f"The {given.route} route",
-            Verdict.OK if given.is_permitted else Verdict.NG,
-            Verdict.OK if less.is_permitted else Verdict.NG,
-            "permitted",
-            "no route is permitted: confirm the friction coefficient",
-        )
-        for given, less in zip(arrays, reduced.arrays, strict=True)
-    )
-    gaps = (
-        (
-            given.clearance.array,
-            f"Clearance {given.clearance.array} to {given.clearance.object}",
-            given.verdict,
-            less.verdict,
-            "satisfied",
-            "this clearance is not satisfied: confirm the friction coefficient, or provide more "
-            "clearance",
-        )
-        for given, less in zip(clearances, reduced.clearances, strict=True)
-    )
-    for subject, title, before, after, required, effect in (*routes, *gaps):
-        if before.is_permitted and not after.is_permitted:
-            yield Requirement(
-                id="less_friction",
-                title=f"{title} with {friction}",
-                subject=subject,
-                found=f"not {required}",
-                limit=required,
-                basis="sensitivity",
-                is_satisfied=False,
-                consequence=Consequence.CONDITION,
-                remedy=f"With {friction} {effect}.",
+    row = partial(condition, id="less_friction", is_satisfied=False, basis="sensitivity")
+    for array, less in zip(arrays, reduced.arrays, strict=True):
+        if array.is_permitted and not less.is_permitted:
+            yield row(
+                title=f"The {array.route} route with {friction}",
+                subject=array.id,
+                found="not permitted",
+                limit="permitted",
+                remedy=f"With {friction} no route is permitted: confirm the friction coefficient.",
+            )
+    for gap, short in zip(clearances, reduced.clearances, strict=True):
+        if gap.verdict.is_permitted and not short.verdict.is_permitted:
+            yield row(
+                title=f"Clearance {gap.clearance.array} to {gap.clearance.object} with {friction}",
+                subject=gap.clearance.array,
+                found="not satisfied",
+                limit="satisfied",
+                remedy=f"With {friction} this clearance is not satisfied: confirm the friction "
+                "coefficient, or provide more clearance.",
             )

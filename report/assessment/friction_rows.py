@@ -8,15 +8,16 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 
-from report.assessment.verdict import NOT_GIVEN, Requirement, stated
+from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
 from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import Array, ProjectInput
 from report.sheet.schema.fields import Place
+from report.words.counts import grouped_by, numbered
 from report.words.units import Quantity, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction
-from solver.rules.limit import Consequence
 
 LEAST_RUNS = 3
 """Runs at one velocity in each condition, whose kinetic coefficients are averaged (PV1-2012)."""
@@ -146,16 +147,13 @@ def _runs(given: Mapping[Surface, Series | None], us_first: bool) -> Iterator[st
 
 def runs_by_velocity(one: Series, us_first: bool) -> str:
     """Return in words how many runs there are at each velocity."""
-    counts: dict[tuple[int, bool], list[float]] = {}
-    for repeats in one.repeats:
-        is_known = not math.isnan(repeats.velocity_mps)
-        counts.setdefault((len(repeats.runs), is_known), []).append(repeats.velocity_mps)
+    counts = grouped_by(one.repeats, lambda each: (len(each.runs), math.isnan(each.velocity_mps)))
     return ", ".join(
-        f"{runs_text(count)} at {'each of ' if len(velocities) > 1 else ''}"
-        f"{_velocities(velocities, us_first)}"
-        if is_known
-        else f"{runs_text(count)} with velocity {NOT_GIVEN}"
-        for (count, is_known), velocities in counts.items()
+        f"{runs_text(count)} with velocity {NOT_GIVEN}"
+        if is_unknown
+        else f"{runs_text(count)} at {'each of ' if len(alike) > 1 else ''}"
+        f"{_velocities([each.velocity_mps for each in alike], us_first)}"
+        for (count, is_unknown), alike in counts.items()
     )
 
 
@@ -167,20 +165,14 @@ def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
     return f"{first} ({second})"
 
 
-def _row(*, title: str, found: str, limit: str, is_satisfied: bool, remedy: str) -> Requirement:
-    return Requirement(
-        id="friction_tests",
-        title=title,
-        found=found,
-        limit=limit,
-        basis="friction tests",
-        is_satisfied=is_satisfied,
-        consequence=Consequence.CONDITION,
-        remedy=remedy,
-        place=Place("friction_tests", 0, "report"),
-    )
-
-
 def runs_text(count: int) -> str:
     """Return a number of runs in words, such as `3 runs`."""
-    return "1 run" if count == 1 else f"{count} runs"
+    return numbered(count, "run")
+
+
+_row = partial(
+    condition,
+    id="friction_tests",
+    basis="friction tests",
+    place=Place("friction_tests", 0, "report"),
+)

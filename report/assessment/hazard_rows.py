@@ -7,13 +7,11 @@ Each row that is not satisfied is a condition, not NG; values below their table 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 
-from report.assessment.verdict import NOT_GIVEN, Requirement, stated
+from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
 from report.sheet.schema import ProjectInput, Site
 from report.sheet.schema.fields import Place
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
-from solver.rules.limit import Consequence
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
 
 
@@ -31,7 +29,7 @@ def _source(site: Site) -> Requirement:
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
     if not _is_studied(site):
         found, is_complete = stated((source, date))
-        return _row(
+        return condition(
             id="hazard_source",
             title="Source and date of the seismic parameters",
             found=found,
@@ -43,7 +41,7 @@ def _source(site: Site) -> Requirement:
             place=Place("site", 0, "hazard_source"),
         )
     found, is_complete = stated((source, ("report number", site.hazard_report), date))
-    return _row(
+    return condition(
         id="hazard_source",
         title="Report on the site-specific hazard analysis",
         found=found,
@@ -61,7 +59,7 @@ def _category(site: Site) -> Requirement:
     found = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
     if not lacking:
         found = f"S_1 = {site.s_1_g:.3f} g, S_D1 = {site.s_d1:.3f} g"
-    return _row(
+    return condition(
         id="sdc",
         title="Basis of the seismic design category",
         found=found,
@@ -81,7 +79,7 @@ def _site_class(site: Site) -> Iterator[Requirement]:
         f" {LEAST_S_1_OF_D_G:g} g or more needs a site-specific hazard analysis or the exception"
         f" ({site.edition.clause('site_specific')}): determine the site class."
     )
-    yield _row(
+    yield condition(
         id="site_class",
         title="Site class",
         found=f"{NOT_GIVEN}: D by default" if site.site_class is None else "D by default",
@@ -101,7 +99,7 @@ def _site_specific(site: Site) -> Iterator[Requirement]:
     )
     if not reason:
         return
-    yield _row(
+    yield condition(
         id="site_specific_hazard",
         title=f"Hazard analysis for {reason}",
         found=site.hazard.value,
@@ -116,6 +114,3 @@ def _site_specific(site: Site) -> Iterator[Requirement]:
         "the exception that applies.",
         place=Place("site", 0, "hazard"),
     )
-
-
-_row = partial(Requirement, consequence=Consequence.CONDITION)

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from report.assessment.verdict import Requirement
+from report.assessment.verdict import Requirement, condition
 from report.sheet.schema import (
     Override,
     ProjectInput,
@@ -20,7 +20,6 @@ from report.sheet.schema import (
 )
 from report.sheet.schema.fields import Place
 from report.words.counts import lowered
-from solver.rules.limit import Consequence
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet
 from solver.rules.rulesets import ALLOWED
 
@@ -118,4 +117,4 @@ def _takes_plain_mean(data: ProjectInput) -> bool:
     return is_stated and data.options.statistic.value == Basis.MEAN.value
 
 
-_row = partial(Requirement, is_satisfied=False, consequence=Consequence.CONDITION, remedy=CONSENT)
+_row = partial(condition, is_satisfied=False, remedy=CONSENT)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from enum import StrEnum
+from functools import partial
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -93,6 +94,10 @@ class Requirement(BaseModel):
     verdict: Verdict = Field(default_factory=_verdict)
     cause: SkipJsonSchema[str] = Field(default="", exclude=True)
     place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)
+
+
+condition = partial(Requirement, consequence=Consequence.CONDITION)
+"""A requirement that is a condition where it is not satisfied."""
 
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:

@@ -10,13 +10,14 @@ from collections.abc import Sequence
 from itertools import accumulate
 from typing import NamedTuple
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.project import Assessment
 from report.drawing.sheet import PlanSize
 from report.drawing.widths import width_in
 from report.entities.columns import UnitFormat
 from report.sheet.schema.shapes import Shape, around
-from report.words.counts import ranged
+from report.words.counts import ids_by, ranged
 from report.words.units import Quantity, measured, number
 
 ROW_IN = 0.175  # of a table of the package
@@ -37,14 +38,15 @@ class AlikeArrays(NamedTuple):
 
 def alike_arrays(assessment: Assessment, fmt: UnitFormat) -> Sequence[AlikeArrays]:
     """Return the arrays of an assessment, those alike together."""
-    alike: dict[tuple[str, str, str, str], list[str]] = {}
-    for array in assessment.arrays:
+
+    def key(array: ArrayAssessment) -> tuple[str, str, str, str]:
         design = fmt.cells(array.permitted_m, mark=array.design_mark)[0]
         keep = keep_clear(keep_clear_m(assessment, array), fmt.us_first).partition(" ")[0]
         keep += keep_clear_mark(assessment, array)
         slope = f"{number(math.degrees(array.array.slope_rad), 2)}°"
-        key = size_words(array.array.shape, fmt), slope, design, keep
-        alike.setdefault(key, []).append(array.id)
+        return size_words(array.array.shape, fmt), slope, design, keep
+
+    alike = ids_by(assessment.arrays, key)
     return [AlikeArrays(ranged(ids), *words) for words, ids in alike.items()]
 
 

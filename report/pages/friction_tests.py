@@ -28,7 +28,8 @@ from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
 from report.sheet.checking.friction_checks import MU_TOLERANCE
-from report.sheet.schema import FrictionTests, ProjectInput
+from report.sheet.schema import Array, FrictionTests, ProjectInput
+from report.words.counts import grouped_by, ids_by
 from report.words.units import Quantity, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing
 
@@ -161,10 +162,8 @@ def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:
 
 def _means(package: PackageData, found: Sequence[Series]) -> Mapping[str, object]:
     """Return the series of a report, the smallest mean, and the conditions with too few runs."""
-    few: dict[str, list[str]] = {}
-    for one in found:
-        if not has_enough_runs(one):
-            few.setdefault(runs_by_velocity(one, package.fmt.us_first), []).append(one.surface)
+    lacking = (one for one in found if not has_enough_runs(one))
+    few = grouped_by(lacking, lambda one: runs_by_velocity(one, package.fmt.us_first))
     least = min(found, key=lambda one: one.mean)
     other = next(surface for surface in Surface if surface is not least.surface)
     return {"series": found, "least": least, "other": other, "few": few}
@@ -188,18 +187,18 @@ class _Compared:
 
 def _compared(data: ProjectInput, found: Sequence[Series]) -> Mapping[_Compared, Sequence[str]]:
     """Return how the friction of the arrays compares with the tests, alike arrays together."""
-    ids: dict[_Compared, list[str]] = {}
-    for array in data.arrays:
+
+    def compared(array: Array) -> _Compared:
         one = governing(found, array.mu_report)
-        alike = _Compared(
+        return _Compared(
             is_by_velocity=array.friction.is_by_velocity,
             used=round(one.mean_of(array.friction), 3),
             tested=round(one.mean, 3),
             surface=one.surface,
             basis=basis_words(data, array),
         )
-        ids.setdefault(alike, []).append(array.id)
-    return ids
+
+    return ids_by(data.arrays, compared)
 
 
 def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:

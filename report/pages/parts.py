@@ -85,11 +85,9 @@ class PackageData(Marked):
     @property
     def friction_sources(self) -> Mapping[tuple[str, str], Sequence[str]]:
         """The arrays by the basis of their friction and the test report named for it."""
-        found: dict[tuple[str, str], list[str]] = {}
-        for array in self.data.arrays:
-            source = (basis_words(self.data, array), array.mu_report)
-            found.setdefault(source, []).append(array.id)
-        return found
+        return ids_by(
+            self.data.arrays, lambda array: (basis_words(self.data, array), array.mu_report)
+        )
 
     @property
     def has_ground(self) -> bool:

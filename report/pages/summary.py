@@ -25,7 +25,7 @@ from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
 from report.words.counts import lowered
 from report.words.formats import aligned
-from report.words.units import Quantity, compared, no_less, pair, ratio, rounding
+from report.words.units import Quantity, compared_pairs, no_less, pair, ratio
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -150,12 +150,9 @@ def _models(assessment: Assessment) -> Iterator[Concern]:
 def _short(gap: ClearanceCheck, us_first: bool) -> str:
     """Return a clearance that is too small, with what would do."""
     row = gap.clearance
-    shown, had = compared(gap.required_m, row.provided_m)
+    required, provided, up = compared_pairs(gap.required_m, row.provided_m, Quantity.SIZE, us_first)
     enough = pair(gap.required_m, Quantity.SIZE, us_first, no_less)
-    provided = pair(row.provided_m, Quantity.SIZE, us_first, had)
     name = f"clearance {row.array} to {row.object}: {provided} provided"
     if math.isnan(gap.required_m):
         return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
-    required = pair(gap.required_m, Quantity.SIZE, us_first, shown)
-    up = rounding(gap.required_m, row.provided_m, Quantity.SIZE)
     return f"{name}; {required}{gap.mark} required{up} (D/C {gap.ratio_words}); provide {enough}"

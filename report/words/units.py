@@ -194,6 +194,15 @@ def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show 
     return f"{first} ({second})"
 
 
+def compared_pairs(
+    required_si: float, provided_si: float, quantity: Quantity, us_first: bool
+) -> tuple[str, str, str]:
+    """Return a required and a provided value as `compared`, in both systems, and `rounding`."""
+    shows = zip((required_si, provided_si), compared(required_si, provided_si), strict=True)
+    required, provided = (pair(value, quantity, us_first, show) for value, show in shows)
+    return required, provided, rounding(required_si, provided_si, quantity)
+
+
 def ratio(value: float) -> str:
     """Return a demand/capacity ratio, rounded up so that 1.00 never hides a failure."""
     if math.isnan(value):

@@ -13,6 +13,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from report.sheet.schema import SECTION
 from report.sheet.schema.fields import Draft, Entry, Finding, Place
+from report.words.counts import grouped_by
 from solver.meant import nearest
 from solver.model import InputError
 
@@ -73,11 +74,9 @@ def _meant(folder: Path, name: str) -> str:
     """Ask for the file whose name nearly fits, in the named folder or one of the workbook's."""
     wanted = PurePosixPath(name)
     near = islice(chain((folder / wanted).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
-    by_stem: dict[str, list[str]] = {}
-    for path in near:
-        if path.is_file():
-            by_stem.setdefault(path.stem, []).append(path.relative_to(folder).as_posix())
-    files = by_stem.get(nearest(wanted.stem, by_stem), [])
+    by_stem = grouped_by((path for path in near if path.is_file()), lambda path: path.stem)
+    alike = by_stem.get(nearest(wanted.stem, by_stem), [])
+    files = [path.relative_to(folder).as_posix() for path in alike]
     return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""
 
 

@@ -195,9 +195,7 @@ def crossing(points: tuple[Point, ...]) -> Point | None:
     return float(x), float(y)
 
 
-def spans_near(
-    shape: Shape, start: Point, end: Point, within_m: float
-) -> list[tuple[Point, ...]]:
+def spans_near(shape: Shape, start: Point, end: Point, within_m: float) -> list[tuple[Point, ...]]:
     """Return the vertices of each part of a shape that lies within a distance of a line [m]."""
     import shapely
 
