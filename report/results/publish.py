@@ -138,9 +138,14 @@ def locked(folder: Path, wait_s: float = WAIT_S) -> Iterator[None]:
 def _try_lock(path: Path) -> int:
     """Return the descriptor of the locked file; -1 if another process has it."""
     lock = os.open(path, os.O_CREAT | os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+    return lock_or_close(lock, path)
+
+
+def lock_or_close(lock: int, path: Path) -> int:
+    """Lock a descriptor of a path and return it; -1 if it is another's, or gone."""
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        # The process that had it may have removed the file since it was opened here.
+        # The process that had it may have removed the path since it was opened here.
         if os.path.samestat(os.fstat(lock), path.stat()):
             return lock
     except (BlockingIOError, FileNotFoundError):
