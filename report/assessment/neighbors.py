@@ -207,11 +207,8 @@ def plan_pairs(
     required : callable
         Returns the required separation of a pair [m], and its mark.
     """
-    found = []
-    for each in _pairs(data, reaches, addresses):
-        required_m, mark = required(each)
-        found.append(replace(each, required_m=required_m, mark=mark))
-    return tuple(found)
+    pairs = [(each, *required(each)) for each in _pairs(data, reaches, addresses)]
+    return tuple(replace(each, required_m=value_m, mark=mark) for each, value_m, mark in pairs)
 
 
 def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:

@@ -1,6 +1,6 @@
 """Output files of a verification: PDF, CSV and charts.
 
-Read `report.manual.sections` next.
+Read `sections` and `report.manual.summary` next.
 """
 
 from __future__ import annotations
@@ -9,30 +9,46 @@ import datetime as dt
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import pandas as pd
 from markupsafe import Markup
 
 import solver.building.roof
 from report.document.sections import Section, filled
 from report.document.templates import rendered
 from report.figures.base import load_fonts
+from report.manual.building import building
+from report.manual.features import features, known_errors
 from report.manual.machine import this_machine
-from report.manual.sections import sections
-from report.manual.summary import judged
-from report.manual.table import verification_csv
+from report.manual.models import models
+from report.manual.precision import work
+from report.manual.robustness import conditioning, stability
+from report.manual.section import section
+from report.manual.shake_table import shake_table
+from report.manual.studies import convergence, curves, links
+from report.manual.summary import judged, summary
+from report.manual.tables import checks, methods, peers, software
 from report.pages.symbols import with_symbols
 from report.typeset.pdf import TEMPLATES, lay_out
 from report.words.validation import validation
-from solver.verification import model_evidence, model_study, shake_table, static_study
+from solver.verification import model_evidence, model_study, static_study
+from solver.verification import shake_table as accepted
 from solver.verification.evidence import Verification
 
 _CONSTANTS = {
     "building_rules": solver.building.roof,
     "model_evidence": model_evidence,
     "model_study": model_study,
-    "shake_table": shake_table,
+    "shake_table": accepted,
     "static_study": static_study,
 }
 """Modules whose constants the templates print."""
+
+_CHECK = (
+    "id", "section", "problem", "source", "quantity", "unit", "expected", "computed", "error",
+    "tolerance",
+)  # fmt: skip
+_OF_TWO_AXES = ["method", "parameters", "case", "time per run [s]", "PRD error [%]"]
+"""Columns of the table: of a check, and of a run in two axes."""
 
 
 def files(
@@ -79,3 +95,40 @@ def manual_html(
         "sections": list(filled(TEMPLATES, parts, context)),
     }
     return rendered(TEMPLATES, "verification.html", context | cover)
+
+
+def sections(verification: Verification, machine: Mapping[str, str]) -> tuple[Section, ...]:
+    """Return all sections except cover and contents."""
+    return (
+        summary(verification),
+        section("scope", "Scope and terms"),
+        checks(verification),
+        methods(),
+        work(verification),
+        stability(verification),
+        convergence(verification),
+        links(verification),
+        curves(verification),
+        conditioning(verification),
+        building(verification),
+        *((models(verification),) if verification.models else ()),
+        shake_table(verification),
+        features(verification),
+        known_errors(),
+        *((peers(verification.peers),) if verification.peers else ()),
+        software(machine),
+    )
+
+
+def verification_csv(verification: Verification) -> bytes:
+    """Return one table: checks, runs, runs in two axes; a cell that does not apply is empty."""
+    rows = [{name: getattr(row, name) for name in _CHECK} for row in verification.checks]
+    passed = ["yes" if row.passed else "no" for row in verification.checks]
+    found = pd.DataFrame(rows).assign(passed=passed)
+    found = found.rename(columns={name: f"{name} [-]" for name in ("error", "tolerance")})
+    parts = [("check", found), ("run", verification.work.drop(columns="setting"))]
+    parts += [("run in two axes", evidence.work[_OF_TWO_AXES]) for evidence in verification.models]
+    kinds, frames = zip(*parts, strict=True)
+    table = pd.concat(frames, keys=kinds, names=["kind", None]).reset_index("kind")
+    text: str = table.to_csv(index=False, lineterminator="\n")
+    return text.encode()

@@ -14,7 +14,6 @@ import pytest
 from pypdf import PdfReader
 
 import report.manual.render
-import report.manual.sections
 import solver.verification.run
 import tables
 import verified
@@ -318,7 +317,7 @@ def test_tests_of_a_shake_table_go_into_the_manual_and_decide_the_exit_code(
         with verifying(kept) as patch:
             for name in drawn:
                 part = quick.parts[name]
-                patch.setattr(report.manual.sections, name, lambda _, part=part: part)
+                patch.setattr(report.manual.render, name, lambda _, part=part: part)
             done = run("verify", "--table", folder, "--out", out)
         assert done.exit_code == code, done.output
         assert f"shake table: 5 tests, median ratio {factor:.3f}. The acceptance is" in done.stdout

@@ -12,8 +12,8 @@ import pytest
 import printed
 from report.figures.base import load_fonts
 from report.manual.models import models
+from report.manual.render import verification_csv
 from report.manual.summary import summary
-from report.manual.table import verification_csv
 from report.typeset.pdf import TEMPLATES
 from report.words.formats import percent
 from solver.verification import model_study

@@ -4,7 +4,8 @@ import pytest
 
 from inputs import SITE
 from report.sheet.checking.site_checks import site_faults
-from report.sheet.schema import Site, SiteClass
+from report.sheet.schema import Site
+from report.sheet.schema.choices import SiteClass
 from solver.rules.hazard import HazardBasis
 
 GIVEN = SITE | {
