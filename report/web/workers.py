@@ -7,6 +7,7 @@ takes too long is replaced. Knows no route and no physics. Read `Workers.ask`.
 from __future__ import annotations
 
 import asyncio
+import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -118,12 +119,21 @@ class Workers:
             # The first answer comes sooner from a process that starts alone.
             await self._warmed.wait()
         while True:
-            with self._start(is_quick) as worker:
-                self._workers.add(worker)
-                try:
-                    await self._serve(worker, warm, is_quick)
-                finally:
-                    self._workers.discard(worker)
+            try:
+                with self._start(is_quick) as worker:
+                    self._workers.add(worker)
+                    try:
+                        await self._serve(worker, warm, is_quick)
+                    finally:
+                        self._workers.discard(worker)
+            except Exception:  # such as of a system that starts no process
+                traceback.print_exc()
+                self._warmed.set()
+                await asyncio.sleep(_PAUSE_S)
+                # Nobody else may come for the jobs that wait.
+                for waiting in self._waiting:
+                    if not waiting.answer.done():
+                        waiting.answer.set_exception(LostError())
 
     async def _serve(self, worker: WorkerProcess, warm: Mapping[str, Any], is_quick: bool) -> None:
         """Give a process its jobs until it is lost, which costs a job that was tried before."""

@@ -180,3 +180,25 @@ def test_an_answer_is_a_line_whatever_is_in_it():
         return await ask(pool, text)
 
     assert done(1, script)["name"] == text
+
+
+def test_where_no_process_starts_no_job_waits_and_the_next_one_is_answered_once_one_does(capsys):
+    failing = [OSError("no process left")]
+
+    def start(is_quick):
+        if failing:
+            raise failing.pop()
+        return echoing(is_quick)
+
+    async def run():
+        pool = Workers(1, start)
+        pool.start({})
+        lost = await asyncio.wait_for(gathered(ask(pool, "a")), 10.0)
+        again = await asyncio.wait_for(ask(pool, "b"), 30.0)
+        await pool.stop()
+        return lost, again
+
+    (lost,), again = asyncio.run(run())
+    assert isinstance(lost, LostError)
+    assert again == {"name": "b"}
+    assert capsys.readouterr().err.count("OSError: no process left") == 1
