@@ -124,7 +124,7 @@ def table_of(
     """
     fields = [(name, shown_by(type(rows[0]), name)) for name in names.split()] if rows else []
     columns = [
-        column
+        replace(column, field=name)
         for name, shown in fields
         for column in shown.columns(fmt, heads.get(name, shown.head), shares.get(name, shown.share))
     ]
@@ -197,15 +197,17 @@ def with_total(table: Table, cells: Sequence[str], *, is_first: bool = False) ->
     return replace(table, rows=(row, *table.rows) if is_first else (*table.rows, row))
 
 
-def merged(table: Table, *at: int) -> Table:
+def merged(table: Table, *fields: str) -> Table:
     """Return a table with one row for those that differ in names alone, which it lists.
 
     Parameters
     ----------
-    at : int
-        Columns of the names; the first one if none is given.
+    fields : str
+        Whose columns have the names, or their headings in a table of no entity; the first column
+        if none is given.
     """
-    names = at or (0,)
+    names = [k for k, column in enumerate(table.columns) if (column.field or column.head) in fields]
+    names = names if fields else [0]
     rows, columns = [], list(table.columns)
 
     def others(row: TableRow) -> tuple[object, ...]:

@@ -15,12 +15,13 @@ NO_VALUE = "none"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableColumn:
-    """A column: heading, unit below it, width in shares of the table, alignment."""
+    """A column: heading, unit below it, width in shares of the table, alignment, its field."""
 
     head: str
     unit: str = ""
     share: float = 1.0
     align: str = "right"
+    field: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,8 @@ COLUMNS = (
 )
 
 
-def rows_of(rows, *at, style=lambda _: ""):
-    table = merged(listed(rows, COLUMNS, style=style), *at)
+def rows_of(rows, *fields, style=lambda _: ""):
+    table = merged(listed(rows, COLUMNS, style=style), *fields)
     return [row.cells for row in table.rows], [column.share for column in table.columns]
 
 
@@ -30,7 +30,9 @@ def test_rows_that_differ_in_the_name_alone_are_one_where_the_first_is():
 
 
 def test_names_of_two_columns_are_listed_each_by_itself():
-    cells, _ = rows_of([("1", "3", "B"), ("2", "3", "A"), ("3", "3", "B"), ("4", "5", "A")], 0, 2)
+    cells, _ = rows_of(
+        [("1", "3", "B"), ("2", "3", "A"), ("3", "3", "B"), ("4", "5", "A")], "Array", "Side"
+    )
     assert cells == [("1 to 3", "3", "A, B"), ("4", "5", "A")]
 
 
