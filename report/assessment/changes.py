@@ -16,6 +16,7 @@ class ChangeKind(StrEnum):
     SOFTWARE = "software"
     INPUT = "input"
     RECORD = "record"
+    DOCUMENT = "document"
     DESIGN = "design displacement"
     CLEARANCE = "clearance"
     REQUIREMENT = "requirement"

@@ -6,6 +6,7 @@ Computes nothing: see `report.assessment.evidence`.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
@@ -15,7 +16,9 @@ from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
 from report.entities.cells import Column
 from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, Shown, at, length, words
+from report.sheet.schema import BuildingInput
 from solver.model import Status
+from solver.rules.provisions import AnalysisValue
 
 _UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m", RemedyKind.S_DS: "_g"}
 
@@ -197,6 +200,26 @@ class CumulativeResult(Entity):
     """Mean of the sums."""
     largest_m: Number
     """Largest of the sums."""
+
+
+class VariationResult(Entity):
+    """The governing array with a period and a damping of the building."""
+
+    period_s: float
+    """First period."""
+    damping_percent: float
+    """Damping, in percent of critical."""
+    mean_m: Number
+    """Mean PRD."""
+    largest_m: Number
+    """Largest PRD."""
+    value_m: Number
+    """Value from analysis."""
+
+
+def variation_result(building: BuildingInput, value: AnalysisValue) -> VariationResult:
+    """Return a variation of the building."""
+    return VariationResult.of(building, **asdict(value))
 
 
 def remedy_result(item: Remedy) -> RemedyResult:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.metadata import version
+from itertools import starmap
 from typing import Annotated, Any, ClassVar
 
 from pydantic import BeforeValidator
@@ -22,8 +23,10 @@ from report.entities.evidence import (
     NeighborResult,
     RemedyResult,
     UncertaintyResult,
+    VariationResult,
     remedy_result,
     uncertainty_result,
+    variation_result,
 )
 from report.entities.linked import LinkedResult, linked_result
 from report.entities.motion import MotionResult, RecordResult, motion_result
@@ -49,6 +52,19 @@ class WorkbookResult(Entity):
     """SHA-256 of the file."""
 
 
+class DocumentResult(Entity):
+    """A document that the workbook attaches."""
+
+    label: str
+    """Label of its cell."""
+    path: str
+    """Path from the folder of the workbook."""
+    size: int
+    """Number of bytes."""
+    sha256: str
+    """SHA-256 of the file."""
+
+
 def _in_order(gaps: Any) -> tuple[Any, ...]:
     return tuple(gaps.values() if isinstance(gaps, Mapping) else gaps)
 
@@ -69,6 +85,8 @@ class Compared(Entity):
     """Version that wrote the file."""
     records: Annotated[tuple[RecordResult, ...], at("shaking.records")]
     """Records as read."""
+    documents: Annotated[tuple[DocumentResult, ...], at("sheet.documents")] = ()
+    """Documents that the workbook attaches."""
     input: Annotated[ProjectInput, at("project")]
     """Content of the workbook."""
     rule_set: Annotated[str, at("rules.name")]
@@ -87,8 +105,9 @@ class Results(Compared):
     """An assessment and its evidence."""
 
     first: ClassVar[tuple[str, ...]] = (
-        "schema_version", "roofslip_version", "workbook", "records", "motions", "input", "s_ds_g",
-        "sdc_is_confirmed", "rule_set", "verdict", "warnings", "findings", "building_checks",
+        "schema_version", "roofslip_version", "workbook", "records", "documents", "motions",
+        "input", "s_ds_g", "sdc_is_confirmed", "rule_set", "verdict", "warnings", "findings",
+        "building_checks",
     )  # fmt: skip
 
     schema_version: int
@@ -121,6 +140,9 @@ class Results(Compared):
     """Margins in friction, slope and direction."""
     cumulative: tuple[CumulativeResult, ...]
     """Cumulative displacement; empty where it is not asked for."""
+    building_variations: tuple[VariationResult, ...]
+    """The governing array with the building as used, which is first, and with others; empty where
+    no motion goes through the building."""
 
 
 def schema() -> dict[str, Any]:
@@ -154,4 +176,5 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         remedies=tuple(map(remedy_result, evidence.remedies)),
         certainty=uncertainty_result(evidence.uncertainty),
         cumulative=evidence.cumulative,
+        building_variations=tuple(starmap(variation_result, evidence.building)),
     )

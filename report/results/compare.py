@@ -42,6 +42,7 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
         *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
         *_inputs(former, assessment, us_first),
         *_records(former, now),
+        *_documents(former, now),
         *_requirements(former, now),
         *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
         *_results((*arrays, *gaps), UnitFormat(us_first=us_first)),
@@ -177,6 +178,15 @@ def _records(former: Compared, now: Compared) -> Iterator[Change]:
     for (motion, component, _), pair in pairs.items():
         shown = (f"{row.name}, SHA-256 {row.sha256}" if row else NOT_THERE for row in pair)
         yield from _one(ChangeKind.RECORD, f"{motion} {component}", *shown)
+
+
+def _documents(former: Compared, now: Compared) -> Iterator[Change]:
+    """Yield the documents that changed; earlier versions did not write theirs."""
+    if "documents" in former.model_fields_set:
+        pairs = _paired(former.documents, now.documents, lambda row: (row.label,))
+        for (label, _), pair in pairs.items():
+            shown = (f"{row.path}, SHA-256 {row.sha256}" if row else NOT_THERE for row in pair)
+            yield from _one(ChangeKind.DOCUMENT, label, *shown)
 
 
 def _requirements(former: Compared, now: Compared) -> Iterator[Change]:

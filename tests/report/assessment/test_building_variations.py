@@ -10,6 +10,7 @@ import stand_in
 from one_by_one import prd_m
 from printed import printed
 from report.assessment.building_variations import building_variations
+from report.entities.evidence import variation_result
 from solver import at_roof, building_of_periods
 from solver.sliding.least_model import DEFAULT
 
@@ -63,6 +64,12 @@ def test_the_building_as_used_is_first_and_is_that_of_the_design(made):
     done, found = made
     assert found[0][1] is done.governing.analysis
     assert len({value.mean_m for _, value in found}) == 6  # of four dampings one is used
+    written = [variation_result(*each).model_dump() for each in found]
+    assert written[0] == {
+        "period_s": T1_S,
+        "damping_percent": 3.0,
+        **{name: getattr(found[0][1], name) for name in ("mean_m", "largest_m", "value_m")},
+    }
 
 
 def test_the_page_says_the_range_of_the_means(made):

@@ -1,6 +1,7 @@
 """What changed since a former revision: found from results.json, printed, and marked."""
 
 import json
+from dataclasses import asdict, replace
 from functools import reduce
 from operator import getitem
 from pathlib import Path
@@ -18,6 +19,7 @@ from report.pages.registry import package_data, parts
 from report.results.compare import changes
 from report.results.json import results_json
 from report.results.since import former_from, read_former
+from report.sheet.reading.beside import Document
 from solver.model import InputError
 
 
@@ -113,6 +115,20 @@ def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(asses
     assert "ab" * 32 in found.items[2].now
     assert found.items[3].title == "Array A1"
     assert found.values == {("A1", "design_m")}
+
+
+def test_a_document_with_another_hash_is_found_unless_the_former_file_does_not_say(assessment):
+    letter = Document(label="Letter of review", path="r.pdf", size=9, sha256="ab" * 32)
+    now = replace(assessment, sheet=replace(assessment.sheet, documents=(letter,)))
+    document = json.loads(results_json(now, support(now)))
+    assert document["documents"] == [asdict(letter)]
+    assert not changes(former(document), now).items
+    document["documents"][0]["sha256"] = "00" * 32
+    (found,) = changes(former(document), now).items
+    assert (found.kind, found.title) == (ChangeKind.DOCUMENT, "Letter of review")
+    assert ("00" * 32 in found.before, "ab" * 32 in found.now) == (True, True)
+    del document["documents"]  # as of an earlier version
+    assert not changes(former(document), now).items
 
 
 def test_two_results_that_print_alike_are_shown_with_more_digits(assessment, document):
