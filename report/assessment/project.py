@@ -177,6 +177,12 @@ class Assessment:
         return tuple(row for row in self.rows if not row.is_satisfied)
 
     @property
+    def alike_conditions(self) -> Sequence[tuple[Requirement, Sequence[str]]]:
+        """The same, each with the ids of all arrays or motions that it says the same of."""
+        groups = grouped_by(self.conditions, lambda row: row.said)
+        return [(rows[0], [row.subject for row in rows]) for rows in groups.values()]
+
+    @property
     def is_overridden(self) -> bool:
         """Whether an override or a departure changes a design displacement or a separation."""
         return any(

@@ -95,6 +95,11 @@ class Requirement(BaseModel):
     cause: SkipJsonSchema[str] = Field(default="", exclude=True)
     place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)
 
+    @property
+    def said(self) -> tuple[str, ...]:
+        """What is printed of it beside its subject."""
+        return self.consequence.value, self.title, self.found, self.limit, self.remedy
+
 
 condition = partial(Requirement, consequence=Consequence.CONDITION)
 """A requirement that is a condition where it is not satisfied."""

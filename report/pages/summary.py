@@ -23,7 +23,7 @@ from report.sheet.checking.findings import lines
 from report.sheet.schema import ModelChoice
 from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
-from report.words.counts import lowered
+from report.words.counts import lowered, ranged
 from report.words.formats import aligned
 from report.words.units import Quantity, compared_pairs, no_less, pair, ratio
 from solver.model import Status
@@ -117,8 +117,8 @@ def attention(assessment: Assessment) -> Iterator[Concern]:
             yield Concern("NG", f"array {item.id}, {limit_words(check, us_first)}")
     for gap in (gap for gap in assessment.clearances if gap.verdict is Verdict.NG):
         yield Concern("NG", _short(gap, us_first))
-    for row in assessment.conditions:
-        where = f"{row.subject}, " if row.subject else ""
+    for row, ids in assessment.alike_conditions:
+        where = f"{ranged(ids)}, " if row.subject else ""
         text = f"{where}{lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
         yield Concern(row.consequence.value, text)
     for finding in what_is_new(assessment.sheet.book):

@@ -40,3 +40,13 @@ def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok
         assert all(cause.endswith(", no verdict") for cause in causes)
     assert not any("OK" in line or line.startswith("NG: clearance") for line in lines)
     assert lines[-1] == "verdict: NG"
+
+
+def test_a_condition_that_says_the_same_of_several_arrays_is_said_once():
+    arrays = [stand_in.array(f"A{k}", 0.5, x=120 * k) for k in (1, 2, 3)]
+    done = stand_in.assess_input(stand_in.project(arrays=arrays), stand_in.motions(1, seconds=4.0))
+    (group,) = [ids for row, ids in done.alike_conditions if row.id == "interconnection"]
+    assert group == ["A1", "A2", "A3"]
+    assert sum(len(ids) for _, ids in done.alike_conditions) == len(done.conditions)
+    page = printed(done, "summary")
+    assert "not given" in page.line("Condition: arrays A1 to A3, Interconnection strength")
