@@ -22,6 +22,7 @@ from solver.rules.limit import Limit, Measure
 
 _COMPONENTS = ("x", "y", "z")
 _PAIRS = ("x-y", "x-z", "y-z")
+_STRENGTHS = (("Arias intensity, m/s", 2, "arias_mps"), ("D5-95, s", 1, "d5_95_s"))
 _PLACES = {Measure.COUNT: 0, Measure.TIME_S: 1, Measure.PLAIN: 2}
 
 
@@ -66,11 +67,8 @@ def lowest_between(
 def strength_table(package: PackageData) -> Table:
     """Return Arias intensity, significant duration and correlations of each motion."""
 
-    def arias(motion: MotionStrength, name: str) -> float:
-        return motion.strengths[name].arias_mps if name in motion.strengths else math.nan
-
-    def d5_95(motion: MotionStrength, name: str) -> float:
-        return motion.strengths[name].d5_95_s if name in motion.strengths else math.nan
+    def strength(motion: MotionStrength, name: str, field: str) -> float:
+        return getattr(motion.strengths.get(name), field, math.nan)
 
     def correlation(motion: MotionStrength, pair: str) -> str:
         return number(motion.correlations.get(pair, math.nan), 2)
@@ -78,10 +76,10 @@ def strength_table(package: PackageData) -> Table:
     columns: Sequence[Column] = (
         (words("Motion", 1.1), lambda motion: motion.id),
         *(
-            (plain("Arias intensity, m/s", unit=name), partial(arias, name=name))
+            (plain(head, decimals, name), partial(strength, name=name, field=field))
+            for head, decimals, field in _STRENGTHS
             for name in _COMPONENTS
         ),
-        *((plain("D5-95, s", 1, name), partial(d5_95, name=name)) for name in _COMPONENTS),
         *((text("Correlation", pair), partial(correlation, pair=pair)) for pair in _PAIRS),
         (
             text("Hold", "s", 0.9),

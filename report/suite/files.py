@@ -64,14 +64,9 @@ class SuiteComponent:
         return in_range and abs(fit.mean - 1.0) <= MEAN_OFF
 
     @property
-    def final_velocity_mps(self) -> float:
-        """Velocity at the end [m/s]; 0 if it is rounding error."""
-        return without_noise(self.measures.final_velocity_mps, self.measures.pgv_mps)
-
-    @property
-    def final_displacement_m(self) -> float:
-        """Displacement at the end [m]; 0 if it is rounding error."""
-        return without_noise(self.measures.final_displacement_m, self.measures.pgd_m)
+    def facts(self) -> Mapping[str, float]:
+        """Its measures, in SI except g; 0 at the end of the record for rounding error."""
+        return without_noise(facts(self.measures))
 
 
 def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[SuiteComponent, ...]:
@@ -191,9 +186,7 @@ def _component(part: SuiteComponent, files: Mapping[str, bytes]) -> dict[str, An
         "least_ratio": part.fit.minimum,
         "greatest_ratio": part.fit.maximum,
         "mean_ratio": part.fit.mean,
-        **facts(part.measures),
-        "final_velocity_mps": part.final_velocity_mps,
-        "final_displacement_m": part.final_displacement_m,
+        **part.facts,
     }
 
 
@@ -220,8 +213,8 @@ _COLUMNS: tuple[tuple[str, str, _Text], ...] = (
     ("PGV [cm/s]", ">", lambda part: f"{100.0 * part.measures.pgv_mps:.1f}"),
     ("PGD [cm]", ">", lambda part: f"{100.0 * part.measures.pgd_m:.1f}"),
     ("D5-95 [s]", ">", lambda part: f"{part.measures.d5_95_s:.1f}"),
-    ("final v [cm/s]", ">", lambda part: f"{100.0 * part.final_velocity_mps:.3g}"),
-    ("final d [cm]", ">", lambda part: f"{100.0 * part.final_displacement_m:.3g}"),
+    ("final v [cm/s]", ">", lambda part: f"{100.0 * part.facts['final_velocity_mps']:.3g}"),
+    ("final d [cm]", ">", lambda part: f"{100.0 * part.facts['final_displacement_m']:.3g}"),
     ("correlation", "<", lambda part: f"{part.pair} {part.correlation:+.2f}"),
     ("seed", "<", lambda part: part.grew_from),
 )

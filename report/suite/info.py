@@ -71,13 +71,13 @@ def spectra_g(records: Sequence[Record]) -> Floats:
 
 
 def _row(channel: Mapping[str, Any]) -> tuple[str, ...]:
-    shown = dict(channel)
-    for end, peak in (("final_velocity_mps", "pgv_mps"), ("final_displacement_m", "pgd_m")):
-        shown[end] = without_noise(channel[end], channel[peak])
+    shown = without_noise(channel)
     values = ((shown[key] * size, ".0f" if key == "npts" else ".4g") for _, key, size in _COLUMNS)
     return (channel["name"], *(f"{value:{form}}" for value, form in values))
 
 
-def without_noise(final: float, peak: float) -> float:
-    """Return a value at the end of a record, or 0 if it is rounding error beside the peak."""
-    return 0.0 if abs(final) <= _NO_DRIFT * peak else final
+def without_noise(measured: Mapping[str, Any]) -> dict[str, Any]:
+    """Return measures with 0 for what is rounding error beside its peak at the end of a record."""
+    peaks = {"final_velocity_mps": "pgv_mps", "final_displacement_m": "pgd_m"}
+    lost = (end for end, peak in peaks.items() if abs(measured[end]) <= _NO_DRIFT * measured[peak])
+    return {**measured, **dict.fromkeys(lost, 0.0)}
