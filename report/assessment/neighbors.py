@@ -223,8 +223,10 @@ def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tup
     """Return the parts of an outline along which no strip lies."""
     found = []
     for number, side in enumerate(starmap(_Side, sides(outline.points)), start=1):
+        ux, uy = side.direction
+        outward_deg = math.degrees(math.atan2(-ux, uy))
         # East, first in the list, is a quarter turn clockwise of north.
-        point = _COMPASS[round((side.outward_deg - north_deg + 90.0) / 45.0) % 8]
+        point = _COMPASS[round((outward_deg - north_deg + 90.0) / 45.0) % 8]
         name = f"{point} edge of the roof"
         if isinstance(outline, Polygon):
             name += f" (side {number})"
@@ -249,12 +251,6 @@ class _Side:
         """From its start to its end, of length 1."""
         (x0, y0), (x1, y1) = self.start, self.end
         return (x1 - x0) / self.long, (y1 - y0) / self.long
-
-    @property
-    def outward_deg(self) -> float:
-        """Direction out of the roof, counterclockwise from x."""
-        ux, uy = self.direction
-        return math.degrees(math.atan2(-ux, uy))
 
     def at(self, along: float) -> Point:
         """Return the point at a distance from its start [m]."""

@@ -52,10 +52,10 @@ def is_wide(assessment: Assessment) -> bool:
 def plan_on_paper(
     assessment: Assessment,
     size: PlanSize,
-    designs: Mapping[str, str] | None = None,
+    designs: Mapping[str, str] = {},
     *,
     has_verdicts: bool = True,
-) -> Paper:
+) -> PlanSheet:
     """Return the plan with its labels, at a round scale, or on a screen as large as it can be.
 
     Parameters
@@ -63,7 +63,22 @@ def plan_on_paper(
     designs : mapping of str to str, optional
         The design displacement of each array in words.
     """
-    return _drawn(assessment, size, designs or {}, has_verdicts).paper
+    extent = _extent(assessment)
+    paper, key = _empty(extent, size, _scale(assessment, extent, size))
+    plan = PlanSheet(
+        assessment=assessment,
+        size=size,
+        paper=paper,
+        designs=designs,
+        has_verdicts=has_verdicts,
+    )
+    if not size.is_full:
+        paper.placer.take(key)
+    _draw(plan, extent)
+    if not size.is_full:
+        draw_key(plan, key, paper)
+    paper.items.sort(key=level)
+    return plan
 
 
 class PrintedPlan(NamedTuple):
@@ -82,7 +97,7 @@ def printed_plan(assessment: Assessment) -> PrintedPlan:
     room = partial(beside, assessment, arrays)
     # A plan whose schedule has no room even without a legend need not be drawn.
     for size in [size for size in sizes if room(size, 0.0).is_all(assessment)] or sizes[-1:]:
-        sheet = _drawn(assessment, size)
+        sheet = plan_on_paper(assessment, size)
         key = key_on_paper(sheet, COLUMN_IN - BESIDE_IN)
         found = room(size, key.tall)
         if found.is_all(assessment) and not sheet.unnamed + sheet.shortened:
@@ -96,30 +111,6 @@ def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
     papers = {PlanPaper.LETTER: (letter,), PlanPaper.TABLOID: TABLOID, PlanPaper.A3: A3}
     large = TABLOID if unit_format(assessment).us_first else A3
     return papers.get(assessment.project.options.plan_paper, (letter, *large))
-
-
-def _drawn(
-    assessment: Assessment,
-    size: PlanSize,
-    designs: Mapping[str, str] = {},
-    has_verdicts: bool = True,
-) -> PlanSheet:
-    extent = _extent(assessment)
-    paper, key = _empty(extent, size, _scale(assessment, extent, size))
-    plan = PlanSheet(
-        assessment=assessment,
-        size=size,
-        paper=paper,
-        designs=designs,
-        has_verdicts=has_verdicts,
-    )
-    if not size.is_full:
-        paper.placer.take(key)
-    _draw(plan, extent)
-    if not size.is_full:
-        draw_key(plan, key, paper)
-    paper.items.sort(key=level)
-    return plan
 
 
 def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Frame]:

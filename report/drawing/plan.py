@@ -25,7 +25,7 @@ from report.assessment.verdict import Verdict
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema import ROOF, ObjectKind, RoofObject
 from report.sheet.schema.shapes import Point, label_point, mean
-from report.words.units import Quantity, Unit, compared, number, pair
+from report.words.units import Quantity, Unit, compared_pairs, number, pair
 
 TEXT_SHARE = 1.0 / 120.0
 """Height of texts, as a share of the larger side of the plan."""
@@ -112,11 +112,10 @@ def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
     """Yield the clearances, numbered as in the workbook, and what is NG without one."""
     us_first = assessment.project.project.units_first.is_us
     for gap in plan_gaps(assessment):
-        show_required, show_provided = compared(gap.required_m, gap.provided_m)
-        provided = pair(gap.provided_m, Quantity.SIZE, us_first, show_provided)
-        required = "no value"
-        if not math.isnan(gap.required_m):
-            required = pair(gap.required_m, Quantity.SIZE, us_first, show_required) + _by(gap.mark)
+        required, provided, _ = compared_pairs(
+            gap.required_m, gap.provided_m, Quantity.SIZE, us_first
+        )
+        required = "no value" if math.isnan(gap.required_m) else required + _by(gap.mark)
         verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
         start = f"{gap.number}: provided {provided}"
         if not gap.is_given:

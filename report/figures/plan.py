@@ -66,7 +66,7 @@ _ARROW: dict[str, Any] = {
 
 def roof_plan(assessment: Assessment, size: PlanSize) -> str:
     """Return the plan as SVG, at true scale where it is printed in its own size."""
-    return paper_svg(plan_on_paper(assessment, size))
+    return paper_svg(plan_on_paper(assessment, size).paper)
 
 
 def paper_svg(paper: Paper) -> str:

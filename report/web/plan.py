@@ -66,7 +66,7 @@ def plan(
     words = {name: str(cell["text"]) for name, cell in designs.items()}
     has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
-    paper = plan_on_paper(assessment, _size(wide_px), words, has_verdicts=has_verdicts)
+    paper = plan_on_paper(assessment, _size(wide_px), words, has_verdicts=has_verdicts).paper
     return {
         "title": "Roof plan to scale",
         "described": [

@@ -147,7 +147,7 @@ def test_no_label_lies_on_another_or_on_a_dimension_line(done):
 
 def test_the_page_has_each_number_once_in_its_gap_and_equal_gaps_dimensioned_once(done):
     size = PlanSize(wide=7.5, tall=4.3, key_wide=7.5, key_tall=0.5, is_screen=True)
-    paper = plan_on_paper(done, size, {array.id: "9 in" for array in done.arrays})
+    paper = plan_on_paper(done, size, {array.id: "9 in" for array in done.arrays}).paper
     shown = [text.words for text in words_of(paper)]
     circles = [item.center[0] for item in paper.items if isinstance(item, Circle)]
     numbers = [text.words for text in words_of(paper) if text.at[0] in circles]
@@ -181,7 +181,7 @@ def test_a_gap_that_is_not_satisfied_is_marked_beside_its_number():
 
 
 def test_the_small_plan_has_numbers_without_leaders_across_arrays():
-    paper = plan_on_paper(thirty(), SMALL)
+    paper = plan_on_paper(thirty(), SMALL).paper
     solid = shapely.union_all(
         [
             shapely.Polygon(item.points).buffer(-0.01)

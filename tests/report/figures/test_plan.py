@@ -91,7 +91,7 @@ def legend(done):
 
 def figure(done, size):
     with style():
-        drawn = painted(plan_on_paper(done, size))
+        drawn = painted(plan_on_paper(done, size).paper)
         drawn.set_dpi(400)  # extents are rounded to pixels
         FigureCanvasAgg(drawn)
     return drawn
@@ -143,7 +143,7 @@ def test_the_picture_is_at_the_scale_that_it_states(done, size):
     shown = words(roof_plan(done, SMALL) if size is SMALL else legend(done))
     stated = next(text for text in shown if text.startswith("1 in ="))
     if size is PORTRAIT:
-        stated = plan_on_paper(done, size).scale.name
+        stated = plan_on_paper(done, size).paper.scale.name
     feet_per_inch = int(re.fullmatch(r"1 in = (\d+) ft", stated).group(1))
     for name, wide, tall in (("A1", 80, 60), ("T-1", 53, 30)):
         _, size_in = place(drawn, name)

@@ -55,7 +55,7 @@ def test_the_prescriptive_displacement_that_the_override_lowers_is_marked(done):
 def test_the_plan_and_its_tables_mark_it(done):
     load_fonts(TEMPLATES / "fonts")
     with style():
-        figure = painted(plan_on_paper(done, LANDSCAPE))
+        figure = painted(plan_on_paper(done, LANDSCAPE).paper)
     said = " ".join(text.get_text() for text in figure.findobj(lambda a: hasattr(a, "get_text")))
     assert re.search(rf"Δ {LENGTH}‡", said)
     arrays, schedule = printed(done, "plan").tables[:2]
