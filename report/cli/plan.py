@@ -5,22 +5,33 @@ Read `read` first.
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from report.cli.groups import SectionedGroup
+from report.cli.plan_layers import choose, given_kinds
 from report.cli.terminal import SOURCE, input_errors, plain
+from report.cli.values import Number
 from report.words.command import called
 
 if TYPE_CHECKING:
     from report.drawing.plan_read import DrawnOutline, RoofPlan
+    from report.drawing.read_dxf import RoofDrawing
+    from report.sheet.schema import LayerKind
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
-MOST_HANDLES = 20
+MOST_NAMES = 5
+
+
+def _rotation(context: click.Context, parameter: click.Parameter, value: str) -> float:
+    """Return the angle of `--rotate` [deg]; NaN for `north`."""
+    if value == "north":
+        return math.nan
+    return Number("deg", -360.0, 360.0).convert(value, parameter, context)
 
 
 @click.group(cls=SectionedGroup)
@@ -34,22 +45,42 @@ def plan() -> None:
 @click.option("--units", type=click.Choice(UNIT_CHOICES),
               help="Unit of the drawing; required if it states none.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite the places of rows that are filled.")
-def read(drawing: Path, project: Path, units: str | None, replace: bool) -> None:
-    """Fill in arrays, objects, roof edges and outlines from the closed polylines of a DXF.
+@click.option("--accept", is_flag=True, help="Take what is proposed for layers that are not known.")
+@click.option("--layer", "given", metavar="NAME=KIND", multiple=True, callback=given_kinds,
+              help="What is drawn on a layer; may be repeated.")  # fmt: skip
+@click.option("--rotate", metavar="DEGREES|north", default="0", callback=_rotation,
+              help="Turn the drawing counterclockwise, or its north to +y.")  # fmt: skip
+def read(
+    drawing: Path,
+    project: Path,
+    units: str | None,
+    replace: bool,
+    accept: bool,
+    given: dict[str, LayerKind],
+    rotate: float,
+) -> None:
+    """Fill in arrays, objects, roof edges and outlines from the closed lines of a DXF.
 
-    The sheet Layers says what each layer is; the layers of plan.dxf are known. Names are texts
-    inside the outlines, or attributes of blocks. Everything else in the workbook is kept. If
-    the workbook has no other errors, the clearances follow as by plan clearances.
+    The sheet Layers says what each layer is; the layers of plan.dxf are known, and others are
+    proposed by their names. Names and heights are texts inside the outlines, or attributes of
+    blocks. Everything else in the workbook is kept. If the workbook has no other errors, the
+    clearances follow as by plan clearances.
     """
     from solver.model import InputError
 
     with input_errors(drawing):
-        found = _drawn(drawing, project, units)
+        drawn, unit_m = _read(drawing, units)
+        drawn, degrees = _turned(drawn, rotate)
+        found, layers = _planned(drawn, unit_m, project, given, accept)
     with input_errors(project):
-        path, has_formulas = _filled(project, found, replace)
-    for place in (*found.roof, *found.arrays, *found.objects):
-        click.echo(plain(_line(place)))
-    for text in _unread(found):
+        path, has_formulas, has_layers = _filled(project, found, layers, replace)
+    lines = (
+        *_turn(degrees, found),
+        *map(_line, (*found.roof, *found.arrays, *found.objects)),
+        *_unread(found),
+        *_kept(layers, has_layers),
+    )
+    for text in lines:
         click.echo(plain(text))
     try:
         has_formulas |= _with_clearances(project)
@@ -94,62 +125,120 @@ def _note_formulas(has_formulas: bool) -> None:
         click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 
 
-def _drawn(drawing: Path, project: Path, units: str | None) -> RoofPlan:
-    """Read the drawing by the layers that the workbook names."""
-    from report.drawing.plan_read import plan_of
+def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
+    """Read the drawing; return it and the size of its unit [m]."""
     from report.drawing.read_dxf import read_dxf
-    from report.sheet.reading.read import read as read_sheet
     from report.words.units import LENGTHS
     from solver.model import InputError
 
-    sheet = read_sheet(project)
-    layers = {
-        row["layer"]: row["kind"]
-        for row in sheet.draft["layers"]
-        if {"layer", "kind"} <= row.keys()
-    }
     found = read_dxf(drawing, LENGTHS[units] if units else None)
     unit = units or found.unit
     if not unit:
         choices = ", ".join(UNIT_CHOICES)
         raise InputError(f"states no unit; add --units with one of {choices}")
-    return plan_of(found, LENGTHS[unit], layers)
+    return found, LENGTHS[unit]
 
 
-def _filled(project: Path, found: RoofPlan, replace: bool) -> tuple[Path, bool]:
-    """Fill the plan in; return the workbook, and whether it has formulas."""
+def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, float]:
+    """Return the drawing as turned, and by how many degrees; NaN turns its north to +y."""
+    from report.drawing.turned import turned
+    from solver.model import InputError
+
+    degrees = 90.0 - drawn.north_deg if math.isnan(rotate) else rotate
+    if math.isnan(degrees):
+        raise InputError(
+            "states no north, by an arrow as in plan.dxf or by GEODATA; give --rotate in degrees"
+        )
+    return (turned(drawn, degrees) if degrees else drawn), degrees
+
+
+def _planned(
+    drawn: RoofDrawing, unit_m: float, project: Path, given: dict[str, LayerKind], accept: bool
+) -> tuple[RoofPlan, dict[str, LayerKind]]:
+    """Return the plan, and what is said of layers that the workbook does not name."""
+    from report.drawing.plan_read import plan_of
+    from report.sheet.reading.read import read as read_sheet
+
+    sheet = read_sheet(project)
+    named = {
+        row["layer"]: row["kind"]
+        for row in sheet.draft["layers"]
+        if {"layer", "kind"} <= row.keys()
+    }
+    layers = choose(drawn, named, given, accept)
+    return plan_of(drawn, unit_m, {**named, **layers}), layers
+
+
+def _filled(
+    project: Path, found: RoofPlan, layers: dict[str, LayerKind], replace: bool
+) -> tuple[Path, bool, bool]:
+    """Fill the plan in; return the workbook, whether it has formulas, and the sheet Layers."""
     from report.drawing.fill import changes
     from report.sheet.reading.archive import open_book
+    from report.sheet.reading.locate import is_absent
+    from report.sheet.schema import SECTION
     from report.sheet.writing.filled import fill_cells
     from solver.model import InputError
 
     if not (found.roof or found.arrays or found.objects):
-        lines = list(_unread(found)) or ["the drawing has no closed polylines"]
+        lines = list(_unread(found)) or ["the drawing has no closed lines"]
         raise InputError(["nothing to fill in: give the layers on the sheet Layers", *lines])
     book = open_book(project)
-    return book.path, fill_cells(book, changes(book, found, replace=replace))
+    has_formulas = fill_cells(book, changes(book, found, layers, replace=replace))
+    return book.path, has_formulas, not is_absent(book, SECTION["layers"])
+
+
+def _turn(degrees: float, found: RoofPlan) -> Iterator[str]:
+    """Yield what the drawing is turned by, and where its north is then."""
+    if degrees:
+        way = "counterclockwise" if degrees > 0.0 else "clockwise"
+        yield f"turned by {_angle(abs(degrees))} {way} about the origin of the drawing"
+    if not math.isnan(found.north_deg):
+        yield f"north, by the drawing: {_angle(found.north_deg)} counterclockwise from +x"
+    elif degrees:
+        yield "the drawing states no north: check its direction on the sheet Site"
+
+
+def _angle(degrees: float) -> str:
+    return f"{round(degrees, 6) + 0.0:.6f}".rstrip("0").rstrip(".") + "°"
 
 
 def _line(place: DrawnOutline) -> str:
+    from report.drawing.turned import own_axes
     from report.words.units import Quantity, pair
 
-    box = place.shape.bounds
-    wide, tall = (
-        pair(side, Quantity.PLAN, True)
-        for side in (box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m)
-    )
+    *sides, angle = own_axes(place.shape)
+    wide, tall = (pair(side, Quantity.PLAN, True) for side in sides)
+    askew = f" at {_angle(angle)} to the axes" if round(angle, 6) else ""
     source = f" from {place.handle} on {place.layer}" if place.handle else ""
     note = f" ({place.note})" if place.note else ""
     count = len(place.shape.points)
-    return f"{place.name}: {place.kind.value}, {count} vertices, {wide} by {tall}{source}{note}"
+    return (
+        f"{place.name}: {place.kind.value}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
+    )
 
 
 def _unread(found: RoofPlan) -> Iterator[str]:
-    """Yield what was not understood, by layer and reason, with its handles."""
-    groups: dict[tuple[str, str], list[str]] = defaultdict(list)
-    for item in found.unread:
-        groups[item.layer, item.reason].append(item.handle)
-    for (layer, reason), handles in groups.items():
-        shown = ", ".join(handles[:MOST_HANDLES])
-        more = f" and {len(handles) - MOST_HANDLES} more" if len(handles) > MOST_HANDLES else ""
-        yield f"not read: layer {layer}, {reason}: {shown}{more}"
+    """Yield what was not understood, once for each cause, with its layers and some handles."""
+    from report.words.counts import grouped_by
+
+    for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
+        layers = list(dict.fromkeys(item.layer for item in items if item.layer))
+        handles = [f"{item.handle} {item.detail}".strip() for item in items]
+        # What the drawing says as a whole is on no layer.
+        where = f": {len(items)} on {_some(layers)} ({_some(handles)})" if layers else ""
+        yield f"not read: {reason}{where}"
+
+
+def _some(names: Sequence[str]) -> str:
+    """Return names, or some and how many more there are."""
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    return ", ".join(names[:MOST_NAMES]) + more
+
+
+def _kept(layers: dict[str, LayerKind], has_layers: bool) -> Iterator[str]:
+    """Yield what is said of layers, and whether the workbook keeps it."""
+    if layers:
+        said = ", ".join(f"{name} = {kind.value}" for name, kind in layers.items())
+        where = "kept on the sheet Layers" if has_layers else "not kept: there is no sheet Layers"
+        yield f"layers, {where}: {said}"

@@ -6,7 +6,7 @@ Reads no drawing and writes no file (`report.drawing.plan_read`, `report.sheet.r
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from report.drawing.plan_read import DrawnOutline, RoofPlan
@@ -15,7 +15,8 @@ from report.sheet.reading.growing import DIGITS, GrowingTable
 from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.schema import ROOF, SECTION, SIDES, Polygon, Rectangle
+from report.sheet.schema import ROOF, SECTION, SIDES, LayerKind, Polygon, Rectangle
+from report.sheet.schema.scene import Roof
 from report.sheet.schema.shapes import Shape
 from report.sheet.writing.legacy_notes import MOVE
 from solver.model import InputError
@@ -35,14 +36,17 @@ class _Fill:
     def refuse(self, position: CellPosition, name: str) -> None:
         """Note a place that is filled already."""
         if not self.replace:
-            text = f"the place of {name} is filled already; add --replace to overwrite it"
+            text = f"{name} is filled already; add --replace to overwrite it"
             self.filled.append(f"{position.address}: {text}")
 
 
-def changes(book: OpenBook, plan: RoofPlan, *, replace: bool) -> dict[CellPosition, Value]:
-    """Return the cells to change so that a workbook has the plan.
+def changes(
+    book: OpenBook, plan: RoofPlan, layers: Mapping[str, LayerKind], *, replace: bool
+) -> dict[CellPosition, Value]:
+    """Return the cells to change so that a workbook has the plan, and what its layers are.
 
-    Rows of the same ID get its place, and keep everything else; others are added below.
+    Rows of the same ID get its place, and keep everything else; others are added below. A workbook
+    without the sheet Layers stays without.
 
     Raises
     ------
@@ -55,6 +59,8 @@ def changes(book: OpenBook, plan: RoofPlan, *, replace: bool) -> dict[CellPositi
     _fill_rows(fill, "objects", plan.objects, outlines)
     for place in plan.roof:
         _fill_roof(fill, place, outlines)
+    _fill_north(fill, plan.north_deg)
+    _fill_layers(fill, layers)
     _fill_outlines(fill, outlines)
     if fill.filled:
         raise InputError(fill.filled)
@@ -72,7 +78,7 @@ def _fill_rows(
         row = rows[0] if rows else table.added()
         taken = [side for side in SIDES if not table.cell(row, side).is_blank]
         if rows and taken:
-            fill.refuse(table.position(row, taken[0]), place.name)
+            fill.refuse(table.position(row, taken[0]), f"the place of {place.name}")
         _note_outline(fill, place, outlines)
         if not rows:
             fill.cells[table.position(row, "id")] = place.name
@@ -103,9 +109,32 @@ def _fill_roof(fill: _Fill, place: DrawnOutline, outlines: GrowingTable | None) 
         si = cell_as_column(fill.book, section, section.entry(side), position).si
         is_blank = found_at(fill.book, position).is_blank
         if not is_blank:
-            fill.refuse(position, "the roof")
+            fill.refuse(position, "the place of the roof")
         if value is not None or not is_blank:
             fill.cells[position] = None if value is None else round(value / si, DIGITS)
+
+
+def _fill_north(fill: _Fill, north_deg: float) -> None:
+    section = SECTION["roof"]
+    if math.isnan(north_deg) or is_absent(fill.book, section):
+        return
+    position = find_cell(fill.book, section, section.entry("north_deg"))
+    found = found_at(fill.book, position)
+    given = round(north_deg, DIGITS)
+    if found.value != given and found.value not in (None, Roof().north_deg):
+        fill.refuse(position, "the direction of north")
+    if found.value != given:
+        fill.cells[position] = given
+
+
+def _fill_layers(fill: _Fill, layers: Mapping[str, LayerKind]) -> None:
+    if not layers or is_absent(fill.book, SECTION["layers"]):
+        return
+    table = GrowingTable.of(fill.book, "layers")
+    for layer, kind in layers.items():
+        for row in table.rows("layer", layer) or [table.added()]:
+            fill.cells[table.position(row, "layer")] = layer
+            fill.cells[table.position(row, "kind")] = kind.value
 
 
 def _note_outline(fill: _Fill, place: DrawnOutline, outlines: GrowingTable | None) -> None:
@@ -113,7 +142,7 @@ def _note_outline(fill: _Fill, place: DrawnOutline, outlines: GrowingTable | Non
     name = ROOF if place.kind.value == ROOF else place.name
     rows = outlines.rows("name", name) if outlines is not None else []
     if rows and outlines is not None:
-        fill.refuse(outlines.position(rows[0], "name"), name)
+        fill.refuse(outlines.position(rows[0], "name"), f"the place of {name}")
         fill.outlined.append(name)
     if isinstance(place.shape, Polygon):
         fill.outlines.append((name, place.shape))

@@ -6,7 +6,6 @@ Knows no file and no cells (`report.drawing.read_dxf`, `report.drawing.fill`). R
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from dataclasses import dataclass
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.layers import Layer
 from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
+from report.drawing.written import first_height, read_line
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema import LayerKind
 from report.sheet.schema.shapes import (
@@ -26,7 +26,7 @@ from report.sheet.schema.shapes import (
     sides,
     solid,
 )
-from report.words.units import LENGTHS
+from report.words.units import Quantity, pair
 
 LAYERS: Mapping[str, LayerKind] = {
     Layer.OUTLINE.title: LayerKind.ROOF,
@@ -47,7 +47,6 @@ LEAST_AREA_M2 = 1e-3
 ROUNDED_M = 1e-5
 """Sides within this of an axis [m] are parallel to it; vertices within this of a line are on it."""
 
-_HEIGHT = re.compile(r"(.*?),\s*height\s+([0-9.]+)\s*(in|ft|mm|cm|m)\b.*", re.IGNORECASE)
 _STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY: "PV-"}
 
 
@@ -76,12 +75,21 @@ class DrawnOutline:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RoofPlan:
-    """The plan as drawn, and what was not understood; `roof` has one place or none."""
+    """The plan as drawn, and what was not understood.
+
+    Attributes
+    ----------
+    roof : tuple of DrawnOutline
+        One or none.
+    north_deg : float
+        Direction of north, counterclockwise from +x; NaN if the drawing does not state it.
+    """
 
     roof: tuple[DrawnOutline, ...]
     arrays: tuple[DrawnOutline, ...]
     objects: tuple[DrawnOutline, ...]
     unread: tuple[Unread, ...]
+    north_deg: float = math.nan
 
 
 def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]) -> RoofPlan:
@@ -94,7 +102,7 @@ def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]
     layers : mapping of str to LayerKind
         What is drawn on layers, in addition to `LAYERS`; capitals do not distinguish layers.
     """
-    kinds = {name.casefold(): kind for name, kind in (*LAYERS.items(), *layers.items())}
+    kinds = known_layers(layers)
     unread = [item for item in drawing.unread if _is_of_interest(item.layer, kinds)]
     known: list[tuple[Drawn, LayerKind, Shape]] = []
     for line in drawing.lines:
@@ -102,9 +110,11 @@ def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]
         found = _shape(line, unit_m)
         if kind is None:
             unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
-        elif kind is not LayerKind.NOT_READ and isinstance(found, str):
-            unread.append(_unread(line, found))
-        elif kind is not LayerKind.NOT_READ and not isinstance(found, str):
+        elif kind is LayerKind.NOT_READ:
+            continue
+        elif isinstance(found, Unread):
+            unread.append(found)
+        else:
             known.append((line, kind, found))
     places = _named(known, drawing.texts, unit_m, unread)
     roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
@@ -119,29 +129,36 @@ def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]
         arrays=tuple(p for p in places if p.kind is LayerKind.ARRAY),
         objects=tuple(objects),
         unread=tuple(unread),
+        north_deg=drawing.north_deg,
     )
+
+
+def known_layers(layers: Mapping[str, LayerKind]) -> dict[str, LayerKind]:
+    """Return what is drawn on `LAYERS` and on others, which count more, by name in lower case."""
+    return {name.casefold(): kind for name, kind in (*LAYERS.items(), *layers.items())}
 
 
 def _is_of_interest(layer: str, kinds: Mapping[str, LayerKind]) -> bool:
     return kinds.get(layer.casefold()) is not LayerKind.NOT_READ
 
 
-def _unread(line: Drawn, reason: str) -> Unread:
-    return Unread(handle=line.handle, layer=line.layer, reason=reason)
+def _unread(line: Drawn, reason: str, detail: str = "") -> Unread:
+    return Unread(handle=line.handle, layer=line.layer, reason=reason, detail=detail)
 
 
-def _shape(line: Drawn, unit_m: float) -> Shape | str:
+def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
     """Return the shape of a line [m], or why it is none."""
     points = _straightened(ring([(x * unit_m, y * unit_m) for x, y in line.points]))
     if len(points) < LEAST_VERTICES:
-        return "a closed line without an area"
+        return _unread(line, "a closed line without an area")
     at = crossing(points)
     if at is not None:
         x, y = (value / unit_m for value in at)
-        return f"a line that touches or crosses itself near {x:.6g}, {y:.6g}"
+        reason = "a closed line that touches or crosses itself"
+        return _unread(line, reason, f"near {x:.6g}, {y:.6g}")
     shape = Polygon(points)
     if shape.area_m2 < LEAST_AREA_M2:
-        return "a closed line without an area"
+        return _unread(line, "a closed line without an area")
     return _box(shape) or shape
 
 
@@ -182,28 +199,35 @@ def _named(
     taken: dict[str, str] = {}
     counts: Counter[LayerKind] = Counter()
     places = []
-    written = [
-        _name_and_height(line, words) for (line, *_), words in zip(known, inside, strict=True)
-    ]
-    given = {name.casefold() for name, _ in written}
-    for (line, kind, shape), (name, height_m) in zip(known, written, strict=True):
-        note = ""
+    written = [_name(line, words, unit_m) for (line, *_), words in zip(known, inside, strict=True)]
+    given = {name.casefold() for name in written}
+    for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
+        notes = [_as_joined(line, unit_m)] if line.pieces else []
         if kind is LayerKind.ROOF:
             name = "roof"
         elif not name:
             name = _free_name(kind, counts, given)
-            note = "no text inside"
+            notes.append("no text inside")
         elif name.casefold() in taken:
-            reason = f"a second '{name}', the name of {taken[name.casefold()]}"
-            unread.append(_unread(line, reason))
+            detail = f"'{name}' of {taken[name.casefold()]}"
+            unread.append(_unread(line, "a second outline of the same name", detail))
             continue
+        height_m = math.nan
         if kind is not LayerKind.ROOF:
             taken[name.casefold()] = line.handle
+        if kind not in (LayerKind.ROOF, LayerKind.ARRAY):
+            height_m = _height_m(line, words, unit_m, notes, unread)
         places.append(
             DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
-                         height_m=height_m, note=note)
+                         height_m=height_m, note="; ".join(notes))
         )  # fmt: skip
     return places
+
+
+def _as_joined(line: Drawn, unit_m: float) -> str:
+    lines = f"joined from {line.pieces} lines" if line.pieces > 1 else "closed"
+    gap = line.gap * unit_m
+    return f"{lines}, gaps up to {pair(gap, Quantity.SIZE)}" if gap > ROUNDED_M else lines
 
 
 def _free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> str:
@@ -214,14 +238,33 @@ def _free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> 
             return name
 
 
-def _name_and_height(line: Drawn, words: Sequence[Words]) -> tuple[str, float]:
-    """Return the name of a line, and the height [m] written with it; NaN for none."""
-    own = [text for text in words if text.layer == line.layer] or list(words)
-    text = max(own, key=lambda found: found.at[1]).text if own else ""
-    match = _HEIGHT.fullmatch(text)
-    height_m = float(match[2]) * LENGTHS[match[3].lower()] if match else math.nan
-    name = line.name or (match[1] if match else text)
-    return name[:MAX_NAME].strip(), height_m
+def _by_layer(line: Drawn, words: Sequence[Words]) -> list[Words]:
+    """Return the texts inside of a line from the top, those of its layer before the others."""
+    return sorted(words, key=lambda text: (text.layer != line.layer, -text.at[1]))
+
+
+def _name(line: Drawn, words: Sequence[Words], unit_m: float) -> str:
+    """Return the name of a line: its own, or the first text inside of it, without a height."""
+    names = (read_line(text.text, unit_m)[0] for text in _by_layer(line, words))
+    return (line.name or next(filter(None, names), ""))[:MAX_NAME].strip()
+
+
+def _height_m(
+    line: Drawn, words: Sequence[Words], unit_m: float, notes: list[str], unread: list[Unread]
+) -> float:
+    """Return the height [m] that is written at an object, NaN for none, and note how it is read."""
+    lines = [each for text in _by_layer(line, words) for each in (text.text, *text.others)]
+    height, unclear = first_height((*line.heights, *lines), unit_m)
+    if unclear:
+        unread.append(_unread(line, "a height that is not understood", f"'{unclear[:MAX_NAME]}'"))
+    if height is None:
+        return math.nan
+    notes.append(f"{height.word} {pair(height.value_m, Quantity.SIZE)}")
+    if not height.has_unit:
+        notes.append("no unit given, so in that of the drawing")
+    if height.word == "ELEV":
+        notes.append("taken as above the roof")
+    return height.value_m
 
 
 def _texts_inside(

@@ -1,4 +1,4 @@
-"""Reads a roof drawing: its closed polylines with their layers and names, and what else there is.
+"""Reads a roof drawing: its closed lines with their layers and names, and what else there is.
 
 Knows no workbook and no kinds (`report.drawing.plan_read`). Points are in the drawing's world
 coordinates and unit. Hostile files are refused by size before the library loads them.
@@ -9,13 +9,17 @@ from __future__ import annotations
 import logging
 import math
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from report.drawing.curves import CURVES, MAX_POINTS, curve, without_doubles
 from report.drawing.dxf import APPLICATION
-from report.sheet.schema.shapes import Point, Polygon, ring
+from report.drawing.joined import join
+from report.drawing.layers import NORTH_ARROW, Layer
+from report.sheet.schema.shapes import Point, ring
 from report.words.letters import UNPRINTABLE, trimmed
 from solver.meant import meant
 from solver.model import InputError
@@ -28,19 +32,18 @@ MAX_BYTES = 25 * MB
 MAX_ENTITIES = 20_000
 MAX_VALUES = 1_000_000
 MAX_DEPTH = 8
-MAX_POINTS = 2000
-MAX_COORDINATE = 1e12
+MAX_CURVE_POINTS = 500_000
 
 SAGITTA_M = 0.003
 """Largest distance [m] of an arc from the chords that it is read as."""
+JOIN_M = 0.005
+"""Largest distance [m] between the ends of open lines that are joined."""
 
 UNITS: Mapping[int, str] = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
 """Units of drawings by $INSUNITS."""
 
-_FLAT = 1e-6
-_SPLINE_FRAME = 16  # of a vertex that controls a curve and is not on it
-_LINES = ("LWPOLYLINE", "POLYLINE", "CIRCLE")
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
+_HEIGHTS = ("HT", "HEIGHT", "ELEV")
 _ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
 
 
@@ -50,12 +53,20 @@ class Drawn:
 
     Attributes
     ----------
+    handle : str
+        Of the line, or of the first of those that are joined.
     name : str
         As `report` wrote it, or from the attributes of its block; empty if neither.
     points : tuple of Point
         A ring, not repeated, in the unit of the drawing.
     is_ours : bool
         Whether `report` wrote it.
+    heights : tuple of str
+        Attributes of its block that give a height, each as `HT 42`.
+    pieces : int
+        How many open lines it is joined from; 0 for a line that is drawn closed.
+    gap : float
+        Largest distance between the ends of those, in the unit of the drawing.
     """
 
     handle: str
@@ -63,34 +74,53 @@ class Drawn:
     name: str
     points: tuple[Point, ...]
     is_ours: bool
+    heights: tuple[str, ...] = ()
+    pieces: int = 0
+    gap: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Words:
-    """A text of a drawing, and where it is."""
+    """A text of a drawing, or the first line of it, where it is, and its other lines."""
 
     layer: str
     text: str
     at: Point
+    others: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unread:
-    """Something of a drawing that was not understood, and why."""
+    """Something of a drawing that was not understood, why, and what of it."""
 
     handle: str
     layer: str
     reason: str
+    detail: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class RoofDrawing:
-    """What a drawing consists of; its unit is empty if it states none that is known."""
+    """What a drawing consists of.
+
+    Attributes
+    ----------
+    unit : str
+        Empty if it states none that is known.
+    counts : Counter of tuple of str
+        How many of each layer and kind of entity there are.
+    north_deg : float
+        Direction of north, counterclockwise from +x, by the arrow of a plan that `report` wrote or
+        by GEODATA; NaN for none. Not by `$NORTHDIRECTION`, which is "the angle between the Y axis
+        of WCS and the grid north" (AutoCAD help) in a sense that is not documented.
+    """
 
     unit: str
     lines: list[Drawn] = field(default_factory=list)
     texts: list[Words] = field(default_factory=list)
     unread: list[Unread] = field(default_factory=list)
+    counts: Counter[tuple[str, str]] = field(default_factory=Counter)
+    north_deg: float = math.nan
 
 
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
@@ -110,13 +140,19 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
 
     _check(path)
     document = _loaded(path)
-    unit = UNITS.get(document.header.get("$INSUNITS", 0), "")
-    sagitta = SAGITTA_M / (unit_m or LENGTHS.get(unit, 1.0))
-    drawing = RoofDrawing(unit)
     _check_blocks(document)
+    unit = UNITS.get(document.header.get("$INSUNITS", 0), "")
+    reader = _Reader(RoofDrawing(unit), unit_m or LENGTHS.get(unit, 1.0))
+    geodata = document.modelspace().get_geodata()
+    if geodata is not None:
+        reader.face_north(*geodata.dxf.north_direction.vec2)
     for entity in document.modelspace():
-        _take(entity, drawing, sagitta, "", "")
-    return drawing
+        reader.take(entity, _Block())
+    reader.take_joined()
+    if document.header.get("$NORTHDIRECTION", 0.0) != 0.0:
+        reason = "$NORTHDIRECTION, as which way it turns is not documented"
+        reader.drawing.unread.append(Unread(handle="", layer="", reason=reason))
+    return replace(reader.drawing, north_deg=reader.north_deg)
 
 
 def _check(path: Path) -> None:
@@ -198,66 +234,156 @@ def _count(insert: Any) -> int:
     return rows * columns
 
 
-def _take(entity: Any, drawing: RoofDrawing, sagitta: float, name: str, block: str) -> None:
-    """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
-    kind, layer = entity.dxftype(), _printable(entity.dxf.get("layer", "0"))
-    handle = str(entity.dxf.get("handle") or block)
-    try:
-        if kind == "INSERT":
-            reason = _take_insert(entity, drawing, sagitta, handle)
-        elif kind in _TEXTS:
-            reason = _take_text(entity, drawing, layer, kind)
-        elif kind in _LINES:
-            reason = _take_line(entity, drawing, sagitta, layer, name, handle)
-        else:
-            reason = f"a {kind}"
-    except Exception as error:  # as `_loaded`
-        reason = f"a {kind} that cannot be read ({type(error).__name__})"
-    if reason:
-        drawing.unread.append(Unread(handle=handle, layer=layer, reason=reason))
-
-
 def _printable(text: object) -> str:
     """Return a text of the drawing without what no terminal and no page may print."""
     return trimmed(UNPRINTABLE.sub("", str(text)))
 
 
-def _take_line(
-    entity: Any, drawing: RoofDrawing, sagitta: float, layer: str, name: str, handle: str
-) -> str:
-    """Add a closed line, or return why it is none."""
-    found = _ring(entity, entity.dxftype(), sagitta)
-    if isinstance(found, str):
-        return found
-    own = _own_name(entity)
-    drawing.lines.append(
-        Drawn(handle=handle, layer=layer, name=own or name, points=found, is_ours=bool(own))
-    )
-    return ""
+class _Block(NamedTuple):
+    """The block that an entity is shown by: which one of all, its handle and what it says."""
+
+    number: int = 0
+    handle: str = ""
+    name: str = ""
+    heights: tuple[str, ...] = ()
 
 
-def _take_insert(insert: Any, drawing: RoofDrawing, sagitta: float, handle: str) -> str:
-    """Add what a block shows, or return why it shows nothing."""
-    if insert.block() is None:
-        return f"a block '{_printable(insert.dxf.get('name', ''))}' that the drawing does not have"
-    name = _attribute(insert)
-    layer = insert.dxf.get("layer", "0")
-    for one in insert.multi_insert() if _count(insert) > 1 else (insert,):
-        for entity in one.virtual_entities():
-            # Layer 0 within a block is the layer that the block is put on.
-            if entity.dxf.get("layer", "0") == "0":
-                entity.dxf.layer = layer
-            _take(entity, drawing, sagitta, name, handle)
-    return ""
+@dataclass(slots=True)
+class _Reader:
+    """The drawing as far as it is read, and its open lines, which are joined at the end."""
+
+    drawing: RoofDrawing
+    unit_m: float
+    opened: list[tuple[int, Drawn]] = field(default_factory=list)  # with their blocks
+    blocks: int = 0
+    points: int = 0
+    north_deg: float = math.nan
+
+    def take(self, entity: Any, block: _Block) -> None:
+        """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
+        kind, layer = entity.dxftype(), _printable(entity.dxf.get("layer", "0"))
+        handle = str(entity.dxf.get("handle") or block.handle)
+        if kind != "INSERT":
+            self.drawing.counts[layer, kind] += 1
+        try:
+            if kind == "INSERT":
+                reason = self._take_insert(entity, layer, handle)
+            elif kind in _TEXTS:
+                reason = self._take_text(entity, layer, kind)
+            elif kind in CURVES:
+                reason = self._take_curve(entity, layer, handle, block)
+            else:
+                reason = f"a {kind}"
+        except InputError:
+            raise
+        except Exception as error:  # a damaged drawing makes the library raise almost anything
+            reason = f"a {kind} that cannot be read ({type(error).__name__})"
+        if reason:
+            self._leave(handle, layer, reason)
+
+    def _take_curve(self, entity: Any, layer: str, handle: str, block: _Block) -> str:
+        """Add a closed line, or note an open one, or return why it is neither."""
+        found = curve(entity, SAGITTA_M / self.unit_m)
+        if isinstance(found, str):
+            return found
+        points, is_closed = found
+        self.points += len(points)
+        if self.points > MAX_CURVE_POINTS:
+            raise InputError(
+                f"its curves expand to more than {MAX_CURVE_POINTS:,} points; save the layers of"
+                " the roof plan alone"
+            )
+        own = _own_name(entity)
+        line = Drawn(handle=handle, layer=layer, name=own or block.name, points=tuple(points),
+                     is_ours=bool(own), heights=block.heights)  # fmt: skip
+        if is_closed:
+            return self._close(line, entity.dxftype())
+        if len(points) > MAX_POINTS:
+            return f"a {entity.dxftype()} of more than {MAX_POINTS} points"
+        # The arrow of a plan that `report` wrote, from foot to tip.
+        if layer == Layer.NORTH.title and own == NORTH_ARROW and len(points) == 2:
+            (x0, y0), (x1, y1) = points
+            self.face_north(x1 - x0, y1 - y0)
+        if points:
+            self.opened.append((block.number, line))
+        return "" if points else f"a {entity.dxftype()} without an area"
+
+    def _close(self, line: Drawn, kind: str) -> str:
+        """Add a line as closed, or return why it is none."""
+        points = without_doubles(line.points)
+        if len(points) < 3:
+            return f"a {kind} without an area"
+        if len(points) > MAX_POINTS:
+            return f"a {kind} of more than {MAX_POINTS} points"
+        self.drawing.lines.append(replace(line, points=ring(points)))
+        return ""
+
+    def take_joined(self) -> None:
+        """Add the closed lines that the open ones form."""
+        groups = [((block, line.layer.casefold()), line.points) for block, line in self.opened]
+        closed, rest = join(groups, JOIN_M / self.unit_m)
+        for points, parts, gap in closed:
+            pieces = len(parts) if len(parts) > 1 or gap else 0
+            line = replace(self.opened[parts[0]][1], points=tuple(points), pieces=pieces, gap=gap)
+            if reason := self._close(line, "closed line"):
+                self._leave(line.handle, line.layer, reason)
+        for k, reason in rest.items():
+            self._leave(self.opened[k][1].handle, self.opened[k][1].layer, reason)
+
+    def _leave(self, handle: str, layer: str, reason: str) -> None:
+        """Note what is not read; after a colon, what of it."""
+        cause, _, detail = re.sub("^a (?=[AEIO])", "an ", reason).partition(": ")
+        unread = Unread(handle=handle, layer=layer, reason=cause, detail=detail)
+        self.drawing.unread.append(unread)
+
+    def face_north(self, dx: float, dy: float) -> None:
+        """Take a direction as north, if it is one."""
+        if math.isfinite(dx + dy) and (dx or dy):
+            self.north_deg = math.degrees(math.atan2(dy, dx)) % 360.0
+
+    def _take_insert(self, insert: Any, layer: str, handle: str) -> str:
+        """Add what a block shows, or return why it shows nothing."""
+        if insert.block() is None:
+            return f"a block that the drawing does not have: '{_printable(insert.dxf.name)}'"
+        name, heights = _attributes(insert)
+        for one in insert.multi_insert() if _count(insert) > 1 else (insert,):
+            self.blocks += 1
+            block = _Block(self.blocks, handle, name, heights)
+            for entity in one.virtual_entities():
+                # Layer 0 within a block is the layer that the block is put on.
+                if entity.dxf.get("layer", "0") == "0":
+                    entity.dxf.layer = layer
+                self.take(entity, block)
+        return ""
+
+    def _take_text(self, entity: Any, layer: str, kind: str) -> str:
+        """Add a text that says something at a place; none is missed that does not."""
+        if kind == "MTEXT":
+            found = entity.plain_text(split=True)
+            x, y, _ = entity.dxf.insert
+        else:
+            found = [entity.plain_text() if kind == "TEXT" else entity.dxf.text]
+            x, y, _ = entity.get_placement()[1] or entity.dxf.insert
+        lines = [words for text in found if (words := " ".join(_printable(text).split()))]
+        if lines and math.isfinite(x) and math.isfinite(y):
+            self.drawing.texts.append(
+                Words(layer=layer, text=lines[0], at=(float(x), float(y)), others=tuple(lines[1:]))
+            )
+        return ""
 
 
-def _attribute(insert: Any) -> str:
-    """Return the name that the attributes of a block give: NAME, ID or TAG, or the only one."""
+def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
+    """Return what the attributes of a block say: its name, and heights with their tags.
+
+    The name is that of NAME, ID, TAG or MARK, or of the only one that is no height.
+    """
     found = {str(a.dxf.tag).casefold(): _printable(a.dxf.text) for a in insert.attribs}
+    given = [found.pop(tag.casefold(), "") for tag in _HEIGHTS]
+    heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, given, strict=True) if text)
     for tag in ("name", "id", "tag", "mark"):
         if found.get(tag):
-            return found[tag]
-    return next(iter(found.values())) if len(found) == 1 else ""
+            return found[tag], heights
+    return next(iter(found.values())) if len(found) == 1 else "", heights
 
 
 def _own_name(entity: Any) -> str:
@@ -266,110 +392,3 @@ def _own_name(entity: Any) -> str:
         return ""
     tags = entity.get_xdata(APPLICATION)
     return next((_printable(tag.value) for tag in tags if tag.code == 1000), "")
-
-
-def _take_text(entity: Any, drawing: RoofDrawing, layer: str, kind: str) -> str:
-    """Add a text that says something at a place; none is missed that does not."""
-    text = entity.plain_text() if kind != "ATTRIB" else entity.dxf.text
-    if kind == "MTEXT":
-        x, y, _ = entity.dxf.insert
-    else:
-        x, y, _ = entity.get_placement()[1] or entity.dxf.insert
-    words = " ".join(_printable(text).split())
-    if words and math.isfinite(x) and math.isfinite(y):
-        drawing.texts.append(Words(layer=layer, text=words, at=(float(x), float(y))))
-    return ""
-
-
-def _ring(entity: Any, kind: str, sagitta: float) -> tuple[Point, ...] | str:
-    """Return the ring of a closed line, or why it is none."""
-    if not _is_flat(entity):
-        return f"a {kind} that is not parallel to the plan"
-    if kind == "POLYLINE" and not (entity.is_2d_polyline or entity.is_3d_polyline):
-        return "a mesh"
-    if kind != "CIRCLE" and len(entity) > MAX_POINTS:
-        return f"a {kind} of more than {MAX_POINTS} points"
-    vertices = _vertices(entity, kind)
-    is_closed = kind == "CIRCLE" or bool(entity.is_closed)
-    if not all(math.isfinite(value) for vertex in vertices for value in vertex):
-        return f"a {kind} with a coordinate that is not a number"
-    if not all(abs(value) <= MAX_COORDINATE for vertex in vertices for value in vertex):
-        return f"a {kind} with a coordinate or bulge of more than {MAX_COORDINATE:g}"
-    if not vertices or not (is_closed or vertices[0][:2] == vertices[-1][:2]):
-        return f"an open {kind}"
-    points = list(_chords(vertices, sagitta))
-    if len(points) > MAX_POINTS:
-        return f"a {kind} of more than {MAX_POINTS} points"
-    return ring(_without_doubles(points)) if len(points) > 2 else f"a {kind} without an area"
-
-
-def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
-    """Return x, y and the bulge to the next vertex, in world coordinates."""
-    if kind == "CIRCLE":
-        (x, y, _), radius = entity.dxf.center, entity.dxf.radius
-        found = [(x - radius, y, 1.0), (x + radius, y, 1.0)]
-    elif kind == "LWPOLYLINE":
-        found = [(x, y, bulge) for x, y, bulge in entity.get_points("xyb")]
-    else:
-        shown = [v for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
-        found = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in shown]
-        if entity.is_3d_polyline:
-            return found
-    # The plane of the line may look down: then x and the turn of arcs are mirrored.
-    way = 1.0 if entity.dxf.get("extrusion", (0.0, 0.0, 1.0))[2] > 0.0 else -1.0
-    return [(way * float(x), float(y), way * float(bulge)) for x, y, bulge in found]
-
-
-def _chords(vertices: list[tuple[float, float, float]], sagitta: float) -> Iterator[Point]:
-    """Yield the points of a ring with its arcs as chords, up to one more than are allowed.
-
-    A bulge is the tangent of a quarter of the angle of an arc, positive counterclockwise.
-    """
-    count = 0
-    for (x0, y0, bulge), (x1, y1, _) in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
-        for share in _shares(math.dist((x0, y0), (x1, y1)), bulge, sagitta):
-            count += 1
-            if count > MAX_POINTS + 1:
-                return
-            turn = 4.0 * math.atan(bulge)
-            along, aside = _on_arc(turn, share) if turn else (0.0, 0.0)
-            dx, dy = x1 - x0, y1 - y0
-            yield x0 + along * dx + aside * dy, y0 + along * dy - aside * dx
-
-
-def _on_arc(turn: float, share: float) -> tuple[float, float]:
-    """Return how far along its chord and to the right of it a point of an arc is, in chords."""
-    sin, cos = math.sin(0.5 * turn), math.cos(0.5 * turn)
-    rest = turn * (0.5 - share)
-    return 0.5 * (1.0 - math.sin(rest) / sin), 0.5 * (math.cos(rest) - cos) / sin
-
-
-def _shares(chord: float, bulge: float, sagitta: float) -> list[float]:
-    """Return the shares of an arc at which its chords start; 0 alone for a line."""
-    if 0.5 * abs(bulge) * chord <= sagitta:
-        return [0.0]
-    radius = chord * (1.0 + bulge**2) / (4.0 * abs(bulge))
-    step = 4.0 * math.asin(math.sqrt(0.5 * min(sagitta / radius, 0.5)))
-    count = min(math.ceil(4.0 * math.atan(abs(bulge)) / step), MAX_POINTS + 1)
-    return [k / count for k in range(count)]
-
-
-def _is_flat(entity: Any) -> bool:
-    x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
-    return bool(abs(x) <= _FLAT and abs(y) <= _FLAT and z != 0.0)
-
-
-def _without_doubles(points: list[Point]) -> list[Point]:
-    """Return points without those at the place of the one before."""
-    kept = points[:1]
-    for point in points[1:]:
-        if math.dist(point, kept[-1]) > _FLAT * max(1.0, *map(abs, point)):
-            kept.append(point)
-    if len(kept) > 1 and math.dist(kept[0], kept[-1]) <= _FLAT * max(1.0, *map(abs, kept[0])):
-        kept.pop()
-    return kept
-
-
-def polygon(line: Drawn, unit_m: float) -> Polygon:
-    """Return a line as a polygon [m]."""
-    return Polygon(tuple((x * unit_m, y * unit_m) for x, y in line.points))

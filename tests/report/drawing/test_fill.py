@@ -6,11 +6,12 @@ import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
+from architect import ARRAYS, roof_plan
 from cells import cell
 from inputs import FT, NO_SIDES
 from report.cli.main import main
 from report.sheet.reading.read import read
-from report.sheet.schema import ClearanceSource, Polygon, UnitsFirst
+from report.sheet.schema import SIDES, ClearanceSource, Polygon, UnitsFirst
 from report.sheet.writing.live import overwritten
 from sheets import at, blank, edit, make, parts, project, put, same, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch
@@ -158,10 +159,124 @@ def test_a_drawing_without_a_unit_asks_for_it(tmp_path):
 def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     sketch = Sketch()
     ring = sketch.ring("MODULES", BOX_FT)
-    output = run(sketch.saved(tmp_path), new(tmp_path), exit_code=2)
+    output = run(sketch.saved(tmp_path), new(tmp_path), "--accept", exit_code=2)
     assert "nothing to fill in: give the layers on the sheet Layers" in output
-    listed = f"layer MODULES, a closed line on a layer that is not in Layers: {ring.dxf.handle}"
+    listed = f"a closed line on a layer that is not in Layers: 1 on MODULES ({ring.dxf.handle})"
     assert listed in output
+
+
+def layers_of(path):
+    return [(row["layer"], row["kind"].value) for row in read(path).draft["layers"]]
+
+
+def test_layers_that_nobody_named_are_shown_with_a_proposal_and_nothing_is_written(tmp_path):
+    path, drawn = new(tmp_path), roof_plan().saved(tmp_path)
+    before = path.read_bytes()
+    output = run(drawn, path, exit_code=2)
+    rows = [line.split("  ") for line in output.splitlines() if "POLY" in line or "ARC" in line]
+    assert [[cell.strip() for cell in row if cell.strip()] for row in rows] == [
+        ["A-ANNO-NOTE", "1", "1 LWPOLYLINE", "not read"],
+        ["A-ROOF-TANK", "1", "2 ARC, 2 TEXT", "none"],
+        ["E-SOLR-PANL", "2", "2 LWPOLYLINE, 2 MTEXT", "array"],
+        ["M-HVAC-EQPM", "2", "2 LWPOLYLINE", "fixed object"],
+    ]
+    assert "nothing is written: nobody says what is drawn on 5 layers; add --accept" in output
+    run(drawn, path, "--layer", "A-ROOF-TANK=fixed object", exit_code=2)  # and the other four
+    assert path.read_bytes() == before
+
+
+def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
+    path, drawn = new(tmp_path), roof_plan().saved(tmp_path)
+    output = run(drawn, path, "--accept", "--layer", "a-roof-tank=Fixed object", "--rotate", "-17")
+    draft = read(path).draft
+    assert layers_of(path) == [
+        ("a-roof-tank", "fixed object"), ("A-ANNO-NOTE", "not read"), ("A-ROOF-OTLN", "roof"),
+        ("E-SOLR-PANL", "array"), ("M-HVAC-EQPM", "fixed object"),
+    ]  # fmt: skip
+    for row, points in zip(draft["arrays"], ARRAYS.values(), strict=True):
+        sides = [row[side] / FT for side in SIDES]
+        (x0, y0), _, (x1, y1), _ = points
+        assert sides == pytest.approx([x0, x1, y0, y1], abs=1e-4)
+    heights = {row["id"]: row.get("height_m") for row in draft["objects"]}
+    assert heights["RTU-1"] == pytest.approx(3.5 * FT)
+    assert heights["RTU-2"] == pytest.approx(4.0 * FT)
+    assert heights["TANK"] == pytest.approx(5.0 * FT)
+    for said in ("turned by 17° clockwise", "the drawing states no north: check",
+                 "layers, kept on the sheet Layers: a-roof-tank = fixed object, A-ANNO-NOTE = ",
+                 "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) from ",
+                 "(joined from 2 lines; ELEV 60.0 in (1524 mm); taken as above the roof)",
+                 "(HT 48.0 in (1219 mm); no unit given, so in that of the drawing)"):  # fmt: skip
+        assert said in output
+    # They are known from now on; one that is given again is changed in its row.
+    again = run(drawn, path, "--replace", "--layer", "A-ROOF-TANK=not read")
+    assert layers_of(path)[0] == ("A-ROOF-TANK", "not read")
+    assert len(layers_of(path)) == 5
+    assert "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) at 17° to the" in again
+
+
+def test_without_the_sheet_layers_the_plan_is_filled_in_and_the_layers_are_not_kept(tmp_path):
+    path = make(tmp_path, clearances=[])
+    edit(path, lambda book: book.remove(book["Layers"]))
+    sketch = Sketch()
+    sketch.ring("PV_Modules", BOX_FT, "A9")
+    output = run(sketch.saved(tmp_path), tmp_path, "--accept")
+    assert "layers, not kept: there is no sheet Layers: PV_Modules = array" in output
+    assert [row.get("id") for row in read(path).draft["arrays"]] == ["A1", "A2", "A9"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--layer", "AR-RAY=array"), "no layer 'AR-RAY'; did you mean 'ARRAY'?"),
+        (
+            ("--layer", "ARRAY=arrays"),
+            "'ARRAY=arrays' is not NAME=KIND, where KIND is one of array",
+        ),
+        (("--layer", "=array"), "'=array' is not NAME=KIND"),
+        (("--rotate", "400"), "it is 400 deg; give more than -360 deg and less than 360 deg."),
+        (("--rotate", "nan"), "it is nan deg; give more than"),
+        (("--rotate", "north"), "states no north, by an arrow as in plan.dxf or by GEODATA; give"),
+    ],
+)
+def test_options_that_say_nothing_are_refused(tmp_path, words, said):
+    assert said in run(drawing(tmp_path), new(tmp_path), *words, exit_code=2)
+
+
+def facing(tmp_path, east, north):
+    sketch = Sketch()
+    sketch.ring("ARRAY", BOX_FT, "A1")
+    sketch.space.new_geodata().dxf.north_direction = (east, north)
+    return sketch.saved(tmp_path)
+
+
+def test_the_north_of_the_drawing_is_filled_in_as_it_is_turned(tmp_path):
+    path = new(tmp_path)
+    output = run(facing(tmp_path, -1, 1), path)
+    assert "north, by the drawing: 135° counterclockwise from +x" in output
+    assert read(path).draft["roof"][0]["north_deg"] == pytest.approx(135.0)
+    output = run(facing(tmp_path, -1, 1), path, "--rotate", "north", exit_code=2)
+    assert "the direction of north is filled already; add --replace to overwrite it" in output
+    output = run(facing(tmp_path, -1, 1), path, "--rotate", "north", "--replace")
+    assert "turned by 45° clockwise about the origin of the drawing" in output
+    assert read(path).draft["roof"][0]["north_deg"] == pytest.approx(90.0)
+
+
+def test_what_is_not_read_is_said_once_for_each_cause(tmp_path):
+    sketch = Sketch()
+    sketch.ring("ARRAY", BOX_FT, "A1")
+    sketch.document.header["$NORTHDIRECTION"] = 0.3
+    for k in range(40):
+        look = {"layer": f"L{k % 8}"}
+        sketch.space.add_line((k, 900), (k, 901), dxfattribs=look)
+        sketch.space.add_point((k, 900), dxfattribs=look)
+    lines = [line for line in run(sketch.saved(tmp_path), new(tmp_path)).splitlines()
+             if line.startswith("not read")]  # fmt: skip
+    assert [re.sub(r"\(.*\)", "(...)", line) for line in lines] == [
+        "not read: a POINT: 40 on L0, L1, L2, L3, L4 and 3 more (...)",
+        "not read: an open line that closes no outline: 40 on L0, L1, L2, L3, L4 and 3 more (...)",
+        "not read: $NORTHDIRECTION, as which way it turns is not documented",
+    ]
+    assert all(line.endswith(" and 35 more)") for line in lines[:2])
 
 
 def test_polygons_need_the_sheet_outlines(tmp_path):

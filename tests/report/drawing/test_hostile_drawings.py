@@ -112,14 +112,15 @@ def test_a_block_that_the_drawing_does_not_have_is_listed(tmp_path):
     found = plan(sketch.saved(tmp_path))
     assert [place.name for place in found.arrays] == ["A1"]
     (missing,) = found.unread
-    assert missing.reason == "a block 'GONE' that the drawing does not have"
+    assert missing.reason == "a block that the drawing does not have"
+    assert missing.detail == "'GONE'"
 
 
 def test_a_block_without_a_name_is_listed(file):
     start, text = LIBRECAD_R12.split("0\nTEXT\n")
     path = file(f"{start}0\nINSERT\n8\nPV\n10\n0.0\n20\n0.0\n0\nTEXT\n{text}")
     (missing,) = plan(path, "m", {"PV": LayerKind.ARRAY}).unread
-    assert missing.reason.startswith("a INSERT that cannot be read")
+    assert missing.reason.startswith("an INSERT that cannot be read")
 
 
 @pytest.mark.parametrize("radius", [1e300, -1e300, 1e150, 2e12])
@@ -159,10 +160,11 @@ def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter)
     sketch.ring("NOT-KNOWN", UNIT_FT)
     path = sketch.saved(tmp_path)
     path.write_bytes(path.read_bytes().replace(b"NOT-KNOWN", f"NOT-{letter}KNOWN".encode()))
-    done = CliRunner().invoke(main, ["plan", "read", str(path), str(book), "--replace"])
+    words = ["plan", "read", str(path), str(book), "--replace", "--accept"]
+    done = CliRunner().invoke(main, words)
     assert done.exit_code == 0, done.output
     assert "A1: array" in done.output
-    assert "not read: layer NOT-KNOWN, " in done.output
+    assert " is not in Layers: 1 on NOT-KNOWN (" in done.output
     assert letter not in done.output
     draft = read(book).draft
     assert draft["arrays"][0]["id"] == "A1"
@@ -179,3 +181,88 @@ def test_the_library_prints_nothing_of_its_own(file):
         [sys.executable, "-c", code, path], capture_output=True, text=True, check=True
     )
     assert (done.stdout, done.stderr) == ("1\n", "")
+
+
+def spline(space, count=4, degree=3, knots=None, at=1.0):
+    found = space.add_spline(dxfattribs={"layer": "ARRAY"})
+    found.dxf.degree = degree
+    found.control_points = [(at * math.cos(k), at * math.sin(k), 0.0) for k in range(count)]
+    found.knots = knots or list(map(float, range(count + degree + 1)))
+
+
+INF, NAN = math.inf, math.nan
+MANY, HUGE, NO_NUMBER, NO_AREA = (
+    "of more than 2000 points",
+    "with a coordinate or bulge of more than 1e+12",
+    "with a coordinate that is not a number",
+    "without an area",
+)
+OPEN_LINE = "an open line that closes no outline"
+
+
+@pytest.mark.parametrize(
+    ("draw", "reason"),
+    [
+        (lambda s: spline(s, 3000), f"a SPLINE {MANY}"),
+        (lambda s: spline(s, 600), f"a SPLINE {MANY}"),
+        (lambda s: s.add_spline([(k, 0) for k in range(300)]), f"a SPLINE {MANY}"),
+        (lambda s: spline(s, 1900, 1800), "a SPLINE of a degree of more than 10"),
+        (lambda s: spline(s, knots=[NAN] * 8), f"a SPLINE {NO_NUMBER}"),
+        (lambda s: spline(s, knots=[0] * 4 + [INF] * 4), f"a SPLINE {NO_NUMBER}"),
+        (lambda s: spline(s, knots=[8, 7, 6, 5, 4, 3, 2, 1]), OPEN_LINE),
+        (lambda s: spline(s, knots=[1.0] * 999), "a SPLINE that cannot be read (ValueError)"),
+        (lambda s: spline(s, at=9e11), f"a SPLINE {MANY}"),
+        (lambda s: spline(s, at=1e15), f"a SPLINE {HUGE}"),
+        (lambda s: s.add_ellipse((0, 0), (1e11, 0), 0.5), f"an ELLIPSE {MANY}"),
+        (lambda s: s.add_ellipse((0, 0), (1e200, 0), 0.5), f"an ELLIPSE {HUGE}"),
+        (lambda s: s.add_ellipse((0, 0), (5, 0), 0.5, NAN, 1), f"an ELLIPSE {NO_NUMBER}"),
+        (lambda s: s.add_ellipse((0, 0), (5, 0), 0.5, 0, 1e300), OPEN_LINE),
+        (lambda s: s.add_ellipse((0, 0), (5, 0), 0.5, 1, 1), f"an ELLIPSE {NO_AREA}"),
+        (lambda s: s.add_arc((0, 0), 1e13, 0, 90), f"an ARC {HUGE}"),
+        (lambda s: s.add_arc((0, 0), 5, NAN, 90), f"an ARC {NO_NUMBER}"),
+        (lambda s: s.add_arc((0, 0), 0, 0, 360), OPEN_LINE),
+        (lambda s: s.add_line((0, 0), (NAN, 1)), f"a LINE {NO_NUMBER}"),
+    ],
+)  # fmt: skip
+def test_a_curve_without_measure_is_listed_with_its_cause(tmp_path, draw, reason):
+    sketch = Sketch(unit="m")
+    draw(sketch.space)
+    found = read_dxf(sketch.saved(tmp_path))
+    assert (found.lines, [item.reason for item in found.unread]) == ([], [reason])
+
+
+def test_curves_of_too_many_chords_in_all_are_refused(tmp_path):
+    sketch = Sketch(unit="m")
+    for _ in range(300):
+        sketch.space.add_circle((0, 0), 3500)
+    with pytest.raises(InputError, match=r"its curves expand to more than 500,000 points; save"):
+        read_dxf(sketch.saved(tmp_path))
+
+
+def starred(k):
+    return (0, 0), (math.cos(k), math.sin(k))
+
+
+def ringed(k):
+    angles = (math.tau * each / 3000 for each in (k, k + 1))
+    return [(50 * math.cos(angle), 50 * math.sin(angle)) for angle in angles]
+
+
+@pytest.mark.parametrize(
+    ("line", "count", "reasons"),
+    [
+        (starred, 300, {"open lines of which three or more meet at a point"}),
+        (ringed, 3000, {f"a closed line {MANY}"}),
+        (lambda k: (((k // 2) % 30, k // 60), ((k // 2) % 30 + k % 2, k // 60 + 1 - k % 2)), 1800,
+         {"open lines of which three or more meet at a point"}),
+        (lambda k: ((0, 0), (0, 0)), 300, {OPEN_LINE}),
+    ],
+    ids=["star", "ring", "grid", "points"],
+)  # fmt: skip
+def test_open_lines_without_measure_are_listed(tmp_path, line, count, reasons):
+    sketch = Sketch(unit="m")
+    for k in range(count):
+        sketch.space.add_line(*line(k))
+    found = read_dxf(sketch.saved(tmp_path))
+    assert found.lines == []
+    assert {item.reason for item in found.unread} >= reasons

@@ -11,6 +11,7 @@ import scenes
 import stand_in
 from inputs import FT, INCH, NO_SIDES
 from report.drawing.dxf import write_dxf
+from report.drawing.joined import OPEN
 from report.drawing.plan import plan_drawing
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema import LayerKind, Polygon, Rectangle
@@ -188,7 +189,7 @@ def test_a_plan_that_report_wrote_reads_back_to_itself(file):
 
 def test_what_was_not_understood_is_listed_with_handle_and_layer(tmp_path):
     sketch = warehouse()
-    line = sketch.space.add_line((0, 0), (1, 1), dxfattribs={"layer": "ARRAY"})
+    line = sketch.space.add_line((0, -9), (1, -8), dxfattribs={"layer": "ARRAY"})
     opened = sketch.space.add_lwpolyline([(0, 0), (5, 0), (5, 5)], dxfattribs={"layer": "ARRAY"})
     vent = sketch.ring("VENTS", UNIT_FT)
     crossed = sketch.ring("ARRAY", ((0, 0), (10, 10), (10, 0), (0, 10)))
@@ -196,16 +197,17 @@ def test_what_was_not_understood_is_listed_with_handle_and_layer(tmp_path):
     twice = sketch.ring("ARRAY", ((210, 20), (230, 20), (230, 40), (210, 40)), "A1")
     sketch.space.add_line((0, 0), (1, 1), dxfattribs={"layer": "NOTES"})
     listed = plan(sketch.saved(tmp_path)).unread
-    found = {(item.handle, item.layer): item.reason for item in listed}
+    found = {(item.handle, item.layer): (item.reason, item.detail) for item in listed}
     owner = next(p.handle for p in plan(sketch.saved(tmp_path)).arrays if p.name == "A1")
     assert found == {
-        (line.dxf.handle, "ARRAY"): "a LINE",
-        (opened.dxf.handle, "ARRAY"): "an open LWPOLYLINE",
-        (vent.dxf.handle, "VENTS"): "a closed line on a layer that is not in Layers",
-        (crossed.dxf.handle, "ARRAY"): "a line that touches or crosses itself near 5, 5",
-        (flat.dxf.handle, "ARRAY"): "a closed line without an area",
-        (twice.dxf.handle, "ARRAY"): f"a second 'A1', the name of {owner}",
-    }
+        (line.dxf.handle, "ARRAY"): (OPEN, ""),
+        (opened.dxf.handle, "ARRAY"): (OPEN, ""),
+        (vent.dxf.handle, "VENTS"): ("a closed line on a layer that is not in Layers", ""),
+        (crossed.dxf.handle, "ARRAY"):
+            ("a closed line that touches or crosses itself", "near 5, 5"),
+        (flat.dxf.handle, "ARRAY"): ("a closed line without an area", ""),
+        (twice.dxf.handle, "ARRAY"): ("a second outline of the same name", f"'A1' of {owner}"),
+    }  # fmt: skip
 
 
 def test_outlines_without_a_text_get_a_name_that_is_free(tmp_path):

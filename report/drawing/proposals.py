@@ -1,0 +1,35 @@
+"""What is likely drawn on the layers of a drawing, by their names.
+
+Proposes and decides nothing: a proposal counts when it is taken (`report.cli.plan`).
+"""
+
+from __future__ import annotations
+
+import re
+
+from report.sheet.schema import LayerKind
+
+_PATTERNS: tuple[tuple[str, LayerKind], ...] = (
+    (r"-(ANNO|DIMS|IDEN|NPLT|PATT|TTLB)(-|$)", LayerKind.NOT_READ),
+    (r"^PVC(SETBACK|INSTALLATIONAREA|SHADOW|WINDZONES)$", LayerKind.NOT_READ),
+    (r"^A-ROOF(-OTLN)?(-[A-Z])?$|^PVCROOF$", LayerKind.ROOF),
+    (r"PARAPET", LayerKind.EDGE_WITH_PARAPET),
+    (r"-SOLR(-|$)|(^|-)(PV|SOLAR)-?(MODULE|PANEL|ARRAY)S?(-|$)|^PVCLAYOUT$", LayerKind.ARRAY),
+    (r"-EQPM(-|$)|^PVCOBSTRUCTION$|(^|-)(OBSTRUCTION|RTU)S?(-|$)", LayerKind.FIXED),
+)
+"""Names, in capitals with hyphens for blanks and underscores, and what they mean; the first that
+fits counts.
+
+The fields ANNO, DIMS, IDEN, NPLT, PATT, TTLB (annotation), ROOF, OTLN (outline), EQPM (equipment)
+and their order are of the AIA CAD Layer Guidelines (U.S. National CAD Standard), the one letter at
+the end is its status. The names with `pvc` are those of PVCAD (PVComplete, help article "Layer
+Names"). SOLR, PV and the other words are taken by what they mean: no public list was found that has
+them, nor one of the layers that HelioScope, Aurora and PVcase export.
+"""
+
+
+def proposed(layer: str) -> LayerKind | None:
+    """Return what is likely drawn on a layer; None where its name does not say."""
+    # A reference that is bound to the drawing has its name before that of the layer.
+    name = re.sub(r"[ _]+", "-", re.split(r"[|$]", layer)[-1].upper())
+    return next((kind for pattern, kind in _PATTERNS if re.search(pattern, name)), None)

@@ -1,0 +1,63 @@
+"""Names of outlines and heights of objects in lines of text, such as `RTU-1, height 42 in`."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import NamedTuple
+
+from report.words.units import LENGTHS
+
+_NUMBER = r"\d{1,6}(?:\.\d{1,6})?"
+_KEYWORD = re.compile(r"\b(HT|HEIGHT|ELEV)[.:= ]*(?=\d)", re.IGNORECASE)
+_VALUE = re.compile(
+    rf"(?:(?P<feet>{_NUMBER}) ?(?:'|ft|feet)[ -]*)?"
+    rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>\d{{1,2}}/[1-9]\d?))?"
+    r" ?(?P<unit>\"|inches|inch|in|mm|cm|m)?)?"
+    # Nothing of the number is left: neither `42x60` nor `42-48` is a height of 42.
+    r"(?![\w./'\"]|\s*[-/]\s*\d)",
+    re.IGNORECASE,
+)
+_MARKS = {"\u2019": "'", "\u2032": "'", "\u201d": '"', "\u2033": '"', "''": '"'}
+_UNITS = LENGTHS | dict.fromkeys(('"', "inch", "inches"), LENGTHS["in"])
+
+
+class Height(NamedTuple):
+    """A height [m] as written, NaN if that is not understood: by which word, with a unit or not."""
+
+    value_m: float
+    word: str
+    has_unit: bool
+
+
+def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
+    """Return the name and the height in a line, whose height without a unit is in `unit_m` [m]."""
+    for mark, plain in _MARKS.items():
+        text = text.replace(mark, plain)
+    word = _KEYWORD.search(text)
+    if not word:
+        return text, None
+    found = _VALUE.match(text, word.end())
+    name = text[: word.start()].strip(" ,;:-(@")
+    unclear = Height(math.nan, word[1].upper(), False)
+    if not found or not found[0]:
+        return name, unclear
+    unit = found["unit"] or ('"' if found["feet"] else "")
+    if not unit and text[found.end() :].lstrip()[:1].isalnum():
+        return name, unclear  # such as `42 yd` or `42 1/0`
+    value = float(found["number"] or 0.0) + float(Fraction(found["share"] or 0))
+    value_m = value * _UNITS.get(unit.lower(), unit_m) + float(found["feet"] or 0.0) * _UNITS["ft"]
+    return name, Height(value_m, word[1].upper(), bool(unit))
+
+
+def first_height(lines: Iterable[str], unit_m: float) -> tuple[Height | None, str]:
+    """Return the first height in lines that is understood; else the first line that is not."""
+    unclear = ""
+    for line in lines:
+        height = read_line(line, unit_m)[1]
+        if height and math.isfinite(height.value_m):
+            return height, ""
+        unclear = unclear or (line if height else "")
+    return None, unclear

@@ -1,0 +1,107 @@
+"""Open lines that meet are joined to outlines, in one way or not at all."""
+
+import math
+import random
+
+import pytest
+
+from inputs import FT
+from report.drawing.joined import BRANCHED, OPEN, join
+from report.drawing.read_dxf import read_dxf
+from report.sheet.schema.shapes import Polygon, ring
+from sketch import Sketch, plan
+
+BOX = ((0.0, 0.0), (8.0, 0.0), (8.0, 5.0), (0.0, 5.0))
+SIDES = [(BOX[k], BOX[(k + 1) % 4]) for k in range(4)]
+
+
+def found(*lines, groups=""):
+    rings, rest = join(list(zip(groups or "L" * len(lines), lines, strict=True)), 0.005)
+    areas = [round(Polygon(ring(line.points)).area_m2, 2) for line in rings]
+    return areas, rest
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_sides_in_any_order_and_direction_are_joined(seed):
+    dice = random.Random(seed)
+    lines = [side if dice.random() < 0.5 else side[::-1] for side in SIDES]
+    dice.shuffle(lines)
+    (line,), rest = join([(0, side) for side in lines], 0.005)
+    assert (line.lines[0], line.gap, rest) == (0, 0.0, {})
+    assert sorted(line.points) == sorted(BOX)
+    assert Polygon(ring(line.points)).area_m2 == pytest.approx(40.0)
+
+
+@pytest.mark.parametrize(
+    ("lines", "areas", "rest"),
+    [
+        (SIDES[:3], [], {0: OPEN, 1: OPEN, 2: OPEN}),
+        ([BOX, SIDES[3]], [40.0], {}),  # a polyline and a line
+        ([(*BOX, (0.003, 0.0))], [40.0], {}),  # a polyline that closes by itself, nearly
+        ([*SIDES[:3], ((0.0, 5.0), (0.0, 0.0049))], [39.99], {}),
+        ([*SIDES[:3], ((0.0, 5.0), (0.0, 0.0051))], [], {0: OPEN, 1: OPEN, 2: OPEN, 3: OPEN}),
+        ([*SIDES, SIDES[0], SIDES[1][::-1]], [40.0], {}),  # sides that are drawn twice
+        (
+            [*SIDES, ((8.0, 0.0), (4.0, 2.0)), ((4.0, 2.0), (4.0, 3.0))],
+            [],
+            {0: BRANCHED, 1: BRANCHED, 2: OPEN, 3: OPEN, 4: BRANCHED, 5: OPEN},
+        ),
+        ([*SIDES, (BOX[0], BOX[2])], [], dict.fromkeys(range(5), BRANCHED)),
+        ([*SIDES, (BOX[0], BOX[0])], [40.0], {4: OPEN}),  # a line without a length
+    ],
+)
+def test_what_closes_in_one_way_is_joined_and_the_rest_is_returned(lines, areas, rest):
+    assert found(*lines) == (areas, rest)
+
+
+def test_a_grid_is_not_joined_at_all():
+    lines = [((i, j), (i + 1, j)) for i in range(9) for j in range(10)]
+    lines += [((j, i), (j, i + 1)) for i in range(9) for j in range(10)]
+    areas, rest = found(*lines)
+    assert areas == []
+    assert rest == dict.fromkeys(range(180), BRANCHED)
+
+
+def test_lines_of_two_groups_are_not_joined():
+    assert found(*SIDES, groups="AABB") == ([], dict.fromkeys(range(4), OPEN))
+    assert found(*SIDES, *SIDES, groups="AAAABBBB") == ([40.0, 40.0], {})
+
+
+def test_ends_in_a_row_of_near_ones_do_not_lead_around_without_end():
+    # Of three ends at a corner the second is near both others, which are not near each other: from
+    # one of them a walk would turn around the box forever.
+    lines = [((-5.0, -5.0), (-0.004, 0.0)), *SIDES[:3], (BOX[3], (0.004, 0.0))]
+    assert found(*lines) == ([], dict.fromkeys(range(5), OPEN))
+
+
+def test_an_outline_of_lines_and_an_arc_is_read(tmp_path):
+    sketch = Sketch()
+    look = {"layer": "OBJECT"}
+    sketch.space.add_line((0, 0), (20, 0), dxfattribs=look)
+    sketch.space.add_arc((10, 0), 10, 0, 180, dxfattribs=look)
+    sketch.space.add_text("TANK", dxfattribs=look).set_placement((10, 3))
+    (item,) = plan(sketch.saved(tmp_path)).objects
+    assert (item.name, item.note) == ("TANK", "joined from 2 lines")
+    assert item.shape.area_m2 == pytest.approx(50.0 * math.pi * FT**2, rel=2e-3)
+
+
+def test_lines_of_a_block_are_joined_with_its_name_at_each_place(tmp_path):
+    sketch = Sketch()
+    block = sketch.document.blocks.new("UNIT")
+    for start, end in SIDES:
+        block.add_line(start, end)
+    for name, x in (("RTU-1", 0), ("RTU-2", 8)):  # with a common side
+        put = sketch.space.add_blockref("UNIT", (x, 0), dxfattribs={"layer": "OBJECT"})
+        put.add_attrib("NAME", name)
+    found = read_dxf(sketch.saved(tmp_path))
+    assert [(line.name, line.pieces) for line in found.lines] == [("RTU-1", 4), ("RTU-2", 4)]
+    assert found.unread == []
+
+
+def test_the_largest_gap_of_a_joined_outline_is_noted(tmp_path):
+    sketch = Sketch(unit="mm")
+    for start, end in (*SIDES[:3], ((0.0, 5.0), (0.0, 0.004))):
+        at = [(1000.0 * x, 1000.0 * y) for x, y in (start, end)]
+        sketch.space.add_line(*at, dxfattribs={"layer": "ARRAY"})
+    (array,) = plan(sketch.saved(tmp_path)).arrays
+    assert array.note == "joined from 4 lines, gaps up to 0.2 in (4 mm); no text inside"

@@ -1,0 +1,87 @@
+"""Names and heights as people write them at an outline, and what is no height."""
+
+import math
+
+import pytest
+
+from inputs import FT, INCH
+from report.drawing.written import first_height, read_line
+from sketch import UNIT_FT, Sketch, plan
+
+UNIT_M = 1.0
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "value_m", "has_unit"),
+    [
+        ("RTU-1, height 42.0 in (1067 mm)", "RTU-1", 42 * INCH, True),
+        ('RTU-1 HT 42"', "RTU-1", 42 * INCH, True),
+        ("AHU 2 (HT. 42 IN)", "AHU 2", 42 * INCH, True),
+        ("HT: 3'-6\"", "", 3.5 * FT, True),
+        ("HT=3\u2019 6\u201d", "", 3.5 * FT, True),
+        ("HT 3'", "", 3 * FT, True),
+        ("HT 3.5 ft, 900 LBS", "", 3.5 * FT, True),
+        ("Height 42 1/2''", "", 42.5 * INCH, True),
+        ("HEIGHT = 1067 mm", "", 1.067, True),
+        ("ELEV 1.2 m", "", 1.2, True),
+        ("HT42", "", 42.0, False),
+        ("ELEV: 1.2", "", 1.2, False),
+    ],
+)
+def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value_m, has_unit):
+    found = read_line(text, UNIT_M)
+    assert found[0] == name
+    assert found[1] is not None
+    assert found[1].value_m == pytest.approx(value_m)
+    assert found[1].has_unit == has_unit
+
+
+@pytest.mark.parametrize(
+    ("text", "is_unclear"),
+    [
+        ("HT 42x60", True),
+        ("HT 42-48 in", True),
+        ("HT 42.5.1", True),
+        ("HEIGHT 12345678", True),
+        ("HT 42 yd", True),
+        ("HT-1", False),
+        ("HEIGHT VARIES", False),
+        ("WEIGHT 42", False),
+        ("ELEVATOR 2", False),
+        ("42 in", False),
+    ],
+)
+def test_a_number_that_is_not_read_whole_is_no_height(text, is_unclear):
+    height = read_line(text, UNIT_M)[1]
+    assert (height is not None and math.isnan(height.value_m)) == is_unclear
+    assert height is None or is_unclear
+
+
+def test_the_first_height_counts_and_a_fraction_by_zero_is_none():
+    lines = ["RTU-1", "HT 42 1/0 in", "HT 2 m", "HT 3 m"]
+    height, unclear = first_height(lines, UNIT_M)
+    assert height is not None
+    assert (height.value_m, unclear) == (2.0, "")
+    assert first_height(lines[:2], UNIT_M) == (None, "HT 42 1/0 in")
+
+
+def test_the_first_line_of_a_text_is_the_name_and_any_may_give_the_height(tmp_path):
+    sketch = Sketch()
+    sketch.ring("OBJECT", UNIT_FT)
+    look = {"layer": "OBJECT"}
+    sketch.space.add_mtext('RTU-7\\P5 TONS\\PHT 48"', dxfattribs=look).set_location((69, 60))
+    (item,) = plan(sketch.saved(tmp_path)).objects
+    assert (item.name, item.note) == ("RTU-7", "HT 48.0 in (1219 mm)")
+    assert item.height_m == pytest.approx(48 * INCH)
+
+
+def test_a_height_that_is_not_understood_is_listed(tmp_path):
+    sketch = Sketch()
+    ring = sketch.ring("OBJECT", UNIT_FT, "RTU-7 HT 42-48 in")
+    found = plan(sketch.saved(tmp_path))
+    assert found.objects[0].name == "RTU-7"
+    assert math.isnan(found.objects[0].height_m)
+    (item,) = found.unread
+    assert (item.handle, item.reason, item.detail) == (
+        ring.dxf.handle, "a height that is not understood", "'RTU-7 HT 42-48 in'"
+    )  # fmt: skip
