@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.layers import Layer
+from report.drawing.modules import GAP_M, MOST_TEXTS, ModuleArray, joined
 from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema import LayerKind
@@ -63,6 +64,8 @@ class DrawnOutline:
         As written inside of it; NaN if it is not.
     note : str
         What was assumed; empty for nothing.
+    modules : ModuleArray, optional
+        What it is the outline of, where the drawing has its modules.
     """
 
     name: str
@@ -72,6 +75,7 @@ class DrawnOutline:
     layer: str
     height_m: float
     note: str
+    modules: ModuleArray | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +88,9 @@ class RoofPlan:
     unread: tuple[Unread, ...]
 
 
-def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]) -> RoofPlan:
+def plan_of(
+    drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind], gap_m: float = GAP_M
+) -> RoofPlan:
     """Return the plan of a drawing.
 
     Parameters
@@ -93,6 +99,8 @@ def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]
         Size of the unit of the drawing [m].
     layers : mapping of str to LayerKind
         What is drawn on layers, in addition to `LAYERS`; capitals do not distinguish layers.
+    gap_m : float
+        Largest gap between modules of one array [m].
     """
     kinds = {name.casefold(): kind for name, kind in (*LAYERS.items(), *layers.items())}
     unread = [item for item in drawing.unread if _is_of_interest(item.layer, kinds)]
@@ -106,6 +114,14 @@ def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]
             unread.append(_unread(line, found))
         elif kind is not LayerKind.NOT_READ and not isinstance(found, str):
             known.append((line, kind, found))
+    known, arrays, within = joined(known, gap_m)
+    unread += [_unread(line, "a closed line within an array of modules") for line in within]
+    for array, kind in arrays:
+        shape = _shape(array, 1.0)
+        if isinstance(shape, str):
+            unread.append(_unread(array, shape))
+        else:
+            known.append((array, kind, shape))
     places = _named(known, drawing.texts, unit_m, unread)
     roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
     for extra in roofs[1:]:
@@ -185,14 +201,18 @@ def _named(
     written = [
         _name_and_height(line, words) for (line, *_), words in zip(known, inside, strict=True)
     ]
-    given = {name.casefold() for name, _ in written}
+    repeated = Counter(name.casefold() for name, _ in written)
+    given = set(repeated)
     for (line, kind, shape), (name, height_m) in zip(known, written, strict=True):
         note = ""
+        modules = line if isinstance(line, ModuleArray) else None
+        if modules and name and repeated[name.casefold()] > 1:
+            name = ""  # as of a product
         if kind is LayerKind.ROOF:
             name = "roof"
         elif not name:
             name = _free_name(kind, counts, given)
-            note = "no text inside"
+            note = "named in reading order" if modules else "no text inside"
         elif name.casefold() in taken:
             reason = f"a second '{name}', the name of {taken[name.casefold()]}"
             unread.append(_unread(line, reason))
@@ -201,7 +221,7 @@ def _named(
             taken[name.casefold()] = line.handle
         places.append(
             DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
-                         height_m=height_m, note=note)
+                         height_m=height_m, note=note, modules=modules)
         )  # fmt: skip
     return places
 
@@ -217,6 +237,8 @@ def _free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> 
 def _name_and_height(line: Drawn, words: Sequence[Words]) -> tuple[str, float]:
     """Return the name of a line, and the height [m] written with it; NaN for none."""
     own = [text for text in words if text.layer == line.layer] or list(words)
+    if isinstance(line, ModuleArray) and len(own) > MOST_TEXTS:
+        own = []  # they are those of its modules
     text = max(own, key=lambda found: found.at[1]).text if own else ""
     match = _HEIGHT.fullmatch(text)
     height_m = float(match[2]) * LENGTHS[match[3].lower()] if match else math.nan
