@@ -43,6 +43,7 @@ from report.sheet.schema.project import Project, Revision, Site
 from report.sheet.schema.scene import (
     ROOF,
     SIDES,
+    WEIGHT_PARTS,
     Array,
     Clearance,
     DrawingLayer,
@@ -60,6 +61,7 @@ __all__ = [
     "SECTION",
     "SECTIONS",
     "SIDES",
+    "WEIGHT_PARTS",
     "AccelUnit",
     "Array",
     "Baseline",
