@@ -121,8 +121,8 @@ def changes(
     table = GrowingTable.of(book, "arrays")
     cells: dict[CellPosition, Value] = {}
     for name, weight_n in weights_n.items():
-        row = table.rows("id", name)[0]
-        cells[table.position(row, "ballast_n")] = table.number("ballast_n", weight_n)
+        at = table.position(table.rows("id", name)[0], "ballast_n")
+        cells[at] = table.number("ballast_n", weight_n)
     if not replace:
         filled = [at.address for at in cells if not table.cell(at.row, "ballast_n").is_blank]
         text = "the ballast weight is given already; add --replace to overwrite it"

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.drawing.read_dxf import Drawn
+from report.sheet.reading.locate_tables import MAX_ROWS
 from report.sheet.schema import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring
 from solver.model import INCH_M, InputError
@@ -79,7 +80,7 @@ def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Pla
     Raises
     ------
     InputError
-        If more rectangles lie at one place than modules can.
+        If more rectangles lie at one place than modules can, or they make up too many arrays.
     """
     layers: dict[tuple[LayerKind, str], list[int]] = defaultdict(list)
     for index, (line, kind, _) in enumerate(known):
@@ -90,6 +91,10 @@ def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Pla
     for (kind, _), indices in layers.items():
         for array, inside in _arrays([known[index] for index in indices], gap_m):
             arrays.append((array, kind))
+            if len(arrays) > MAX_ROWS:
+                raise InputError(
+                    f"modules make up more than {MAX_ROWS} arrays; give a larger --gap"
+                )
             gone |= {indices[k]: counts for k, counts in inside.items()}
     rest = [item for index, item in enumerate(known) if index not in gone]
     return rest, _in_reading_order(arrays), [known[k][0] for k in gone if not gone[k]]
@@ -115,16 +120,14 @@ def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[ModuleArray,
     found = list(_parallel(lines))
     modules = {k for at, *_ in found for k in at}
     for at, sizes, boxes, turn in found:
-        counts, gaps = _neighbors(boxes, gap_m + ALIKE_M, lines[at[0]][0].layer)
-        row = {k: n for n, k in enumerate(at)}
+        gaps, row = _gaps(boxes, gap_m + ALIKE_M), {k: n for n, k in enumerate(at)}
         parts = _closed(boxes, gap_m + ALIKE_M)
         own = middles / turn
         inside: list[dict[int, bool]] = [{} for _ in parts]
         tree = shapely.STRtree(shapely.points(own.real, own.imag))
         for part, n in tree.query(parts, predicate="contains").T:
-            k = small[n]
-            if k in row or k not in modules:
-                inside[part][k] = k in row and bool(counts[row[k]])
+            if small[n] in row or small[n] not in modules:
+                inside[part][small[n]] = small[n] in row
         for part, within in zip(parts, inside, strict=True):
             its = [row[k] for k in within if within[k]]
             again = _closed(_snapped(boxes[its]), gap_m + 3.0 * ALIKE_M)
@@ -174,8 +177,10 @@ def _parallel(lines: Sequence[Known]) -> Iterator[tuple[list[int], Any, Any, com
         angle = math.radians((angles[run[0]] + float(off.mean()) + 45.0) % 90.0 - 45.0)
         turn = complex(math.cos(angle), math.sin(angle)) if abs(angle) > _NO_TURN_RAD else 1.0
         own = corners[run] / turn
-        boxes = (own.real.min(1), own.imag.min(1), own.real.max(1), own.imag.max(1))
-        yield [four[k] for k in run], sizes[run], np.stack(boxes, axis=1), turn
+        sides = (own.real.min(1), own.imag.min(1), own.real.max(1), own.imag.max(1))
+        boxes = np.stack(sides, axis=1)
+        once = _once(boxes, lines[four[run[0]]][0].layer)
+        yield [four[k] for k in run[once]], sizes[run[once]], boxes[once], turn
 
 
 def _runs(values: Any, at: Any, width: float = ALIKE_M) -> list[NDArray[np.intp]]:
@@ -188,11 +193,8 @@ def _runs(values: Any, at: Any, width: float = ALIKE_M) -> list[NDArray[np.intp]
     return np.split(order, starts[1:]) if starts else []
 
 
-def _neighbors(boxes: Any, most_m: float, layer: str) -> tuple[Any, Any]:
-    """Return which modules count, and the gap [m] of each to the next one beside it or above it.
-
-    A module that is drawn again does not count, nor does a line within another one.
-    """
+def _once(boxes: Any, layer: str) -> Any:
+    """Return which boxes are modules: none that is drawn again, and no line within another one."""
     import shapely
 
     middles = 0.5 * (boxes[:, :2] + boxes[:, 2:])
@@ -200,21 +202,27 @@ def _neighbors(boxes: Any, most_m: float, layer: str) -> tuple[Any, Any]:
     if most > _MOST_PER_M2:  # their pairs would be without number
         text = f"layer {layer}: {most} rectangles of the size of modules on one square meter"
         raise InputError(f"{text}, more than {_MOST_PER_M2}; save one line for each module")
-    shapes, count = shapely.box(*boxes.T), len(boxes)
-    a, b = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=most_m)
-    after, before = boxes[b, :2] - boxes[a, 2:], boxes[a, :2] - boxes[b, 2:]
+    tree = shapely.STRtree(shapely.box(*boxes.T))
+    inner, outer = tree.query(shapely.points(middles), predicate="intersects")
     areas = np.round(np.prod(boxes[:, 2:] - boxes[:, :2], axis=1), 2)
     rank = np.argsort(np.argsort(-areas, kind="stable"))
-    is_in = np.all(np.abs(middles[a] - middles[b]) < 0.5 * (boxes[b, 2:] - boxes[b, :2]), axis=1)
-    counts = ~np.isin(np.arange(count), a[is_in & (rank[b] < rank[a])])
-    gaps = np.zeros(count)
+    return ~np.isin(np.arange(len(boxes)), inner[rank[outer] < rank[inner]])
+
+
+def _gaps(boxes: Any, most_m: float) -> Any:
+    """Return the gap [m] of each box to the next one beside it or above it, the larger one."""
+    import shapely
+
+    shapes, gaps = shapely.box(*boxes.T), np.zeros(len(boxes))
+    a, b = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=most_m)
+    after, before = boxes[b, :2] - boxes[a, 2:], boxes[a, :2] - boxes[b, 2:]
     for axis in (0, 1):
         aside = np.maximum(after[:, 1 - axis], before[:, 1 - axis])
         faces = (after[:, axis] >= -ALIKE_M) & (aside < -ALIKE_M)
-        nearest = np.full(count, np.inf)
+        nearest = np.full(len(boxes), np.inf)
         np.minimum.at(nearest, a[faces], after[faces, axis])
         gaps = np.maximum(gaps, np.where(np.isfinite(nearest), nearest, 0.0))
-    return counts, gaps
+    return gaps
 
 
 def _closed(boxes: Any, width_m: float) -> list[Any]:
