@@ -9,15 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from report.sheet.schema import (
-    ROOF,
-    SECTION,
-    SIDES,
-    WEIGHT_PARTS,
-    ObjectKind,
-    RecordedAt,
-    Scaling,
-)
+from report.sheet.schema import ROOF, SECTION, SIDES, WEIGHT_PARTS, ObjectKind, RecordedAt, Scaling
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, YesNo
 from report.sheet.schema.layout import literal
 

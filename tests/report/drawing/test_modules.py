@@ -5,6 +5,7 @@ import random
 
 import pytest
 from click.testing import CliRunner
+from openpyxl import load_workbook
 
 from report.cli.main import main
 from report.drawing.modules import GAP_M
@@ -269,3 +270,13 @@ def test_a_workbook_without_the_column_gets_the_arrays_alone(tmp_path):
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
     ran("read", layout().saved(tmp_path), book, "--replace")
     assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 5
+
+
+def test_rows_that_an_earlier_table_grows_by_have_no_formula_that_is_broken(tmp_path):
+    book, sketch = blank(tmp_path / "input.xlsx"), Sketch(unit="m")
+    edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
+    grid(sketch, 40, 1, size=(6.0, 2.0))
+    ran("read", sketch.saved(tmp_path), book)
+    assert len(read(book).draft["arrays"]) == 40
+    formulas = [str(at.value) for row in load_workbook(book)["Arrays"] for at in row]
+    assert not [text for text in formulas if "#REF!" in text]
