@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from openpyxl.utils import get_column_letter
 
 import inputs
 from inputs import FT as FOOT
@@ -241,7 +242,7 @@ def _echo(data):
         rows = values if isinstance(values, list) else [values]
         for index, row in enumerate(rows):
             for column, (key, value) in enumerate(row.items()):
-                cell = f"{chr(66 + column % 20)}{7 + index}"
+                cell = f"{get_column_letter(2 + column)}{7 + index}"
                 typed = "" if value is None else str(value)
                 yield EchoRow(
                     sheet=section.title(), cell=cell, label=key, typed=typed, unit="", value=typed

@@ -15,13 +15,15 @@ import click
 from report.cli.groups import SectionedGroup
 from report.cli.plan_layers import choose, given_kinds
 from report.cli.terminal import SOURCE, input_errors, plain
-from report.cli.values import Number
+from report.cli.values import Measured, Number
 from report.words.command import called
 
 if TYPE_CHECKING:
+    from report.drawing.ballast import Load
     from report.drawing.plan_read import DrawnOutline, RoofPlan
     from report.drawing.read_dxf import RoofDrawing
     from report.sheet.schema import LayerKind
+    from report.sheet.schema.fields import DraftRow
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
 MOST_NAMES = 5
@@ -44,6 +46,8 @@ def plan() -> None:
 @click.argument("project", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--units", type=click.Choice(UNIT_CHOICES),
               help="Unit of the drawing; required if it states none.")  # fmt: skip
+@click.option("--gap", "gap_m", type=Measured("SIZE", "2 m"), default="20 in", show_default=True,
+              help="Largest gap between modules of one array; at most 2 m.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite the places of rows that are filled.")
 @click.option("--accept", is_flag=True, help="Take what is proposed for layers that are not known.")
 @click.option("--layer", "given", metavar="NAME=KIND", multiple=True, callback=given_kinds,
@@ -54,6 +58,7 @@ def read(
     drawing: Path,
     project: Path,
     units: str | None,
+    gap_m: float,
     replace: bool,
     accept: bool,
     given: dict[str, LayerKind],
@@ -63,20 +68,21 @@ def read(
 
     The sheet Layers says what each layer is; the layers of plan.dxf are known, and others are
     proposed by their names. Names and heights are texts inside the outlines, or attributes of
-    blocks. Everything else in the workbook is kept. If the workbook has no other errors, the
-    clearances follow as by plan clearances.
+    blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
+    workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
     from solver.model import InputError
 
     with input_errors(drawing):
         drawn, unit_m = _read(drawing, units)
         drawn, degrees = _turned(drawn, rotate)
-        found, layers = _planned(drawn, unit_m, project, given, accept)
+        found, layers = _planned(drawn, unit_m, project, given, accept, gap_m)
     with input_errors(project):
         path, has_formulas, has_layers = _filled(project, found, layers, replace)
     lines = (
         *_turn(degrees, found),
         *map(_line, (*found.roof, *found.arrays, *found.objects)),
+        *_modules(found, gap_m),
         *_unread(found),
         *_kept(layers, has_layers),
     )
@@ -87,8 +93,7 @@ def read(
     except InputError as error:
         click.echo(plain(f"Clearances are not added yet: {error.problems[0]}."))
         click.echo(f"Once the workbook has no errors, run: {called()} plan clearances {project}")
-    click.echo(f"{path}: the plan is filled in. Complete it, then run: {called()} check {project}")
-    _note_formulas(has_formulas)
+    _say_filled(path, project, "the plan is", has_formulas)
 
 
 @plan.command()
@@ -118,6 +123,12 @@ def _with_clearances(project: Path) -> bool:
     for line in lines:
         click.echo(plain(line))
     return has_formulas
+
+
+def _say_filled(path: Path, project: Path, what: str, has_formulas: bool) -> None:
+    """Say what was filled in, and what comes next."""
+    click.echo(f"{path}: {what} filled in. Complete it, then run: {called()} check {project}")
+    _note_formulas(has_formulas)
 
 
 def _note_formulas(has_formulas: bool) -> None:
@@ -153,7 +164,12 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, float]:
 
 
 def _planned(
-    drawn: RoofDrawing, unit_m: float, project: Path, given: dict[str, LayerKind], accept: bool
+    drawn: RoofDrawing,
+    unit_m: float,
+    project: Path,
+    given: dict[str, LayerKind],
+    accept: bool,
+    gap_m: float,
 ) -> tuple[RoofPlan, dict[str, LayerKind]]:
     """Return the plan, and what is said of layers that the workbook does not name."""
     from report.drawing.plan_read import plan_of
@@ -166,7 +182,7 @@ def _planned(
         if {"layer", "kind"} <= row.keys()
     }
     layers = choose(drawn, named, given, accept)
-    return plan_of(drawn, unit_m, {**named, **layers}), layers
+    return plan_of(drawn, unit_m, {**named, **layers}, gap_m), layers
 
 
 def _filled(
@@ -205,6 +221,7 @@ def _angle(degrees: float) -> str:
 
 def _line(place: DrawnOutline) -> str:
     from report.drawing.turned import own_axes
+    from report.words.counts import numbered
     from report.words.units import Quantity, pair
 
     *sides, angle = own_axes(place.shape)
@@ -212,10 +229,31 @@ def _line(place: DrawnOutline) -> str:
     askew = f" at {_angle(angle)} to the axes" if round(angle, 6) else ""
     source = f" from {place.handle} on {place.layer}" if place.handle else ""
     note = f" ({place.note})" if place.note else ""
-    count = len(place.shape.points)
-    return (
-        f"{place.name}: {place.kind.value}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
-    )
+    count, made = len(place.shape.points), place.kind.value
+    if array := place.modules:
+        sizes = ", ".join(
+            f"{numbered(of, 'module')} {pair(long, Quantity.SIZE)} by {pair(short, Quantity.SIZE)}"
+            for of, long, short in array.sizes
+        )
+        made += f" of {sizes}, gaps up to {pair(array.gap_m, Quantity.SIZE)}"
+        made += f", around {array.opening_m2:.1f} m2 without modules" if array.opening_m2 else ""
+    return f"{place.name}: {made}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
+
+
+def _modules(found: RoofPlan, gap_m: float) -> Iterator[str]:
+    """Yield the rule by which modules were joined, where there are any."""
+    from report.drawing.modules import ALIKE_M, LEAST_ALIKE, SIDES_M
+    from report.words.counts import numbered
+    from report.words.units import Quantity, pair
+
+    arrays = [place.modules for place in (*found.arrays, *found.objects) if place.modules]
+    if arrays:
+        low, high, alike, gap = (pair(m, Quantity.SIZE) for m in (*SIDES_M, ALIKE_M, gap_m))
+        yield (
+            f"modules: {sum(array.count for array in arrays)} rectangles with sides of {low} to"
+            f" {high}, {LEAST_ALIKE} or more of a size within {alike} on a layer; joined to"
+            f" {numbered(len(arrays), 'array')} where gaps are at most {gap} (--gap)"
+        )
 
 
 def _unread(found: RoofPlan) -> Iterator[str]:
@@ -242,3 +280,66 @@ def _kept(layers: dict[str, LayerKind], has_layers: bool) -> Iterator[str]:
         said = ", ".join(f"{name} = {kind.value}" for name, kind in layers.items())
         where = "kept on the sheet Layers" if has_layers else "not kept: there is no sheet Layers"
         yield f"layers, {where}: {said}"
+
+
+@plan.command()
+@click.argument("ballast_map", metavar="MAP.csv", type=SOURCE)
+@click.argument("project", metavar="DIR|WORKBOOK", type=SOURCE)
+@click.option("--units", type=click.Choice(UNIT_CHOICES), required=True, help="Unit of x and y.")
+@click.option("--block-weight", "block_n", type=Measured("WEIGHT"), required=True,
+              help="Of one block, such as '32 lb'.")  # fmt: skip
+@click.option("--replace", is_flag=True, help="Overwrite ballast weights that are given.")
+def ballast(ballast_map: Path, project: Path, units: str, block_n: float, replace: bool) -> None:
+    """Fill in the ballast weight of arrays from a CSV with the columns x, y, blocks.
+
+    Coordinates are those of the plan. Prints the center of gravity of each array in plan.
+    """
+    from report.drawing.ballast import changes, loads, read_map
+    from report.sheet.checking.plan_checks import shapes_of
+    from report.sheet.reading.archive import open_book
+    from report.sheet.reading.read import read as read_sheet
+    from report.sheet.writing.filled import fill_cells
+    from report.words.counts import numbered
+    from report.words.units import LENGTHS
+    from solver.model import InputError
+
+    with input_errors(ballast_map):
+        rows = read_map(ballast_map, LENGTHS[units])
+    with input_errors(project):
+        draft, book = read_sheet(project).draft, open_book(project)
+        shapes = shapes_of(draft)
+        arrays = {row["id"]: row for row in draft["arrays"] if row.get("id") in shapes}
+        found, outside = loads(rows, {name: shapes[name] for name in arrays})
+        if not found:
+            raise InputError("no block of the map is within an array of the plan")
+        weights = {name: load.blocks * block_n for name, load in found.items()}
+        has_formulas = fill_cells(book, changes(book, weights, replace=replace))
+    for name, row in arrays.items():
+        text = _balance(row, found[name], weights[name]) if name in found else "no blocks"
+        click.echo(plain(f"{name}: {text}"))
+    if outside:
+        lines = _some([str(line) for line in outside])
+        click.echo(f"outside of every array: {numbered(len(outside), 'line')} of the map: {lines}")
+    click.echo(
+        "The model has no rotation in plan and one friction coefficient under an array; it uses no"
+        " eccentricity."
+    )
+    _say_filled(book.path, project, "the ballast weights are", has_formulas)
+
+
+def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:
+    """Return the ballast of an array and its center of gravity, as far as weights are known."""
+    from report.drawing.ballast import center_of_gravity
+    from report.words.counts import numbered
+    from report.words.units import Quantity, pair
+
+    modules, each_n = row.get("modules"), row.get("module_weight_n")
+    modules_n = modules * each_n if modules and each_n else 0.0
+    center = center_of_gravity(load, ballast_n, modules_n)
+    off = (center[0] - load.centroid[0], center[1] - load.centroid[1])
+    x, y, off_x, off_y = (pair(value, Quantity.PLAN) for value in (*center, *off))
+    what = f"ballast and {modules} modules" if modules_n else "the ballast alone"
+    return (
+        f"{numbered(load.blocks, 'block')}, {pair(ballast_n, Quantity.WEIGHT)}; center of gravity"
+        f" of {what} at x {x}, y {y}; from the centroid of the outline {off_x} in x, {off_y} in y"
+    )

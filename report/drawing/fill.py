@@ -82,6 +82,10 @@ def _fill_rows(
         _note_outline(fill, place, outlines)
         if not rows:
             fill.cells[table.position(row, "id")] = place.name
+        if key == "arrays" and place.modules and "modules" in table.found.columns:
+            if not table.cell(row, "modules").is_blank:
+                fill.refuse(table.position(row, "modules"), place.name)
+            fill.cells[table.position(row, "modules")] = place.modules.count
         if key == "objects" and (not rows or fill.replace):
             fill.cells[table.position(row, "kind")] = place.kind.value
         if key == "objects" and math.isfinite(place.height_m) and (not rows or fill.replace):

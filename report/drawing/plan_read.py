@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.layers import Layer
+from report.drawing.modules import GAP_M, MOST_TEXTS, ModuleArray, joined
 from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
 from report.drawing.written import first_height, read_line
 from report.sheet.checking.plan_checks import LEAST_VERTICES
@@ -62,6 +63,8 @@ class DrawnOutline:
         As written inside of it; NaN if it is not.
     note : str
         What was assumed; empty for nothing.
+    modules : ModuleArray, optional
+        What it is the outline of, where the drawing has its modules.
     """
 
     name: str
@@ -71,6 +74,7 @@ class DrawnOutline:
     layer: str
     height_m: float
     note: str
+    modules: ModuleArray | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +96,9 @@ class RoofPlan:
     north_deg: float = math.nan
 
 
-def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]) -> RoofPlan:
+def plan_of(
+    drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind], gap_m: float = GAP_M
+) -> RoofPlan:
     """Return the plan of a drawing.
 
     Parameters
@@ -101,6 +107,8 @@ def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]
         Size of the unit of the drawing [m].
     layers : mapping of str to LayerKind
         What is drawn on layers, in addition to `LAYERS`; capitals do not distinguish layers.
+    gap_m : float
+        Largest gap between modules of one array [m].
     """
     kinds = known_layers(layers)
     unread = [item for item in drawing.unread if _is_of_interest(item.layer, kinds)]
@@ -116,6 +124,14 @@ def plan_of(drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind]
             unread.append(found)
         else:
             known.append((line, kind, found))
+    known, arrays, within = joined(known, gap_m)
+    unread += [_unread(line, "a closed line within an array of modules") for line in within]
+    for array, kind in arrays:
+        shape = _shape(array, 1.0)
+        if isinstance(shape, Unread):
+            unread.append(shape)
+        else:
+            known.append((array, kind, shape))
     places = _named(known, drawing.texts, unit_m, unread)
     roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
     for extra in roofs[1:]:
@@ -200,14 +216,18 @@ def _named(
     counts: Counter[LayerKind] = Counter()
     places = []
     written = [_name(line, words, unit_m) for (line, *_), words in zip(known, inside, strict=True)]
-    given = {name.casefold() for name in written}
+    repeated = Counter(name.casefold() for name in written)
+    given = set(repeated)
     for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
         notes = [_as_joined(line, unit_m)] if line.pieces else []
+        modules = line if isinstance(line, ModuleArray) else None
+        if modules and name and repeated[name.casefold()] > 1:
+            name = ""  # as of a product
         if kind is LayerKind.ROOF:
             name = "roof"
         elif not name:
             name = _free_name(kind, counts, given)
-            notes.append("no text inside")
+            notes.append("named in reading order" if modules else "no text inside")
         elif name.casefold() in taken:
             detail = f"'{name}' of {taken[name.casefold()]}"
             unread.append(_unread(line, "a second outline of the same name", detail))
@@ -219,7 +239,7 @@ def _named(
             height_m = _height_m(line, words, unit_m, notes, unread)
         places.append(
             DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
-                         height_m=height_m, note="; ".join(notes))
+                         height_m=height_m, note="; ".join(notes), modules=modules)
         )  # fmt: skip
     return places
 
@@ -245,6 +265,11 @@ def _by_layer(line: Drawn, words: Sequence[Words]) -> list[Words]:
 
 def _name(line: Drawn, words: Sequence[Words], unit_m: float) -> str:
     """Return the name of a line: its own, or the first text inside of it, without a height."""
+    if (
+        isinstance(line, ModuleArray)
+        and len([text for text in words if text.layer == line.layer] or words) > MOST_TEXTS
+    ):
+        words = []  # they are those of its modules
     names = (read_line(text.text, unit_m)[0] for text in _by_layer(line, words))
     return (line.name or next(filter(None, names), ""))[:MAX_NAME].strip()
 

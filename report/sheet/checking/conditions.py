@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from report.sheet.schema import ROOF, SECTION, SIDES, ObjectKind, RecordedAt, Scaling
+from report.sheet.schema import ROOF, SECTION, SIDES, WEIGHT_PARTS, ObjectKind, RecordedAt, Scaling
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, YesNo
 from report.sheet.schema.layout import literal
 
@@ -58,6 +58,13 @@ _NO_OUTLINE = Condition(
     ),
     lambda refer: f"COUNTIF(live_outlines,{literal(refer('id'))})=0",
 )
+# The weight of an array is computed from its parts.
+_LACKS_PARTS = Condition(
+    lambda row, _: (
+        all(part in row for part in WEIGHT_PARTS) and any(row[p] is None for p in WEIGHT_PARTS)
+    ),
+    lambda refer: f"""OR({",".join(f'TRIM({refer(part)})=""' for part in WEIGHT_PARTS)})""",
+)
 # A building of ground motions needs a period.
 _NO_STRUCTURE = Condition(
     lambda row, draft: (
@@ -99,6 +106,9 @@ REQUIRED: Mapping[tuple[str, str], Required] = {
     **{("objects", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
     ("objects", "height_m"): Required(
         _chosen("kind", ObjectKind.EDGE_WITH_PARAPET), "give the parapet's height above the roof"
+    ),
+    ("arrays", "weight_n"): Required(
+        _LACKS_PARTS, "give it, or modules, module weight and ballast weight"
     ),
     ("arrays", "mu_fast"): Required(_filled("mu_rate_s_per_m"), _LAW),
     ("arrays", "mu_rate_s_per_m"): Required(_filled("mu_fast"), _LAW),

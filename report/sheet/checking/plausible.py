@@ -23,13 +23,16 @@ from report.sheet.schema import (
 )
 from report.sheet.schema.fields import Finding, Level, Place
 from report.sheet.schema.shapes import closest, gap_m
-from report.words.counts import counted
+from report.words.counts import counted, numbered
 from report.words.units import LENGTHS, PRESSURES, Quantity, pair
 from solver.rules.rulesets import usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
 LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["psf"]
 """Usual weight of a ballasted array on its plan area [Pa]: modules alone weigh 2 to 3 psf."""
+
+SAME_WEIGHT = 0.01
+"""Difference of the weight from that of its parts / that of its parts which is rounding."""
 
 MOST_ASKEW_DEG = 60.0
 """Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
@@ -143,7 +146,17 @@ def _site_coefficients(site: Site) -> Iterator[Finding]:
 
 
 def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
-    pressure = array.weight_n / array.shape.area_m2
+    place = Place("arrays", index, "weight_n")
+    pressure, parts_n = array.weight_n / array.shape.area_m2, array.parts_n
+    if parts_n is not None and abs(array.weight_n - parts_n) > SAME_WEIGHT * parts_n:
+        given, of_parts = (
+            pair(value, Quantity.WEIGHT, us_first) for value in (array.weight_n, parts_n)
+        )
+        text = (
+            f"weight is {given}, but {numbered(array.modules or 0, 'module')} and the ballast are"
+        )
+        text += f" {of_parts}, more than {SAME_WEIGHT:.0%} apart; correct one of them"
+        yield warning(f"weight of modules {array.id}", place, text)
     if LEAST_PRESSURE_PA <= pressure <= MOST_PRESSURE_PA:
         return
     given = pair(array.weight_n, Quantity.WEIGHT, us_first)
@@ -152,7 +165,6 @@ def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
         for value in (pressure, LEAST_PRESSURE_PA, MOST_PRESSURE_PA)
     )
     text = f"weight is {given}, {per_area} on the plan area; {low} to {high} is usual: correct the"
-    place = Place("arrays", index, "weight_n")
     yield warning(f"weight {array.id}", place, f"{text} weight, its unit, or the plan")
 
 

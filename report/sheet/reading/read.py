@@ -327,14 +327,15 @@ def _read_field(
         elif entry.is_required:
             raise CellError("is missing", wish_for_missing(entry, column.unit, column.si))
         else:
-            value = entry.default
+            computed = entry.model.computed(entry.name, row)
+            value = entry.default if computed is None else computed
     except CellError as error:
         gathered.add(place, [error.problem.at(cell.address, entry.spoken)])
         return
     row[entry.name] = value
     shown = as_used(value, entry, column.unit)
     if cell.is_blank and shown:
-        shown += " (default)"
+        shown += " (default)" if value == entry.default else " (computed)"
     echoed = EchoRow(
         sheet=cell.sheet,
         cell=cell.cell,

@@ -42,6 +42,7 @@ from report.sheet.schema.project import Project, Revision, Site
 from report.sheet.schema.scene import (
     ROOF,
     SIDES,
+    WEIGHT_PARTS,
     Array,
     Clearance,
     DrawingLayer,
@@ -56,6 +57,7 @@ from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 __all__ = [  # beside what is defined here
     "ROOF",
     "SIDES",
+    "WEIGHT_PARTS",
     "Array",
     "BuildingInput",
     "Clearance",

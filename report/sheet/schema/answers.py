@@ -115,9 +115,12 @@ _OUTLINED_AREA = f"""
 
 def _weight_per_area(unit: Unit) -> str:
     x, y = (f"([{a}_to_m]*unit_arrays_{a}_to_m-[{a}_from_m]*unit_arrays_{a}_from_m)" for a in "xy")
-    force = f"[weight_n]*unit_arrays_weight_n/{unit.si!r}"
+    parts = "[modules]*[module_weight_n]*unit_arrays_module_weight_n"
+    parts += "+[ballast_n]*unit_arrays_ballast_n"
+    is_blank = 'TRIM([weight_n])=""'
+    force = f"IF({is_blank},{parts},[weight_n]*unit_arrays_weight_n)/{unit.si!r}"
     return f"""
-        IF(TRIM([weight_n])="","",
+        IF(AND({is_blank},COUNT([modules],[module_weight_n],[ballast_n])<3),"",
         IF({_VERTICES}>0,{force}/({_OUTLINED_AREA}),
         IF(OR({x}<=0,{y}<=0),"",{force}/({x}*{y}))))
     """

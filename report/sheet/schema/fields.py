@@ -108,6 +108,11 @@ class Frozen(BaseModel):
         frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
     )
 
+    @classmethod
+    def computed(cls, name: str, row: Mapping[str, Any]) -> Any:
+        """Return what a blank cell is by the fields of its row before it; None for its default."""
+        return None
+
 
 @dataclass(frozen=True, slots=True)
 class OnSheet:
@@ -289,7 +294,7 @@ def _entry(model: type[Frozen], name: str, info: FieldInfo, cell: Cell) -> Entry
         name=name,
         cell=cell,
         kind=kind,
-        is_required=info.is_required(),
+        is_required=info.is_required() and not cell.need,
         default=None if info.is_required() else info.default,
         bounds=_bounds(constraints),
         max_length=min(lengths, default=0),

@@ -6,7 +6,8 @@ Read `report.sheet.schema` first.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Self
+from collections.abc import Mapping
+from typing import Annotated, Any, Self
 
 from pydantic import Field, PrivateAttr
 
@@ -119,6 +120,10 @@ def friction_law(
     )
 
 
+WEIGHT_PARTS = ("modules", "module_weight_n", "ballast_n")
+"""Fields of an array from which its weight is computed."""
+
+
 class Array(Placed):
     """A ballasted array that moves as one block."""
 
@@ -137,8 +142,23 @@ class Array(Placed):
     construction: Annotated[RequiredText, Cell("Construction", "Tray 10 deg, landscape")]
     """Product and layout. Arrays of the same text, slope, friction and downslope direction are like
     arrays."""
-    weight_n: Annotated[Positive, Cell("Weight", 42000.0, Quantity.WEIGHT, usual=(500.0, 500000.0))]
-    """Modules, racking and ballast."""
+    modules: Annotated[Annotated[int, Field(ge=1)] | None, Cell("Modules", 320)] = None
+    """Number of modules."""
+    module_weight_n: Annotated[
+        Positive | None, Cell("Module weight", 75.0, Quantity.WEIGHT, usual=(20.0, 300.0))
+    ] = None
+    """Of one module with its racking, without ballast."""
+    ballast_n: Annotated[
+        NotNegative | None, Cell("Ballast weight", 18000.0, Quantity.WEIGHT, usual=(0.0, 500000.0))
+    ] = None
+    """Of the whole array; 0 if it has none."""
+    weight_n: Annotated[
+        Positive,
+        Cell("Weight", 42000.0, Quantity.WEIGHT, need="required, or modules and ballast",
+             usual=(500.0, 500000.0)),
+    ]  # fmt: skip
+    """Modules, racking and ballast. Blank: computed from modules, module weight and ballast
+    weight."""
     cg_height_m: Annotated[Positive, Cell("CG height", 9.0, Quantity.SIZE, usual=(4.0, 36.0))]
     """Center of gravity above the roof surface."""
     support_spacing_m: Annotated[
@@ -200,6 +220,19 @@ class Array(Placed):
     ] = None
     """Weight per area, with ballast, in the wind design by others; compared with the weight over
     the plan area."""
+
+    @classmethod
+    def computed(cls, name: str, row: Mapping[str, Any]) -> float | None:
+        """Return the weight [N] of modules and ballast, where they are given."""
+        modules, each_n, ballast_n = (row.get(part) for part in WEIGHT_PARTS)
+        if name != "weight_n" or modules is None or each_n is None or ballast_n is None:
+            return None
+        return float(modules * each_n + ballast_n)
+
+    @property
+    def parts_n(self) -> float | None:
+        """Weight of modules and ballast [N], where they are given."""
+        return self.computed("weight_n", dict(self))
 
     @property
     def slope_rad(self) -> float:

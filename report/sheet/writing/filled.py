@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.parts import Formula, Value, write_cells
 from report.sheet.reading.positions import CellPosition
-from report.sheet.writing.live import live_formulas
+from report.sheet.writing.live import BROKEN, live_formulas
 
 
 def fill_cells(book: OpenBook, cells: Mapping[CellPosition, Value]) -> bool:
@@ -22,5 +22,7 @@ def fill_cells(book: OpenBook, cells: Mapping[CellPosition, Value]) -> bool:
     write_cells(book.path, cells)
     after = live_formulas(open_book(book.path))
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
-    write_cells(book.path, {at: Formula(after[at]) for at in after.keys() - before.keys()})
+    grown = {at: Formula(after[at]) for at in after.keys() - before.keys()}
+    # An earlier workbook lacks columns that the formulas of today refer to.
+    write_cells(book.path, {at: f for at, f in grown.items() if BROKEN not in after[at]})
     return any(scan.formulas for scan in book.scans.values())

@@ -39,7 +39,9 @@ from report.sheet.writing.rules import write_rules
 from report.words.letters import cut
 
 _PANEL = "live_prescriptive_in"
-_BROKEN = "#REF!"
+BROKEN = "#REF!"
+"""In a formula that refers to a column which the workbook lacks."""
+
 _SHOWN = 100
 _ASIDE = 20
 """A column that nothing else is written to."""
@@ -57,7 +59,7 @@ class Overwritten:
     @property
     def can_be_restored(self) -> bool:
         """Whether the workbook has all columns that the formula refers to."""
-        return _BROKEN not in self.formula
+        return BROKEN not in self.formula
 
 
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
@@ -77,8 +79,8 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
 
 
 def _differs(found: Found, formula: str) -> bool:
-    if _BROKEN in formula:
-        return _BROKEN in found.formula
+    if BROKEN in formula:
+        return BROKEN in found.formula
     return found.formula != formula and canonical(found.formula) != canonical(formula)
 
 
@@ -175,8 +177,8 @@ def _place(
         labels = labels_of(section, entry) if entry else {label_key(column.heading)}
         given = area.headings if area else {}
         at = next((given[label] for label in labels if label in given), None)
-        headings[column.name] = str(found_at(book, at).value) if at else _BROKEN
-        letters[column.name] = get_column_letter(at.column) if at else _BROKEN
+        headings[column.name] = str(found_at(book, at).value) if at else BROKEN
+        letters[column.name] = get_column_letter(at.column) if at else BROKEN
     return TablePlace(
         section=section,
         sheet=area.sheet if area else section.sheet,

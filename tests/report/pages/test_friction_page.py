@@ -7,6 +7,7 @@ import pytest
 
 import scenes
 import stand_in
+from inputs import LB
 from printed import printed
 from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_rows import tested as series_of
@@ -163,3 +164,14 @@ def test_the_section_states_its_dimensions_and_stays_on_the_sheet(slope):
 def test_the_weight_is_taken_over_the_plan_area():
     array = stand_in.project().arrays[0]  # 42,000 lb on 80 ft x 60 ft
     assert weight_per_area_pa(array) == pytest.approx(8.75 * 47.880259)
+
+
+def test_a_weight_from_modules_and_ballast_is_said_with_its_parts():
+    parts = {"modules": 320, "module_weight_n": 75 * LB, "ballast_n": 18000 * LB}
+    first, second, *others = stand_in.project().model_dump()["arrays"]
+    arrays = [first | parts, second | parts | {"weight_n": 42100 * LB}, *others]
+    text = page(arrays=arrays).line("Weight of modules with their racking")
+    one = "320 × 75 lb (0.33 kN) + 18000 lb (80.07 kN)"
+    assert text.endswith(
+        f"and of ballast: A1 {one}; A2 {one} = 42000 lb (186.83 kN) (entered as above)."
+    )

@@ -174,13 +174,26 @@ def weigh_in_kips(book: Workbook) -> None:
         found.value = str(found.value).replace("Weight '[lb']", "Weight '[kip']")
 
 
+def weigh_by_modules(book: Workbook) -> None:
+    """Give the weight of the first array by its modules, in lb, and its ballast."""
+    weight = cell(book, "Arrays/A1/Weight")
+    parts = {
+        "Modules": 20,
+        "Module weight": 30.0 * weight.value,
+        "Ballast weight": 400.0 * weight.value,
+    }
+    for heading, value in parts.items():
+        cell(book, f"Arrays/A1/{heading}").value = value
+    weight.value = None
+
+
 def is_si(name: str, case: ProjectInput) -> bool:
     return name in IN_SI or case.project.units_first is UnitsFirst.SI
 
 
 @pytest.fixture(scope="module")
 def filled(tmp_path_factory):
-    """Every case; that of `CHANGED` with the grid of site classes and weights in kips."""
+    """Every case; that of `CHANGED` with the grid, weights in kips and one by modules."""
     folder = tmp_path_factory.mktemp("answers")
     data = {name: case or of_script(name) for name, case in CASES.items()}
     data |= {name: data[case] for name, case in IN_SI.items()}
@@ -196,6 +209,7 @@ def filled(tmp_path_factory):
     us, si = names_of(book), names_of(load_workbook(folder / f"{next(iter(IN_SI))}.xlsx"))
     add_grid(book)
     weigh_in_kips(book)
+    weigh_by_modules(book)
     book.save(changed)
     return {
         name: Filled(case, si if is_si(name, case) else us, sheets)

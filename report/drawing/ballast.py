@@ -1,0 +1,131 @@
+"""A ballast map: how many blocks lie where, and what each array carries by it.
+
+Writes no file. Read `read_map`, then `loads`.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from report.drawing.read_dxf import MB
+from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.growing import GrowingTable
+from report.sheet.reading.parts import Value
+from report.sheet.reading.positions import CellPosition
+from report.sheet.schema.shapes import Point, Shape, solid
+from report.words.letters import cut
+from solver.model import InputError
+
+MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5 * MB, 20_000, 10_000
+COLUMNS = ("x", "y", "blocks")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """The blocks of an array, their center and the centroid of its outline [m]."""
+
+    blocks: int
+    center: Point
+    centroid: Point
+
+
+def read_map(path: Path, unit_m: float) -> Any:
+    """Return the rows of a ballast map: line of the file, x [m], y [m] and number of blocks.
+
+    It is a CSV with the headings x, y and blocks, its unit given in m.
+
+    Raises
+    ------
+    InputError
+        With every line that is wrong, or if the file is too large or no such CSV.
+    """
+    with path.open("rb") as file:
+        data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise InputError(f"more than {MAX_BYTES // MB} MB; keep the columns {', '.join(COLUMNS)}")
+    try:
+        lines = csv.reader(data.decode("utf-8-sig").splitlines(), strict=True)
+        rows = [(lines.line_num, row) for row in lines if any(map(str.strip, row))]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise InputError(f"not a CSV in UTF-8 ({error}); save it as one") from error
+    heads = [name.strip().casefold() for name in rows[0][1]] if rows else []
+    if missing := [name for name in COLUMNS if heads.count(name) != 1]:
+        raise InputError(f"line 1: not one heading {', '.join(missing)}; give x, y and blocks")
+    if len(rows) > MAX_ROWS:
+        raise InputError(f"{len(rows):,} lines, more than {MAX_ROWS:,}; add up neighboring blocks")
+    found, wrong = [], []
+    for line, row in rows[1:]:
+        given = [row[k].strip() if k < len(row) else "" for k in map(heads.index, COLUMNS)]
+        x, y, blocks = map(_number, given)
+        for name, text, value in zip(COLUMNS, given, (x, y, blocks), strict=True):
+            if not math.isfinite(value):
+                wrong.append(f"line {line}: {name} is '{cut(text)}'; give a number")
+            elif name == "blocks" and not (value.is_integer() and 0.0 <= value <= MAX_BLOCKS):
+                wanted = f"give a whole number from 0 to {MAX_BLOCKS:,}"
+                wrong.append(f"line {line}: blocks is {value:g}; {wanted}")
+        found.append((line, x * unit_m, y * unit_m, blocks))
+    if wrong:
+        raise InputError(wrong)
+    return np.array(found).reshape(-1, 4)
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list[int]]:
+    """Return what each array carries that has blocks, and the lines of blocks outside of all."""
+    import shapely
+
+    solids = [solid(shape) for shape in arrays.values()]
+    points = shapely.STRtree(shapely.points(rows[:, 1:3]))
+    home = np.full(len(rows), -1)
+    of, at = points.query(solids, predicate="intersects")
+    home[at] = of
+    found = {}
+    for index, name in enumerate(arrays):
+        own, middle = rows[home == index], solids[index].centroid
+        if count := int(own[:, 3].sum()):
+            x, y = (own[:, 3] @ own[:, 1:3] / count).tolist()
+            found[name] = Load(blocks=count, center=(x, y), centroid=(middle.x, middle.y))
+    return found, rows[(home < 0) & (rows[:, 3] > 0.0), 0].astype(int).tolist()
+
+
+def center_of_gravity(load: Load, ballast_n: float, modules_n: float) -> Point:
+    """Return the center [m] of ballast and of modules, which are spread over the outline."""
+    share = ballast_n / (ballast_n + modules_n)
+    (x, y), (x0, y0) = load.center, load.centroid
+    return x0 + share * (x - x0), y0 + share * (y - y0)
+
+
+def changes(
+    book: OpenBook, weights_n: Mapping[str, float], *, replace: bool
+) -> dict[CellPosition, Value]:
+    """Return the cells to change so that arrays have a ballast weight [N].
+
+    Raises
+    ------
+    InputError
+        For each array that has one already, unless it may be replaced.
+    """
+    table = GrowingTable.of(book, "arrays")
+    cells: dict[CellPosition, Value] = {}
+    for name, weight_n in weights_n.items():
+        at = table.position(table.rows("id", name)[0], "ballast_n")
+        cells[at] = table.number("ballast_n", weight_n)
+    if not replace:
+        filled = [at.address for at in cells if not table.cell(at.row, "ballast_n").is_blank]
+        text = "the ballast weight is given already; add --replace to overwrite it"
+        if filled:
+            raise InputError([f"{address}: {text}" for address in filled])
+    return cells

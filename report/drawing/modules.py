@@ -1,0 +1,243 @@
+"""Modules of a roof drawing, joined into the arrays that they make up, each with its outline.
+
+Knows no file and no texts (`report.drawing.plan_read`). Read `joined` first. Points are complex.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from report.drawing.read_dxf import Drawn
+from report.sheet.reading.locate_tables import MAX_ROWS
+from report.sheet.schema import LayerKind
+from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring
+from solver.model import INCH_M, InputError
+
+GAP_M = 20.0 * INCH_M
+"""Largest gap within an array [m] by default: rows are 8 to 18 in apart, fire setbacks 36 in."""
+
+SIDES_M = (0.5, 2.6)
+"""Shortest and longest side of a module in plan [m]."""
+
+LEAST_ALIKE = 3
+"""Equal rectangles of a layer from which on they are modules; fewer are arrays."""
+
+ALIKE_M = 0.005
+"""Sides within this [m] are equal; a step of an outline within this is none."""
+
+MOST_TEXTS = 3
+"""Texts within an array of which one may be its name; more are those of its modules."""
+
+_PARALLEL_DEG, _NO_TURN_RAD = 0.5, 1e-5
+_MOST_PER_M2 = 16  # drawn twice, and with inner lines
+_COMPLEX = np.array((1.0, 1.0j))
+_OUTWARD = np.array((-1.0, -1.0, 1.0, 1.0))
+
+Known = tuple[Drawn, LayerKind, Shape]
+"""A closed line, what it is, and its shape [m]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModuleArray(Drawn):
+    """The outline of modules, its points in m; its handle is that of the first of them.
+
+    Attributes
+    ----------
+    sizes : tuple of (int, float, float)
+        Number, long side [m] and short side [m] of each size, the most frequent first.
+    gap_m : float
+        Largest gap between neighbors; 0 for one module.
+    opening_m2 : float
+        Area without modules that the outline encloses.
+    """
+
+    sizes: tuple[tuple[int, float, float], ...]
+    gap_m: float
+    opening_m2: float
+
+    @property
+    def count(self) -> int:
+        """Number of modules."""
+        return sum(count for count, *_ in self.sizes)
+
+
+_Placed = tuple[ModuleArray, LayerKind]
+
+
+def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Placed], list[Drawn]]:
+    """Return lines without modules, the arrays of modules in reading order, and lines within those.
+
+    Modules are equal rectangles of one layer, at least `LEAST_ALIKE`, with sides within `SIDES_M`.
+    Parallel ones are an array where the gaps along their sides are at most `gap_m` [m].
+
+    Raises
+    ------
+    InputError
+        If more rectangles lie at one place than modules can, or they make up too many arrays.
+    """
+    layers: dict[tuple[LayerKind, str], list[int]] = defaultdict(list)
+    for index, (line, kind, _) in enumerate(known):
+        if kind in (LayerKind.ARRAY, LayerKind.UNLIKE_ARRAY) and not line.is_ours:
+            layers[kind, line.layer.casefold()].append(index)
+    arrays: list[_Placed] = []
+    gone: dict[int, bool] = {}  # whether a line is a module that counts
+    for (kind, _), indices in layers.items():
+        for array, inside in _arrays([known[index] for index in indices], gap_m):
+            arrays.append((array, kind))
+            if len(arrays) > MAX_ROWS:
+                raise InputError(
+                    f"modules make up more than {MAX_ROWS} arrays; give a larger --gap"
+                )
+            gone |= {indices[k]: counts for k, counts in inside.items()}
+    rest = [item for index, item in enumerate(known) if index not in gone]
+    return rest, _in_reading_order(arrays), [known[k][0] for k in gone if not gone[k]]
+
+
+def _in_reading_order(arrays: Sequence[_Placed]) -> list[_Placed]:
+    """Return arrays by rows from the top, each from the left."""
+    rows: list[list[tuple[Rectangle, _Placed]]] = []
+    placed = [(Polygon(item[0].points).bounds, item) for item in arrays]
+    for box, item in sorted(placed, key=lambda one: -mean(one[0].points)[1]):
+        if not rows or mean(box.points)[1] < rows[-1][0][0].y_from_m:
+            rows.append([])
+        rows[-1].append((box, item))
+    return [item for row in rows for _, item in sorted(row, key=lambda one: one[0].x_from_m)]
+
+
+def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[ModuleArray, dict[int, bool]]]:
+    """Yield the arrays of a layer, with the lines within each and whether they are its modules."""
+    import shapely
+
+    small = [k for k, (*_, shape) in enumerate(lines) if shape.area_m2 <= SIDES_M[1] ** 2]
+    middles = np.array([complex(*mean(lines[k][2].points)) for k in small])
+    found = list(_parallel(lines))
+    modules = {k for at, *_ in found for k in at}
+    for at, sizes, boxes, turn in found:
+        gaps, row = _gaps(boxes, gap_m + ALIKE_M), {k: n for n, k in enumerate(at)}
+        parts = _closed(boxes, gap_m + ALIKE_M)
+        own = middles / turn
+        inside: list[dict[int, bool]] = [{} for _ in parts]
+        tree = shapely.STRtree(shapely.points(own.real, own.imag))
+        for part, n in tree.query(parts, predicate="contains").T:
+            if small[n] in row or small[n] not in modules:
+                inside[part][small[n]] = small[n] in row
+        for part, within in zip(parts, inside, strict=True):
+            its = [row[k] for k in within if within[k]]
+            again = _closed(_snapped(boxes[its]), gap_m + 3.0 * ALIKE_M)
+            outline = again[0] if len(again) == 1 else part
+            points = np.array(outline.exterior.coords) @ _COMPLEX * turn
+            kinds = Counter(map(tuple, sizes[its].tolist())).most_common()
+            first = lines[at[its[0]]][0]
+            is_block = all(lines[at[n]][0].handle == first.handle for n in its)
+            yield (
+                ModuleArray(
+                    handle=first.handle,
+                    layer=first.layer,
+                    name=first.name if is_block else "",  # of each block, it is that of a product
+                    points=ring([(float(z.real), float(z.imag)) for z in points]),
+                    is_ours=False,
+                    sizes=tuple((count, long, short) for (long, short), count in kinds),
+                    gap_m=float(gaps[its].max()),
+                    opening_m2=math.fsum(shapely.Polygon(hole).area for hole in outline.interiors),
+                ),
+                within,
+            )
+
+
+def _parallel(lines: Sequence[Known]) -> Iterator[tuple[list[int], Any, Any, complex]]:
+    """Yield the modules of a layer that are parallel: lines, sizes [m], boxes and their direction.
+
+    Sizes are those of equal ones; boxes, along their sides, are x from, y from, x to and y to [m].
+    """
+    four = [k for k, (*_, shape) in enumerate(lines) if len(shape.points) == 4]
+    corners = np.array([lines[k][2].points for k in four]).reshape(-1, 4, 2) @ _COMPLEX
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1]
+    skew = np.abs(corners @ np.array((1, -1, 1, -1)))
+    long, short = np.maximum(abs(a), abs(b)), np.minimum(abs(a), abs(b))
+    is_right = (skew <= ALIKE_M) & (abs((a * b.conj()).real) <= ALIKE_M * long)
+    fits = is_right & (short >= SIDES_M[0] - ALIKE_M) & (long <= SIDES_M[1] + ALIKE_M)
+    sizes = np.full((len(four), 2), np.nan)
+    for run in _runs(long, np.flatnonzero(fits)):
+        for alike in _runs(short, run):
+            if len(alike) >= LEAST_ALIKE:
+                sizes[alike] = long[alike].mean(), short[alike].mean()
+    angles = np.degrees(np.angle(a)) % 90.0
+    runs = _runs(angles, np.flatnonzero(np.isfinite(sizes[:, 0])), _PARALLEL_DEG)
+    if len(runs) > 1 and angles[runs[0][0]] + 90.0 - angles[runs[-1][0]] <= _PARALLEL_DEG:
+        runs[0] = np.concatenate((runs[0], runs.pop()))
+    for run in runs:
+        off = (angles[run] - angles[run[0]] + 45.0) % 90.0 - 45.0
+        angle = math.radians((angles[run[0]] + float(off.mean()) + 45.0) % 90.0 - 45.0)
+        turn = complex(math.cos(angle), math.sin(angle)) if abs(angle) > _NO_TURN_RAD else 1.0
+        own = corners[run] / turn
+        sides = (own.real.min(1), own.imag.min(1), own.real.max(1), own.imag.max(1))
+        boxes = np.stack(sides, axis=1)
+        once = _once(boxes, lines[four[run[0]]][0].layer)
+        yield [four[k] for k in run[once]], sizes[run[once]], boxes[once], turn
+
+
+def _runs(values: Any, at: Any, width: float = ALIKE_M) -> list[NDArray[np.intp]]:
+    """Return the indices `at` by runs of ascending values, none wider than a width."""
+    order = at[np.argsort(values[at], kind="stable")]
+    starts: list[int] = []
+    for place, value in enumerate(values[order]):
+        if not starts or value - values[order[starts[-1]]] > width:
+            starts.append(place)
+    return np.split(order, starts[1:]) if starts else []
+
+
+def _once(boxes: Any, layer: str) -> Any:
+    """Return which boxes are modules: none that is drawn again, and no line within another one."""
+    import shapely
+
+    middles = 0.5 * (boxes[:, :2] + boxes[:, 2:])
+    most = max(Counter(map(tuple, np.floor(middles).tolist())).values())
+    if most > _MOST_PER_M2:  # their pairs would be without number
+        text = f"layer {layer}: {most} rectangles of the size of modules on one square meter"
+        raise InputError(f"{text}, more than {_MOST_PER_M2}; save one line for each module")
+    tree = shapely.STRtree(shapely.box(*boxes.T))
+    inner, outer = tree.query(shapely.points(middles), predicate="intersects")
+    areas = np.round(np.prod(boxes[:, 2:] - boxes[:, :2], axis=1), 2)
+    rank = np.argsort(np.argsort(-areas, kind="stable"))
+    return ~np.isin(np.arange(len(boxes)), inner[rank[outer] < rank[inner]])
+
+
+def _gaps(boxes: Any, most_m: float) -> Any:
+    """Return the gap [m] of each box to the next one beside it or above it, the larger one."""
+    import shapely
+
+    shapes, gaps = shapely.box(*boxes.T), np.zeros(len(boxes))
+    a, b = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=most_m)
+    after, before = boxes[b, :2] - boxes[a, 2:], boxes[a, :2] - boxes[b, 2:]
+    for axis in (0, 1):
+        aside = np.maximum(after[:, 1 - axis], before[:, 1 - axis])
+        faces = (after[:, axis] >= -ALIKE_M) & (aside < -ALIKE_M)
+        nearest = np.full(len(boxes), np.inf)
+        np.minimum.at(nearest, a[faces], after[faces, axis])
+        gaps = np.maximum(gaps, np.where(np.isfinite(nearest), nearest, 0.0))
+    return gaps
+
+
+def _closed(boxes: Any, width_m: float) -> list[Any]:
+    """Return the polygons of boxes with the gaps up to a width [m] closed."""
+    import shapely
+
+    half = 0.5 * width_m
+    grown = shapely.union_all(shapely.box(*(boxes + half * _OUTWARD).T))
+    return list(shapely.get_parts(grown.buffer(-half, join_style="mitre")))
+
+
+def _snapped(boxes: Any) -> Any:
+    """Return boxes without the steps between them that a drawing did not mean."""
+    snapped = boxes.copy()
+    for side in range(4):
+        for run in _runs(boxes[:, side], np.arange(len(boxes))):
+            snapped[run, side] = boxes[run, side].mean()
+    return snapped

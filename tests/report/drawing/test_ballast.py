@@ -1,0 +1,134 @@
+"""A ballast map gives arrays their ballast weight and center of gravity; wrong lines are listed."""
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from inputs import FT, LB
+from report.cli.main import main
+from report.drawing.ballast import MAX_BYTES, center_of_gravity, loads, read_map
+from report.sheet.checking.plausible import implausible
+from report.sheet.reading.read import read
+from report.sheet.schema import Polygon, Rectangle
+from sheets import arrays, edit, make, problems, project, type_into
+from solver.model import InputError
+
+
+@pytest.mark.parametrize(
+    ("content", "wanted"),
+    [
+        ("", ["line 1: not one heading x, y, blocks; give x, y and blocks"]),
+        ("x,y,count\n1,2,3\n", ["line 1: not one heading blocks; give x, y and blocks"]),
+        ("x,x,y,blocks\n", ["line 1: not one heading x; give x, y and blocks"]),
+        ("x,y,blocks\n1,2,3\n\na,,1\n", ["line 4: x is 'a'; give a number",
+                                         "line 4: y is ''; give a number"]),
+        ("x,y,blocks\n1,inf,2.5\n1,2\n", [
+            "line 2: y is 'inf'; give a number",
+            "line 2: blocks is 2.5; give a whole number from 0 to 10,000",
+            "line 3: blocks is ''; give a number",
+        ]),
+        ("x,y,blocks\n1,2,-1\n1,2,1e9\n", [
+            "line 2: blocks is -1; give a whole number from 0 to 10,000",
+            "line 3: blocks is 1e+09; give a whole number from 0 to 10,000",
+        ]),
+        ('x,y,blocks\n"1,2,3\n', ["not a CSV in UTF-8 (unexpected end of data); save it as one"]),
+        (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8 ('utf-8' codec can't decode byte 0xff in "
+                                 "position 11: invalid start byte); save it as one"]),
+        ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; add up "
+                                               "neighboring blocks"]),
+        (b" " * (MAX_BYTES + 1), ["more than 5 MB; keep the columns x, y, blocks"]),
+    ],
+)  # fmt: skip
+def test_a_wrong_map_is_refused_with_every_line(tmp_path, content, wanted):
+    path = tmp_path / "map.csv"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(InputError) as caught:
+        read_map(path, 1.0)
+    assert list(caught.value.problems) == wanted
+
+
+def test_a_map_is_read_in_its_unit_with_any_columns_beside(tmp_path):
+    path = tmp_path / "map.csv"
+    path.write_text("\ufeffRow, Blocks ,X,y\nR1,2,10,20\n\nR2,0,1.5,-2\n", encoding="utf-8")
+    assert read_map(path, FT).tolist() == [[2, 10 * FT, 20 * FT, 2], [4, 1.5 * FT, -2 * FT, 0]]
+
+
+def test_the_center_of_gravity_is_that_of_blocks_and_modules():
+    l_shape = Polygon(((0, 0), (6, 0), (6, 2), (2, 2), (2, 4), (0, 4)))  # 12 m2 and 4 m2
+    rows = np.array([(2, 1, 1, 3), (3, 5, 1, 1), (4, 3, 3, 7), (5, 20, 20, 2), (6, 50, 50, 0.0)])
+    found, outside = loads(rows, {"A1": l_shape, "A2": Rectangle(10, 30, 10, 30),
+                                  "A3": Rectangle(100, 101, 0, 1)})  # fmt: skip
+    assert outside == [4]  # in the notch; no blocks lie at line 6
+    assert found.keys() == {"A1", "A2"}
+    load = found["A1"]
+    assert (load.blocks, load.center) == (4, (2.0, 1.0))
+    assert load.centroid == pytest.approx(((12 * 3 + 4 * 1) / 16, (12 * 1 + 4 * 3) / 16))
+    assert center_of_gravity(load, 100.0, 0.0) == pytest.approx(load.center)
+    assert center_of_gravity(load, 100.0, 300.0) == pytest.approx(
+        ((2.0 + 3 * 2.5) / 4, (1.0 + 3 * 1.5) / 4)
+    )
+
+
+PARTS = {"modules": 320, "module_weight_n": 75 * LB, "ballast_n": 18000 * LB}
+
+
+def ran(*words, exit_code=0):
+    done = CliRunner().invoke(main, ["plan", "ballast", *map(str, words)])
+    assert done.exit_code == exit_code, done.output
+    return done.output
+
+
+@pytest.mark.by_day(1)
+def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
+    book = make(tmp_path, arrays=arrays(modules=320, module_weight_n=75 * LB))
+    type_into(book, {"Arrays/A1/Weight": None})
+    assert problems(book) == (
+        "Arrays!K8: weight is missing; give it, or modules, module weight and ballast weight",
+    )
+    path = tmp_path / "map.csv"
+    path.write_text("x,y,blocks\n40,30,300\n80,60,200\n500,0,1\n")  # A1 is 20 to 100, 15 to 75 ft
+    words = (path, book, "--units", "ft", "--block-weight", "32 lb")
+    output = ran(*words)
+    # 16,000 lb at 56, 42 ft and 24,000 lb at 60, 45 ft.
+    assert "A1: 500 blocks, 16000 lb (71.17 kN); center of gravity of ballast and 320 mod" in output
+    assert " at x 58.40 ft (17.80 m), y 43.80 ft (13.35 m); from the centroid" in output
+    assert "outline −1.60 ft (−0.49 m) in x, −1.20 ft (−0.37 m) in y" in output
+    assert "A2: no blocks" in output
+    assert "outside of every array: 1 line of the map: 4" in output
+    sheet = read(book)
+    assert sheet.project.arrays[0].weight_n == pytest.approx(40000 * LB)
+    (echoed,) = (row for row in sheet.echo if row.cell == "K8" and row.label == "Weight")
+    assert (echoed.typed, echoed.value) == ("", "177929 N (computed)")
+    assert "is given already; add --replace to overwrite it" in ran(*words, exit_code=2)
+    ran(*words, "--replace")
+    path.write_text("x,y,blocks\n-1,30,3\n")
+    assert "no block of the map is within an array" in ran(*words, "--replace", exit_code=2)
+
+
+def test_a_workbook_without_the_column_is_refused_with_what_to_do(tmp_path):
+    book = make(tmp_path)
+    path = tmp_path / "map.csv"
+    path.write_text("x,y,blocks\n40,30,300\n")
+    edit(book, lambda found: retitled(found, "Ballast weight [lb]"))
+    output = ran(path, book, "--units", "ft", "--block-weight", "32 lb", exit_code=2)
+    assert "heading 'Ballast weight' is missing" in output
+
+
+def retitled(book, heading):
+    (head,) = (cell for row in book["Arrays"] for cell in row if cell.value == heading)
+    head.value = ""
+
+
+@pytest.mark.parametrize(
+    ("weight", "said"),
+    [
+        (42000, ""),  # as the parts
+        (42400, ""),  # rounded
+        (43000, "weight is 43000 lb (191.27 kN), but 320 modules and the ballast are 42000 lb"
+                " (186.83 kN), more than 1% apart; correct one of them"),
+    ],
+)  # fmt: skip
+def test_a_weight_that_differs_from_that_of_its_parts_is_a_finding(weight, said):
+    data = project(arrays=arrays(weight_n=weight * LB, **PARTS))
+    found = [one.text for one in implausible(data) if one.id == "weight of modules A1"]
+    assert found == [said] * bool(said)

@@ -1,0 +1,282 @@
+"""Modules of a layout become the arrays that they make up, with exact outlines."""
+
+import math
+import random
+
+import pytest
+from click.testing import CliRunner
+from openpyxl import load_workbook
+
+from report.cli.main import main
+from report.drawing.modules import GAP_M
+from report.drawing.plan_read import plan_of
+from report.drawing.read_dxf import read_dxf
+from report.sheet.reading.read import read
+from report.sheet.schema import LayerKind, Rectangle
+from sheets import blank, edit, make, retitle
+from sketch import Sketch, plan
+from solver.model import InputError
+
+LONG, SHORT = 2.0, 1.1
+ROW, COLUMN = 0.4, 0.02
+"""Gaps between the rows and the columns of modules [m]."""
+
+PITCH_X, PITCH_Y = LONG + COLUMN, SHORT + ROW
+CORNERS = ((0, 0), (LONG, 0), (LONG, SHORT), (0, SHORT))
+
+# Rows from the bottom, each with its columns from and to; lower left corner [m].
+FIELDS = {
+    "A1": ((0.0, 40.0), [(0, 8)] * 5),
+    "A2": ((30.0, 41.0), [(0, 6)] * 2 + [(0, 3)] * 3),  # an L
+    "A3": ((60.0, 40.0), [(0, 4)] * 5),
+    "A4": ((0.0, 10.0), [(0, 10)] * 4),
+    "A5": ((30.0, 10.0), [(2, 5), (0, 7), (2, 5)]),  # a cross
+}
+COUNTS = {"A1": 40, "A2": 21, "A3": 20, "A4": 40, "A5": 13}
+
+
+def modules(fields=FIELDS):
+    """The lower left corners of modules [m]."""
+    for (x, y), rows in fields.values():
+        for row, (start, end) in enumerate(rows):
+            yield from ((x + k * PITCH_X, y + row * PITCH_Y) for k in range(start, end))
+
+
+def turned(points, deg):
+    cos, sin = math.cos(math.radians(deg)), math.sin(math.radians(deg))
+    return [(x * cos - y * sin, x * sin + y * cos) for x, y in points]
+
+
+def layout(deg=0.0, noise=0.0, seed=1):
+    """A sketch of all fields turned about the origin, with vertices that are off by a noise [m]."""
+    sketch, chance = Sketch(unit="m"), random.Random(seed)
+    corners = list(modules())
+    chance.shuffle(corners)
+    for x, y in corners:
+        start = chance.randrange(4)  # any corner first, either way round
+        points = turned([(x + a, y + b) for a, b in CORNERS], deg)
+        points = (points[start:] + points[:start])[:: chance.choice((1, -1))]
+        points = [(x + chance.uniform(-noise, noise), y + chance.uniform(-noise, noise))
+                  for x, y in points]  # fmt: skip
+        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+    return sketch
+
+
+def edges(columns):
+    """Where a run of columns, or of rows, starts and ends."""
+    return columns[0] * PITCH_X, (columns[1] - 1) * PITCH_X + LONG
+
+
+def outline(name):
+    """The exact outline of a field, from its lowest left corner."""
+    (x, y), rows = FIELDS[name]
+    top = (len(rows) - 1) * PITCH_Y + SHORT
+    (x0, x1) = edges(rows[0])
+    points = {
+        "A2": [(x0, 0), (x1, 0), (x1, PITCH_Y + SHORT), (edges((0, 3))[1], PITCH_Y + SHORT),
+               (edges((0, 3))[1], top), (x0, top)],
+        "A5": [(x0, 0), (x1, 0), (x1, PITCH_Y), (edges((0, 7))[1], PITCH_Y),
+               (edges((0, 7))[1], PITCH_Y + SHORT), (x1, PITCH_Y + SHORT), (x1, top), (x0, top),
+               (x0, PITCH_Y + SHORT), (0, PITCH_Y + SHORT), (0, PITCH_Y), (x0, PITCH_Y)],
+    }.get(name, [(x0, 0), (x1, 0), (x1, top), (x0, top)])  # fmt: skip
+    return [(x + a, y + b) for a, b in points]
+
+
+def is_ring(got, wanted, within):
+    """Whether two rings have the same vertices in the same order, from any first one."""
+    got, wanted = list(got), list(wanted)
+    near = min(range(len(got)), key=lambda k: math.dist(got[k], wanted[0]))
+    turned_on = got[near:] + got[:near]
+    return len(got) == len(wanted) and all(
+        math.dist(a, b) <= within for a, b in zip(turned_on, wanted, strict=True)
+    )
+
+
+@pytest.mark.parametrize("deg", [0.0, 17.0, 45.0, -3.5, 90.0])
+@pytest.mark.parametrize(("noise", "within"), [(0.0, 1e-8), (0.0005, 0.0015)])
+def test_modules_become_arrays_with_their_outlines(tmp_path, deg, noise, within):
+    found = plan(layout(deg, noise).saved(tmp_path))
+    assert found.unread == ()
+    assert sorted(place.name for place in found.arrays) == sorted(FIELDS)
+    for place in found.arrays:
+        wanted = {name: turned(outline(name), deg) for name in FIELDS}
+        (name,) = (n for n in FIELDS if is_ring(place.shape.points, wanted[n], within))
+        assert place.modules.count == COUNTS[name]
+        ((_, long, short),) = place.modules.sizes
+        assert (long, short) == pytest.approx((LONG, SHORT), abs=max(within, 1e-9))
+        assert place.modules.gap_m == pytest.approx(ROW, abs=2 * within + 1e-9)
+        assert place.modules.opening_m2 == 0.0
+        is_box = deg in (0.0, 90.0) and name in ("A1", "A3", "A4") and noise == 0.0
+        assert isinstance(place.shape, Rectangle) or not is_box
+        if deg == 0.0:
+            assert place.name == name  # in reading order
+            assert place.note == "named in reading order"
+
+
+def grid(sketch, columns, rows, x=0.0, y=0.0, skip=(), size=(LONG, SHORT), layer="ARRAY"):
+    """Draw modules in columns and rows [m], but for some."""
+    for k in range(columns):
+        for row in range(rows):
+            if (k, row) not in skip:
+                x0, y0 = x + k * (size[0] + COLUMN), y + row * (size[1] + ROW)
+                points = [(x0, y0), (x0 + size[0], y0), (x0 + size[0], y0 + size[1]),
+                          (x0, y0 + size[1])]  # fmt: skip
+                sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})
+
+
+def text(sketch, words, x, y):
+    sketch.space.add_text(words, dxfattribs={"layer": "ARRAY"}).set_placement((x, y))
+
+
+def counts(found):
+    """The number of modules of each array by name; None for an array that is drawn as such."""
+    return {place.name: place.modules and place.modules.count for place in found.arrays}
+
+
+@pytest.mark.parametrize(
+    ("columns", "size", "wanted"),
+    [
+        (2, (LONG, SHORT), {"A1": None, "A2": None}),  # fewer than three equal ones
+        (3, (LONG, SHORT), {"A1": 3}),
+        (3, (6.0, SHORT), {"A1": None, "A2": None, "A3": None}),  # larger than a module
+        (3, (LONG, 0.4), {"A1": None, "A2": None, "A3": None}),  # narrower than a module
+    ],
+)
+def test_few_rectangles_and_those_of_other_sizes_are_arrays(tmp_path, columns, size, wanted):
+    sketch = Sketch(unit="m")
+    grid(sketch, columns, 1, size=size)
+    assert counts(plan(sketch.saved(tmp_path))) == wanted
+
+
+def test_rectangles_of_other_sizes_are_no_modules_beside_those(tmp_path):
+    sketch = Sketch(unit="m")
+    grid(sketch, 4, 1)
+    grid(sketch, 1, 1, y=20.0, size=(LONG, SHORT + 0.02))
+    found = plan(sketch.saved(tmp_path))
+    assert counts(found) == {"A1": None, "A2": 4}
+
+
+@pytest.mark.parametrize(("gap_m", "arrays"), [(ROW - 0.02, 2), (ROW, 1), (GAP_M, 1)])
+def test_gaps_up_to_a_width_are_within_an_array(tmp_path, gap_m, arrays):
+    sketch = Sketch(unit="m")
+    grid(sketch, 4, 2)
+    found = plan_of(read_dxf(sketch.saved(tmp_path)), 1.0, {}, gap_m)
+    assert [place.modules.count for place in found.arrays] == [8 // arrays] * arrays
+    assert found.arrays[0].modules.gap_m == pytest.approx(ROW if arrays == 1 else COLUMN)
+
+
+def test_an_array_takes_its_name_from_a_text_inside_that_is_its_own(tmp_path):
+    sketch = Sketch(unit="m")
+    grid(sketch, 3, 2, y=30.0)  # two texts: the upper one is the name
+    text(sketch, "ROOF B", 1.0, 31.0)
+    text(sketch, "6 modules", 1.0, 30.5)
+    grid(sketch, 3, 2, x=20.0, y=30.0)  # texts of the modules
+    for k in range(4):
+        text(sketch, f"S{k}", 20.5 + 0.5 * k, 30.5)
+    grid(sketch, 3, 2)  # one text in several arrays
+    grid(sketch, 3, 2, x=20.0)
+    text(sketch, "10 deg", 1.0, 0.5)
+    text(sketch, "10 deg", 21.0, 0.5)
+    found = plan(sketch.saved(tmp_path))
+    assert counts(found) == dict.fromkeys(("ROOF B", "A1", "A2", "A3"), 6)
+    assert found.arrays[1].shape.bounds.x_from_m == pytest.approx(20.0)
+    assert found.unread == ()
+
+
+def test_modules_are_counted_once_in_blocks_with_inner_lines(tmp_path):
+    sketch = Sketch(unit="m")
+    block = sketch.document.blocks.new("MODULE")
+    for inset in (0.0, 0.05):
+        points = [(inset, inset), (LONG - inset, inset), (LONG - inset, SHORT - inset),
+                  (inset, SHORT - inset)]  # fmt: skip
+        block.add_lwpolyline(points, close=True)
+    for k in range(3):
+        at = {"layer": "ARRAY", "rotation": 90.0}
+        for x in (0.0, 30.0):
+            put = sketch.space.add_blockref(
+                "MODULE", (x + k * (SHORT + COLUMN), 0.0), dxfattribs=at
+            )
+            put.add_attrib("TAG", "LG400")
+    counted = {"row_count": 2, "column_count": 4, "row_spacing": PITCH_Y, "column_spacing": PITCH_X}
+    put = sketch.space.add_blockref("MODULE", (0, 40), dxfattribs={"layer": "ARRAY"} | counted)
+    put.add_attrib("NAME", "EAST")
+    grid(sketch, 3, 1, x=60.0)
+    grid(sketch, 3, 1, x=60.001)  # drawn twice
+    found = plan(sketch.saved(tmp_path))
+    assert counts(found) == {"EAST": 8, "A1": 3, "A2": 3, "A3": 3}
+    assert {item.reason for item in found.unread} == {"a closed line within an array of modules"}
+    assert len(found.unread) == 14 + 3
+    assert found.arrays[1].shape.area_m2 == pytest.approx(LONG * (3 * SHORT + 2 * COLUMN))
+
+
+def test_modules_of_several_sizes_around_an_opening_are_one_array(tmp_path):
+    sketch = Sketch(unit="m")
+    grid(sketch, 4, 4, skip=[(k, row) for k in (1, 2) for row in (1, 2)])
+    wide = 4 * PITCH_X
+    grid(sketch, 3, 1, x=wide, size=(SHORT, LONG))  # the same, upright
+    grid(sketch, 3, 1, x=wide + 5.0, size=(1.65, 1.0))
+    (found,) = plan(sketch.saved(tmp_path)).arrays[:1]
+    assert [n for n, *_ in found.modules.sizes] == [15]
+    opening = (2 * PITCH_X + COLUMN) * (2 * PITCH_Y + ROW)
+    assert found.modules.opening_m2 == pytest.approx(opening)
+
+
+def test_modules_that_are_turned_to_each_other_are_arrays_of_their_own(tmp_path):
+    sketch = Sketch(unit="m")
+    for deg in (0.0, 30.0):
+        for k in range(3):
+            points = [(12.0 * deg / 30.0 + k * PITCH_X + x, y) for x, y in CORNERS]
+            look = {"layer": "ARRAY-UNLIKE"}
+            sketch.space.add_lwpolyline(turned(points, deg), close=True, dxfattribs=look)
+    found = plan(sketch.saved(tmp_path)).objects
+    assert [(place.name, place.kind, place.modules.count) for place in found] == [
+        ("PV-1", LayerKind.UNLIKE_ARRAY, 3), ("PV-2", LayerKind.UNLIKE_ARRAY, 3)
+    ]  # fmt: skip
+
+
+def test_more_rectangles_at_one_place_than_modules_are_refused(tmp_path):
+    sketch = Sketch(unit="m")
+    for k in range(40):
+        grid(sketch, 1, 1, x=0.001 * k)
+    with pytest.raises(
+        InputError, match="layer ARRAY: 40 rectangles of the size of modules on one"
+    ):
+        plan(sketch.saved(tmp_path))
+
+
+def ran(*words, exit_code=0):
+    done = CliRunner().invoke(main, ["plan", *map(str, words)])
+    assert done.exit_code == exit_code, done.output
+    return done.output
+
+
+@pytest.mark.by_day(1)
+def test_the_count_of_modules_is_filled_in_and_the_rule_said(tmp_path):
+    path, book = layout().saved(tmp_path), blank(tmp_path / "input.xlsx")
+    output = ran("read", path, book, "--gap", "18 in")
+    assert "A2: array of 21 modules 78.7 in (2000 mm) by 43.3 in (1100 mm), gaps up to" in output
+    assert "joined to 5 arrays where gaps are at most 18.0 in (457 mm) (--gap)" in output
+    rows = read(book).draft["arrays"]
+    assert {row["id"]: row["modules"] for row in rows} == COUNTS
+    refused = ran("read", path, book, "--gap", "18", exit_code=2)
+    assert (
+        "it is '18'; give a positive number up to 2 m and its unit: in, ft, mm, cm, m." in refused
+    )
+    ran("read", path, book, "--gap", "7 ft", exit_code=2)
+
+
+def test_a_workbook_without_the_column_gets_the_arrays_alone(tmp_path):
+    book = make(tmp_path, clearances=[])
+    edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
+    ran("read", layout().saved(tmp_path), book, "--replace")
+    assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 5
+
+
+def test_rows_that_an_earlier_table_grows_by_have_no_formula_that_is_broken(tmp_path):
+    book, sketch = blank(tmp_path / "input.xlsx"), Sketch(unit="m")
+    edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
+    grid(sketch, 40, 1, size=(6.0, 2.0))
+    ran("read", sketch.saved(tmp_path), book)
+    assert len(read(book).draft["arrays"]) == 40
+    formulas = [str(at.value) for row in load_workbook(book)["Arrays"] for at in row]
+    assert not [text for text in formulas if "#REF!" in text]
