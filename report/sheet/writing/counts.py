@@ -5,15 +5,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
 
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.fields import entries
+from report.sheet.schema.fields import SheetSection, entries
 from report.sheet.schema.layout import Layout, TablePlace, name_cell
 from report.sheet.writing import style
-from report.sheet.writing.marks import mark_count
-from report.sheet.writing.needs import block_lacks, block_wrong, table_lacks
+from report.sheet.writing.marks import SEE_CHECK, mark_count
+from report.sheet.writing.needs import block_lacks, table_lacks, undecided_names, wrong_names
 
 START = "Start"
 COUNTS_COLUMN = 4
@@ -28,7 +30,8 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
     start = book[START]
     for row, title in enumerate(dict.fromkeys(s.sheet for s in SECTIONS), start=top):
         blocks, tables = layout.on(title)
-        wrong = [text for text in map(block_wrong, blocks) if text]
+        sections = [section for section in SECTIONS if section.sheet == title]
+        wrong = [f"IF({name},1,0)" for place in blocks for name in wrong_names(place.section)]
         lacks = [*(text for text in map(block_lacks, blocks) if text), *wrong]
         lacks += [_lacking_in(place) for place in tables]
         wrong += [f'COUNTIF({p.all("status")},"<0")+{_uncounted(p)}' for p in tables]
@@ -38,8 +41,9 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
         count = start.cell(row, COUNTS_COLUMN + 1)
         style.put_answer(count, "+".join(lacks) or "0", COUNT_FORMAT)
         name_cell(name, start, row, COUNTS_COLUMN + 1)
-        mark_count(start, count.coordinate, f"${get_column_letter(COUNTS_COLUMN + 1)}{row}")
-        _write_line(book, title, name, "+".join(wrong) or "0")
+        at = f"${get_column_letter(COUNTS_COLUMN + 1)}{row}"
+        mark_count(start, count.coordinate, at, sections)
+        _write_line(book, title, name, "+".join(wrong) or "0", sections)
         name_cell(f"line_{sheet_name}", book[title], 3, 1)
 
 
@@ -56,12 +60,16 @@ def _uncounted(place: TablePlace) -> str:
     return f'SUMPRODUCT((TRIM({names})<>"")*(1-ISNUMBER({place.all("status")})))'
 
 
-def _write_line(book: Workbook, title: str, name: str, wrong: str) -> None:
+def _write_line(
+    book: Workbook, title: str, name: str, wrong: str, sections: Sequence[SheetSection]
+) -> None:
     """Write how many cells a sheet lacks, and whether some are filled, but not as they can be."""
     sheet = book[title]
     what = f'" missing"&IF({wrong}>0," or wrong","")'
     count = f'{name}&IF({name}=1," cell"," cells")&{what}'
-    line = f'IF({name}<0,"Fill in at least one row",IF({name}=0,"No cells missing",{count}))'
+    none, undecided = '"No cells missing"', ",".join(undecided_names(sections))
+    none += f'&IF(OR({undecided}),"; {SEE_CHECK}","")' if undecided else ""
+    line = f'IF({name}<0,"Fill in at least one row",IF({name}=0,{none},{count}))'
     cell = style.put(sheet, 3, 1, "", bold=True, wrap=False)
     cell.value = f"={line}"
-    mark_count(sheet, "A3", 'IF(LEFT($A$3,2)="No",0,1)')
+    mark_count(sheet, "A3", 'IF(LEFT($A$3,2)="No",0,1)', sections)

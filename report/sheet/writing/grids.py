@@ -16,6 +16,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
+from report.sheet.checking.refused import UNDECIDED
 from report.sheet.schema import UnitsFirst, provision_name
 from report.sheet.schema.answers import (
     SITE_ANSWERS,
@@ -25,11 +26,18 @@ from report.sheet.schema.answers import (
     STATUS_HEADING,
     FormulaColumn,
     table_answers,
+    written,
 )
 from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
 from report.sheet.writing import style
-from report.sheet.writing.needs import row_status, status_name
+from report.sheet.writing.needs import (
+    row_status,
+    status_name,
+    undecided_names,
+    wrong_cells,
+    wrong_names,
+)
 from report.words.units import Unit
 
 BLANK_ROWS = 20
@@ -294,9 +302,20 @@ def table_formulas(
     }
 
 
+def define_tests(book: Workbook, layout: Layout) -> None:
+    """Define whether each cell is wrong, and of each section whether no formula tells."""
+    places: list[BlockPlace | TablePlace] = [*layout.blocks.values(), *layout.tables.values()]
+    for place in places:
+        for name, formula in wrong_cells(place, layout).items():
+            name_formula(book, name, formula)
+        for name in undecided_names([place.section]):
+            name_formula(book, name, written(UNDECIDED[place.section.key], layout, str))
+
+
 def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
     """Write the formulas of a table; in Excel new rows get them by themselves."""
-    name_formula(book, status_name(place.section), row_status(place, layout))
+    tests = wrong_names(place.section)
+    name_formula(book, status_name(place.section), row_status(place, tests))
     sheet = book[place.section.sheet]
     formulas = table_formulas(layout, place, is_us=is_us)
     columns = sheet.tables[place.section.table_name].tableColumns
