@@ -8,20 +8,27 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from openpyxl import Workbook
+from openpyxl.styles import Font
 from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.hyperlink import Hyperlink
 
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import SheetSection, entries
 from report.sheet.schema.layout import Layout, TablePlace, name_cell
 from report.sheet.writing import style
 from report.sheet.writing.marks import SEE_CHECK, mark_count
-from report.sheet.writing.needs import block_lacks, table_lacks, undecided_names, wrong_names
+from report.sheet.writing.needs import (
+    block_lacks,
+    first_open,
+    table_lacks,
+    undecided_names,
+    wrong_names,
+)
 
 START = "Start"
 COUNTS_COLUMN = 4
 """Column of the names of the sheets in the list; the counts are beside it."""
 
-_NEED_ROWS = ("arrays", "motions")  # as `checks` requires
 COUNT_FORMAT = '[<0]"no row yet";[=0]"✓";0" open"'
 
 
@@ -35,8 +42,17 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
         lacks = [*(text for text in map(block_lacks, blocks) if text), *wrong]
         lacks += [_lacking_in(place) for place in tables]
         wrong += [f'COUNTIF({p.all("status")},"<0")+{_uncounted(p)}' for p in tables]
-        style.put(start, row, COUNTS_COLUMN, title)
         sheet_name = title.lower().replace(" ", "_")
+        to_sheet = style.put(start, row, COUNTS_COLUMN, title)
+        # By a defined name, which follows a sheet that is renamed.
+        to_sheet.hyperlink = Hyperlink(ref=to_sheet.coordinate, location=f"line_{sheet_name}")
+        to_cell = start.cell(row, COUNTS_COLUMN + 2)
+        said = f'IF(lacks_{sheet_name}=0,"","first cell")'
+        at = f'"#"&CELL("address",{first_open(blocks, tables)})'
+        style.put_answer(to_cell, f"HYPERLINK({at},{said})")
+        for link in (to_sheet, to_cell):
+            link.font = Font(name="Calibri", size=10, color=style.INK, underline="single")
+        name_cell(f"next_{sheet_name}", start, row, COUNTS_COLUMN + 2)
         name = f"lacks_{sheet_name}"
         count = start.cell(row, COUNTS_COLUMN + 1)
         style.put_answer(count, "+".join(lacks) or "0", COUNT_FORMAT)
@@ -51,7 +67,7 @@ def _lacking_in(place: TablePlace) -> str:
     """Return the number of cells that a table lacks; -1 where it needs a row and has none."""
     status = place.all("status")
     lacking = f"{table_lacks(place)}+{_uncounted(place)}"
-    return f"IF(COUNT({status})=0,-1,{lacking})" if place.section.key in _NEED_ROWS else lacking
+    return f"IF(COUNT({status})=0,-1,{lacking})" if place.section.is_needed else lacking
 
 
 def _uncounted(place: TablePlace) -> str:

@@ -24,7 +24,7 @@ from report.sheet.schema.layout import LAST_ROW, BlockPlace, Layout, TablePlace
 from report.sheet.writing.needs import block_begun, condition, undecided_names, wrong_name
 
 RED, AMBER, GREEN, VIOLET = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC"
-RED_INK = "B3261E"
+RED_INK, UNDECIDED = "B3261E", "5F6A72"
 SEE_CHECK = "see check"
 """What stands in place of a tick where no formula tells whether `check` accepts."""
 _RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
@@ -35,7 +35,7 @@ _GREEN_FONT, _RED_FONT = (
     DifferentialStyle(font=Font(color=color, bold=True)) for color in (GREEN, RED_INK)
 )
 _UNDECIDED = DifferentialStyle(
-    font=Font(color="5F6A72", bold=True),
+    font=Font(color=UNDECIDED, bold=True),
     numFmt=NumberFormat(numFmtId=300, formatCode=f'"{SEE_CHECK}"'),
 )
 _EQUAL = 1e-9  # difference from a limit / limit that is rounding error of a conversion of units

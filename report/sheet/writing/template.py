@@ -24,7 +24,7 @@ from report.sheet.writing.lookups import write_lookups
 from report.sheet.writing.marks import mark_block, mark_lost, mark_ratio, mark_table
 from report.sheet.writing.results_panel import write_panel
 from report.sheet.writing.rules import write_rules
-from report.sheet.writing.start import write_start
+from report.sheet.writing.start import color_tabs, write_start
 from solver.files import write_whole
 
 
@@ -43,6 +43,7 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
     mark_ratio(book["Clearances"], layout.tables["clearances"], "demand_capacity")
     write_counts(book, layout, write_start(book))
     mark_lost(book, layout)
+    color_tabs(book)
     save(book, path, units)
 
 
