@@ -14,14 +14,21 @@ from openpyxl.utils import get_column_letter, range_boundaries
 from openpyxl.worksheet.worksheet import Worksheet
 
 from recalculated import recalculated_sheets
-from report.sheet.writing.marks import AMBER, GREEN, RED, RED_INK, SEE_CHECK, VIOLET
+from report.sheet.writing.marks import AMBER, DRAWN, GREEN, RED, RED_INK, SEE_CHECK, VIOLET
 
 BESIDE = 60
 """A column beside every table."""
 ROWS = 8
 """Rows below its first that are computed of a range."""
 
-_LOOKS = {RED: "red", AMBER: "amber", VIOLET: "violet", GREEN: "green", RED_INK: "red"}
+_LOOKS = {
+    RED: "red",
+    AMBER: "amber",
+    VIOLET: "violet",
+    DRAWN: "drawn",
+    GREEN: "green",
+    RED_INK: "red",
+}
 
 
 def marked(paths: list[Path], folder: Path) -> list[dict[str, str]]:

@@ -2,7 +2,7 @@
 
 Red for a cell that a begun row or block lacks and for what `roofslip check` refuses, amber for a
 number outside its usual range, green for a complete row, violet for a computed cell that has lost
-its formula. Read `mark_table`.
+its formula, pale green for a row from a drawing. Read `mark_table`.
 """
 
 from __future__ import annotations
@@ -21,15 +21,16 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet.schema.answers import STATUS
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from report.sheet.schema.layout import LAST_ROW, BlockPlace, Layout, TablePlace
+from report.sheet.schema.scene import DRAWING
 from report.sheet.writing.needs import block_begun, condition, undecided_names, wrong_name
 
-RED, AMBER, GREEN, VIOLET = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC"
+RED, AMBER, GREEN, VIOLET, DRAWN = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC", "CFE9E1"
 RED_INK, UNDECIDED = "B3261E", "5F6A72"
 SEE_CHECK = "see check"
 """What stands in place of a tick where no formula tells whether `check` accepts."""
-_RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
+_RED_FILL, _AMBER_FILL, _VIOLET_FILL, _DRAWN_FILL = (
     DifferentialStyle(fill=PatternFill("solid", start_color=color, end_color=color))
-    for color in (RED, AMBER, VIOLET)
+    for color in (RED, AMBER, VIOLET, DRAWN)
 )
 _GREEN_FONT, _RED_FONT = (
     DifferentialStyle(font=Font(color=color, bold=True)) for color in (GREEN, RED_INK)
@@ -55,6 +56,10 @@ def mark_table(sheet: Worksheet, place: TablePlace) -> None:
             test = f"AND({lacks})" if entry.is_required else f"AND({lacks},{needed})"
             _mark(sheet, place.cells(entry.name), test, _RED_FILL)
         _mark_values(sheet, place.cells(entry.name), cell, entry, place.section)
+    if "source" in place.letters:
+        for entry in entries(place.section.model):
+            drawn = f'TRIM({place.cell("source")})="{DRAWING}"'
+            _mark(sheet, place.cells(entry.name), drawn, _DRAWN_FILL)
     done = f"AND(ISNUMBER({status}),{status}=0)"
     _mark_undecided(sheet, place.cells(STATUS), done, [place.section])
     _mark(sheet, place.cells(STATUS), done, _GREEN_FONT)

@@ -49,8 +49,9 @@ _TABS = {
     name: PatternFill("solid", start_color=color)
     for name, color in (("rare", "C9CDD1"), ("help", "4A90C2"))
 }
-_RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
-    PatternFill("solid", start_color=color) for color in (marks.RED, marks.AMBER, marks.VIOLET)
+_RED_FILL, _AMBER_FILL, _VIOLET_FILL, _DRAWN_FILL = (
+    PatternFill("solid", start_color=color)
+    for color in (marks.RED, marks.AMBER, marks.VIOLET, marks.DRAWN)
 )
 _SAMPLES = (
     ("input", "000000", style.INPUT_FILL, "Input cell."),
@@ -72,6 +73,12 @@ _SAMPLES = (
         "Required and still blank, or refused: no number, out of range, no choice, unknown.",
     ),
     ("1.2", "000000", _AMBER_FILL, "Outside the usual range."),
+    (
+        "8.25",
+        "000000",
+        _DRAWN_FILL,
+        "Row of Outlines or Clearances that a command took from a drawing.",
+    ),
     ("1.5", style.INK, _VIOLET_FILL, "Computed cell that has lost its formula."),
     (
         "✓",

@@ -96,6 +96,7 @@ TOGETHER = (
         "Site/S_D1": 1.2, "Options/Long-period transition T_L": 0.3, "Site/S_DS": 2.4,
         "Clearances/1/Provided clearance": 120.6, "Motions/M1/Factor or PPA": 1,
         "Outlines/1/Outline of": "A1", "Outlines/1/x": 0, "Outlines/1/y": 0,
+        "Outlines/1/From": "drawing",
     },
     SPECTRUM_BLANK | {
         "Motions/M1/Recorded at": "ground", "Motions/M1/Scaling": "target spectrum",
@@ -164,3 +165,10 @@ def test_what_no_formula_tells_says_see_check(looks):
     said = {name: accepted[at(name)] for name in ("Motions/M1/Status", "Links/1/Status")}
     assert set(said.values()) == {"see check"}
     assert accepted[at("Objects/RTU-1/Status")] == "green"
+
+
+@pytest.mark.nightly("report/sheet/writing/marks.py")
+def test_a_row_from_a_drawing_looks_so_but_where_it_is_refused(looks):
+    (drawn,) = (look for path, look in looks.items() if path.parent.name == "4")
+    names = ("Outline of", "x", "y", "From")
+    assert [drawn[at(f"Outlines/1/{name}")] for name in names] == ["red", *["drawn"] * 3]
