@@ -134,7 +134,7 @@ def put_title(sheet: Worksheet, title: str, hint: str) -> None:
     """Write the title of a sheet and the line below it."""
     put(sheet, 1, 1, title, bold=True, size=16, wrap=False)
     put(sheet, 2, 1, hint, color=GRAY, wrap=False)
-    sheet.row_dimensions[1].height = 28
+    sheet.row_dimensions[1].height, sheet.row_dimensions[3].height = 28, 20
 
 
 def put_heading(sheet: Worksheet, row: int, title: str, hint: str) -> None:
