@@ -45,10 +45,6 @@ _NOTES = (
     " lists it, and roofslip check --repair restores its formula. Formulas in yellow cells are"
     " accepted. Macros are not: .xlsm files are rejected.",
 )
-_TABS = {
-    name: PatternFill("solid", start_color=color)
-    for name, color in (("rare", "C9CDD1"), ("help", "4A90C2"))
-}
 _RED_FILL, _AMBER_FILL, _VIOLET_FILL, _DRAWN_FILL = (
     PatternFill("solid", start_color=color)
     for color in (marks.RED, marks.AMBER, marks.VIOLET, marks.DRAWN)
@@ -59,11 +55,11 @@ _SAMPLES = (
         "heading, tab",
         style.WHITE,
         style.REQUIRED_FILL,
-        "Required column, or sheet with required cells; other required cells have *.",
+        "Required column or sheet; also cells with *.",
     ),
     ("heading, tab", style.WHITE, style.OPTIONAL_FILL, "Optional column or sheet."),
-    ("tab", style.INK, _TABS["rare"], "Sheet that is rarely needed."),
-    ("tab", style.WHITE, _TABS["help"], "Sheet without input cells: help, and what is looked up."),
+    ("tab", style.INK, style.RARE_FILL, "Sheet that is rarely needed."),
+    ("tab", style.WHITE, style.HELP_FILL, "Sheet without input cells."),
     ("1.566", style.INK, style.ANSWER_FILL, "Computed cell: a formula, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
     (
@@ -73,25 +69,10 @@ _SAMPLES = (
         "Required and still blank, or refused: no number, out of range, no choice, unknown.",
     ),
     ("1.2", "000000", _AMBER_FILL, "Outside the usual range."),
-    (
-        "8.25",
-        "000000",
-        _DRAWN_FILL,
-        "Row of Outlines or Clearances that a command took from a drawing.",
-    ),
+    ("8.25", "000000", _DRAWN_FILL, "Row of Outlines or Clearances taken from a drawing."),
     ("1.5", style.INK, _VIOLET_FILL, "Computed cell that has lost its formula."),
-    (
-        "✓",
-        marks.GREEN,
-        style.ANSWER_FILL,
-        "Nothing is missing, and roofslip check accepts each cell.",
-    ),
-    (
-        marks.SEE_CHECK,
-        marks.UNDECIDED,
-        style.ANSWER_FILL,
-        "Nothing is missing; only roofslip check tells whether all is accepted.",
-    ),
+    ("✓", marks.GREEN, style.ANSWER_FILL, "Nothing is missing, and roofslip check accepts it."),
+    (marks.SEE_CHECK, marks.UNDECIDED, style.ANSWER_FILL, "Nothing is missing; check decides."),
 )
 
 
@@ -99,13 +80,10 @@ def color_tabs(book: Workbook) -> None:
     """Color the tab of each sheet by the need for it."""
     for sheet in book.worksheets:
         sections = [section for section in SECTIONS if section.sheet == sheet.title]
-        if not sections:
-            fill = _TABS["help"]
-        elif any(section.is_needed for section in sections):
-            fill = style.REQUIRED_FILL
-        else:
-            is_rare = all(section.may_be_absent for section in sections)
-            fill = _TABS["rare"] if is_rare else style.OPTIONAL_FILL
+        fill = style.RARE_FILL if sections else style.HELP_FILL
+        if not all(section.may_be_absent for section in sections):
+            is_needed = any(section.is_needed for section in sections)
+            fill = style.REQUIRED_FILL if is_needed else style.OPTIONAL_FILL
         sheet.sheet_properties.tabColor = fill.start_color.rgb
 
 

@@ -33,6 +33,8 @@ WHITE = "FFFFFF"
 INPUT_FILL = PatternFill("solid", start_color="FFF6CC")
 REQUIRED_FILL = PatternFill("solid", start_color=INK)
 OPTIONAL_FILL = PatternFill("solid", start_color="6C8796")
+RARE_FILL = PatternFill("solid", start_color="C9CDD1")
+HELP_FILL = PatternFill("solid", start_color="4A90C2")
 HINT_FILL = PatternFill("solid", start_color="F3F4F5")
 ANSWER_FILL = PatternFill("solid", start_color="E3EDF5")
 ANSWER_HEAD_FILL = PatternFill("solid", start_color="9DB4C4")
