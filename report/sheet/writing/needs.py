@@ -104,12 +104,11 @@ def _lacking(section: SheetSection, refer: Callable[[str], str]) -> Mapping[str,
 def first_open(blocks: Iterable[BlockPlace], tables: Iterable[TablePlace]) -> str:
     """Return a reference to the first cell of a sheet that is missing or wrong."""
     steps = []
-    for block in blocks:
-        cell_of, lacks = block.section.cell_name, _lacking(block.section, block.section.cell_name)
-        for entry in entries(block.section.model):
-            wrong = wrong_name(block.section, entry.name)
+    for section in (block.section for block in blocks):
+        lacks = _lacking(section, section.cell_name)
+        for entry, wrong in zip(entries(section.model), wrong_names(section), strict=True):
             test = f"{lacks.get(entry.name, 0)}+{wrong}>0"
-            steps.append((test, cell_of(entry.name)))
+            steps.append((test, section.cell_name(entry.name)))
     for table in tables:
         status, fields = table.all("status"), entries(table.section.model)
         row = f"MATCH(1,INDEX(ISNUMBER({status})*({status}<>0),0),0)"

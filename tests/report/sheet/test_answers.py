@@ -83,7 +83,7 @@ def edge_cases() -> dict[str, ProjectInput]:
         ),
         "given-twice and importance": project(
             arrays=[arrays[0] | {"i_p": 1.5}, alike],
-            site=site(s_ms_g=2.349, s_ds_g=1.566, s_m1_g=0.98, i_e=1.25, risk_category="III"),
+            site=site(s_ms_g=2.349, s_ds_g=1.566, s_m1_g=1.19, i_e=1.25, risk_category="III"),
             objects=[row | {"i_p": 1.25} for row in given["objects"]],
         ),
     }  # fmt: skip
