@@ -16,7 +16,7 @@ from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.schema import ROOF, SECTION, SIDES, LayerKind, Polygon, Rectangle
-from report.sheet.schema.scene import Roof
+from report.sheet.schema.scene import DRAWING, Roof
 from report.sheet.schema.shapes import Shape
 from report.sheet.writing.legacy_notes import MOVE
 from solver.model import InputError
@@ -161,10 +161,12 @@ def _fill_outlines(fill: _Fill, outlines: GrowingTable | None) -> None:
         return
     for name in fill.outlined:
         for row in outlines.rows("name", name):
-            fill.cells |= {outlines.position(row, field): None for field in ("name", "x_m", "y_m")}
+            fill.cells |= {outlines.position(row, field): None for field in outlines.found.columns}
     for name, shape in fill.outlines:
         for x, y in shape.points:
             row = outlines.added()
             fill.cells[outlines.position(row, "name")] = name
             fill.cells[outlines.position(row, "x_m")] = outlines.number("x_m", x)
             fill.cells[outlines.position(row, "y_m")] = outlines.number("y_m", y)
+            if "source" in outlines.found.columns:  # not in earlier workbooks
+                fill.cells[outlines.position(row, "source")] = DRAWING

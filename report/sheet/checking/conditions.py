@@ -34,7 +34,7 @@ def _filled(*fields: str) -> Condition:
 
 def _chosen(field: str, *choices: str) -> Condition:
     def formula(refer: Refer) -> str:
-        tests = [f'{refer(field)}="{choice}"' for choice in choices]
+        tests = [f'TRIM({refer(field)})="{choice}"' for choice in choices]
         return tests[0] if len(tests) == 1 else f"OR({','.join(tests)})"
 
     return Condition(lambda row, _: row.get(field) in choices, formula)
@@ -42,7 +42,7 @@ def _chosen(field: str, *choices: str) -> Condition:
 
 def _yes(field: str) -> Condition:
     return Condition(
-        lambda row, _: row.get(field) is True, lambda refer: f'{refer(field)}="{YesNo.YES}"'
+        lambda row, _: row.get(field) is True, lambda refer: f'TRIM({refer(field)})="{YesNo.YES}"'
     )
 
 
@@ -97,6 +97,8 @@ _PASTED = _on_the_sheet(lambda refer: f'ISNUMBER(FIND("!",{refer("record")}))')
 
 REQUIRED: Mapping[tuple[str, str], Required] = {
     ("site", "s_ds_g"): Required(_on_the_sheet(lambda _: 'live_s_ds=""')),
+    ("site", "s_d1_g"): Required(_on_the_sheet(lambda _: 'AND(live_to_design,live_s_d1="")')),
+    ("target", "t_l_s"): Required(_on_the_sheet(lambda _: "live_to_design")),
     ("site", "building_code"): Required(_filled("building_code_year"), _CODE),
     ("site", "building_code_year"): Required(_filled("building_code"), _CODE),
     ("project", "drawing_confirmed_by"): Required(_filled("drawing_confirmed_date"), _CONFIRMED),

@@ -8,7 +8,7 @@ them. Only functions of Excel 2007 to 2016, no array formulas. The reader reads 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import KW_ONLY, dataclass
 
 from report.sheet.schema.layout import Layout, literal
@@ -50,16 +50,20 @@ class FormulaColumn:
 
     def written(self, layout: Layout, section: str) -> str:
         """Return the formula with the references of a finished layout."""
+        return _blank_on_error(written(self.formula, layout, layout.tables[section].this))
 
-        def reference(match: re.Match[str]) -> str:
-            table, is_heading, field = match.groups()
-            if not table:
-                return layout.tables[section].this(field)
-            place = layout.tables[table]
-            return place.head(field) if is_heading else place.all(field)
 
-        on_one_line = "".join(map(str.strip, self.formula.splitlines()))
-        return _blank_on_error(_REFERENCE.sub(reference, on_one_line))
+def written(formula: str, layout: Layout, this: Callable[[str], str]) -> str:
+    """Return a formula with the references of a finished layout, on one line."""
+
+    def reference(match: re.Match[str]) -> str:
+        table, is_heading, field = match.groups()
+        if not table:
+            return this(field)
+        place = layout.tables[table]
+        return place.head(field) if is_heading else place.all(field)
+
+    return _REFERENCE.sub(reference, "".join(map(str.strip, formula.splitlines())))
 
 
 def table_answers(section: str, *, is_us: bool) -> tuple[FormulaColumn, ...]:

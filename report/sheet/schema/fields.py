@@ -141,6 +141,13 @@ class SheetSection:
         return docstrings(self.whole)[self.key]
 
     @property
+    def is_needed(self) -> bool:
+        """Whether every project fills it: a table with rows, or a block with required cells."""
+        if self.is_table:
+            return self.whole.model_fields[self.key].is_required()
+        return any(entry.is_required for entry in entries(self.model))
+
+    @property
     def table_name(self) -> str:
         """Name of its Excel table."""
         return f"{self.key}_table"

@@ -36,6 +36,8 @@ RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
 
 
 OR_OUTLINE = "required, or an outline"
+DRAWING = "drawing"
+"""Whence a row comes that a command has taken from a drawing."""
 ROOF = "roof"
 """Name of the roof on the sheet Outlines."""
 
@@ -295,6 +297,9 @@ class Vertex(Frozen):
     """Vertices in order around the outline, one to a row."""
     y_m: Annotated[float, Cell("y", 15.0, Quantity.PLAN)]
     """In the coordinates of the arrays."""
+    source: Annotated[Text, Cell("From", DRAWING)] = ""
+    """Drawing: written by roofslip plan read; clear it where you change the row. Blank: as
+    entered."""
 
 
 class DrawingLayer(Frozen):

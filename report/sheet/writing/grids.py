@@ -5,7 +5,6 @@ Independent of what the sections mean. Read `write_block` and `write_table`; `te
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
+from report.sheet.checking.refused import UNDECIDED
 from report.sheet.schema import UnitsFirst, provision_name
 from report.sheet.schema.answers import (
     SITE_ANSWERS,
@@ -25,11 +25,18 @@ from report.sheet.schema.answers import (
     STATUS_HEADING,
     FormulaColumn,
     table_answers,
+    written,
 )
 from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
 from report.sheet.writing import style
-from report.sheet.writing.needs import row_status, status_name
+from report.sheet.writing.needs import (
+    row_status,
+    status_name,
+    undecided_names,
+    wrong_cells,
+    wrong_names,
+)
 from report.words.units import Unit
 
 BLANK_ROWS = 20
@@ -81,9 +88,6 @@ def write_block(
         row, unit = rows[entry.name], entry.unit(is_us=units.is_us)
         style.put_input(sheet.cell(row, 2), entry, value, unit)
         _write_block_row(sheet, row, section, entry, unit)
-    height = max(sheet.row_dimensions[row].height or 0 for row in rows.values())
-    for row in rows.values():
-        sheet.row_dimensions[row].height = height
     if is_first:
         for column, width in enumerate(BLOCK_WIDTHS, start=1):
             sheet.column_dimensions[get_column_letter(column)].width = width
@@ -101,7 +105,10 @@ def _write_block_row(
     texts = (_allowed(entry, unit), _example(entry, unit), entry.help)
     for column, text in enumerate(texts, start=5):
         style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
-    sheet.row_dimensions[row].height = 6 + 13 * _lines(texts, BLOCK_WIDTHS[4:])
+    typed = str(sheet.cell(row, 2).value or "")
+    lines = _lines((*texts, typed), (*BLOCK_WIDTHS[4:], _WIDER * BLOCK_WIDTHS[1]))
+    is_text = entry.kind is str and not entry.choices
+    sheet.row_dimensions[row].height = 7 + 13 * max(lines, DATA_LINES if is_text else 1)
     name_cell(section.cell_name(entry.name), sheet, row, 2)
     style.validate(sheet, f"B{row}", entry, 1.0)
     if section.key == "site" and entry.name in SITE_ANSWERS:
@@ -248,9 +255,7 @@ def _write_hints(
     widths = [int(sheet.column_dimensions[get_column_letter(at)].width) for at in shown]
     for row in range(top, top + len(HINT_ROWS)):
         said = [str(sheet.cell(row, number).value) for number in shown]
-        # Broken between words, in a type wider than Calibri.
-        broken = map(textwrap.wrap, said, (max(width - 1, 1) for width in widths))
-        sheet.row_dimensions[row].height = 5 + 12.5 * max(1, *map(len, broken))
+        sheet.row_dimensions[row].height = 5 + 12.5 * _lines(said, widths)
 
 
 def _hints(column: GridColumn, units: UnitsFirst) -> tuple[str, str, str]:
@@ -267,7 +272,8 @@ def _write_heading(sheet: Worksheet, row: int, number: int, column: GridColumn) 
         color, fill = style.WHITE, style.REQUIRED_FILL if is_expected else style.OPTIONAL_FILL
     cell = style.put(sheet, row, number, column.heading, bold=True, color=color)
     cell.fill, cell.border = fill, style.BOX
-    sheet.row_dimensions[row].height = 44
+    height = 5 + 13 * _lines([column.heading], [column.width - 1])  # bold
+    sheet.row_dimensions[row].height = max(sheet.row_dimensions[row].height or 44, height)
 
 
 def _add_table(sheet: Worksheet, place: TablePlace) -> None:
@@ -294,9 +300,20 @@ def table_formulas(
     }
 
 
+def define_tests(book: Workbook, layout: Layout) -> None:
+    """Define whether each cell is wrong, and of each section whether no formula tells."""
+    places: list[BlockPlace | TablePlace] = [*layout.blocks.values(), *layout.tables.values()]
+    for place in places:
+        for name, formula in wrong_cells(place, layout).items():
+            name_formula(book, name, formula)
+        for name in undecided_names([place.section]):
+            name_formula(book, name, written(UNDECIDED[place.section.key], layout, str))
+
+
 def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
     """Write the formulas of a table; in Excel new rows get them by themselves."""
-    name_formula(book, status_name(place.section), row_status(place, layout))
+    tests = wrong_names(place.section)
+    name_formula(book, status_name(place.section), row_status(place, tests))
     sheet = book[place.section.sheet]
     formulas = table_formulas(layout, place, is_us=is_us)
     columns = sheet.tables[place.section.table_name].tableColumns
@@ -356,8 +373,6 @@ def _width(entry: Entry) -> int:
 
 def _lines(texts: Sequence[str], widths: Sequence[float]) -> int:
     """Return the number of lines of the tallest text at its column's width."""
-    # A width is counted in digits; of letters of size 10 more fit in.
-    return max(
-        math.ceil(max(len(text), 1) / (1.2 * width))
-        for text, width in zip(texts, widths, strict=True)
-    )
+    # Broken between words, in a type wider than Calibri: a width is counted in digits.
+    broken = map(textwrap.wrap, texts, (max(int(width) - 1, 1) for width in widths))
+    return max(1, *map(len, broken))

@@ -6,6 +6,7 @@ by defined name. Read `overwritten`; `report.sheet.reading.parts` writes them ba
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -16,7 +17,6 @@ from openpyxl.utils import get_column_letter
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found, plain
 from report.sheet.reading.formula_text import canonical, moved
-from report.sheet.reading.locate import added_later
 from report.sheet.reading.locate_tables import TableArea, table_area
 from report.sheet.reading.positions import (
     FRESH,
@@ -43,6 +43,7 @@ BROKEN = "#REF!"
 """In a formula that refers to a column which the workbook lacks."""
 
 _SHOWN = 100
+_NAME = re.compile(r'"[^"]*"|\b([a-z]+_\w+)\b(?!\[)')
 _ASIDE = 20
 """A column that nothing else is written to."""
 
@@ -221,13 +222,9 @@ def _written(layout: Layout, *, is_us: bool) -> Workbook:
 def _named(book: OpenBook, written: Workbook) -> Iterator[tuple[CellPosition, str]]:
     """Yield the formulas within named ranges, moved to where the workbook has these names.
 
-    Not those that refer to a cell which came later: a workbook has the formulas of its version.
+    Not those that refer to a name which came later: a workbook has the formulas of its version.
     """
-    later = [
-        section.cell_name(entry.name)
-        for section in SECTIONS
-        for entry in added_later(book, section)
-    ]
+    known = {"", *(str(name).casefold() for name in book.book.defined_names)}
     for name in written.defined_names:
         here, there = area_named(written, name), area_named(book.book, name)
         if here is None or there is None or _size(here[1]) != _size(there[1]):
@@ -237,7 +234,7 @@ def _named(book: OpenBook, written: Workbook) -> Iterator[tuple[CellPosition, st
         for row, column in product(range(top, last_row + 1), range(left, last_column + 1)):
             cell = written[here[0]].cell(row, column)
             text = str(cell.value)
-            if cell.data_type == "f" and not any(cell_name in text for cell_name in later):
+            if cell.data_type == "f" and known.issuperset(_NAME.findall(text)):
                 at = CellPosition(there[0], row + down, column + right)
                 yield at, moved(text, down)
 

@@ -184,6 +184,10 @@ def _write_names(book: Workbook, sheet: Worksheet, layout: Layout, row: int) -> 
         style.put(sheet, at, 1, said)
         style.put_answer(sheet.cell(at, 2), formula)
         name_cell(name, sheet, at, 2)
+    scaled = layout.tables["motions"].all("scaling")
+    to_target = f'SUMPRODUCT((TRIM({grounds})="ground")*(TRIM({scaled})="target spectrum"))'
+    periods = layout.tables["spectrum"].all("period_s")
+    name_formula(book, "live_to_design", f"AND(COUNT({periods})=0,{to_target}>0)")
     first = f"{TABLES}!$A${top},0,0"
     for name, length in (("names", "name_count"), ("array_names", "array_count")):
         reach = f"MIN({MOST_NAMES},MAX(1,live_{length}))"

@@ -2,33 +2,42 @@
 
 Red for a cell that a begun row or block lacks and for what `roofslip check` refuses, amber for a
 number outside its usual range, green for a complete row, violet for a computed cell that has lost
-its formula. Read `mark_table`.
+its formula, pale green for a row from a drawing. Read `mark_table`.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from openpyxl import Workbook
 from openpyxl.formatting.rule import Rule
 from openpyxl.styles import Font, PatternFill
 from openpyxl.styles.differential import DifferentialStyle
+from openpyxl.styles.numbers import NumberFormat
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema.answers import STATUS
-from report.sheet.schema.fields import Entry, entries
+from report.sheet.schema.fields import Entry, SheetSection, entries
 from report.sheet.schema.layout import LAST_ROW, BlockPlace, Layout, TablePlace
-from report.sheet.writing.needs import block_begun, condition, is_wrong
+from report.sheet.schema.scene import DRAWING
+from report.sheet.writing.needs import block_begun, condition, undecided_names, wrong_name
 
-RED, AMBER, GREEN, VIOLET = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC"
-RED_INK = "B3261E"
-_RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
+RED, AMBER, GREEN, VIOLET, DRAWN = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC", "CFE9E1"
+RED_INK, UNDECIDED = "B3261E", "5F6A72"
+SEE_CHECK = "see check"
+"""What stands in place of a tick where no formula tells whether `check` accepts."""
+_RED_FILL, _AMBER_FILL, _VIOLET_FILL, _DRAWN_FILL = (
     DifferentialStyle(fill=PatternFill("solid", start_color=color, end_color=color))
-    for color in (RED, AMBER, VIOLET)
+    for color in (RED, AMBER, VIOLET, DRAWN)
 )
 _GREEN_FONT, _RED_FONT = (
     DifferentialStyle(font=Font(color=color, bold=True)) for color in (GREEN, RED_INK)
+)
+_UNDECIDED = DifferentialStyle(
+    font=Font(color=UNDECIDED, bold=True),
+    numFmt=NumberFormat(numFmtId=300, formatCode=f'"{SEE_CHECK}"'),
 )
 _EQUAL = 1e-9  # difference from a limit / limit that is rounding error of a conversion of units
 _IS_FORMULA = "_xlfn.ISFORMULA"  # Excel 2013 writes it so; LibreOffice reads it so
@@ -46,26 +55,23 @@ def mark_table(sheet: Worksheet, place: TablePlace) -> None:
             lacks = f'{begun},TRIM({cell})=""'
             test = f"AND({lacks})" if entry.is_required else f"AND({lacks},{needed})"
             _mark(sheet, place.cells(entry.name), test, _RED_FILL)
-        unit = f"unit_{place.section.key}_{entry.name}"
-        _mark_values(sheet, place.cells(entry.name), cell, entry, unit)
-    _mark_names(sheet, place)
-    _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}=0)", _GREEN_FONT)
+        _mark_values(sheet, place.cells(entry.name), cell, entry, place.section)
+    if "source" in place.letters:
+        for entry in entries(place.section.model):
+            drawn = f'TRIM({place.cell("source")})="{DRAWING}"'
+            _mark(sheet, place.cells(entry.name), drawn, _DRAWN_FILL)
+    done = f"AND(ISNUMBER({status}),{status}=0)"
+    _mark_undecided(sheet, place.cells(STATUS), done, [place.section])
+    _mark(sheet, place.cells(STATUS), done, _GREEN_FONT)
     _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}<>0)", _RED_FONT)
 
 
-def _mark_names(sheet: Worksheet, place: TablePlace) -> None:
-    """Mark an id that is given twice, and a clearance of what is in no table."""
-    cell = place.cell
-    if "id" in place.letters:
-        ids = place.cells("id").replace(place.letters["id"], f"${place.letters['id']}$")
-        twice = f'AND(TRIM({cell("id")})<>"",SUMPRODUCT(--(TRIM({ids})=TRIM({cell("id")})))>1)'
-        _mark(sheet, place.cells("id"), twice, _RED_FILL)
-    if place.section.key == "clearances":
-        rows = {"array": ("array_row",), "object": ("other_row", "object_row")}
-        for name, found in rows.items():
-            nowhere = f'{"&".join(map(cell, found))}=""'
-            unknown = f'AND(TRIM({cell(name)})<>"",{nowhere})'
-            _mark(sheet, place.cells(name), unknown, _RED_FILL)
+def _mark_undecided(
+    sheet: Worksheet, cells: str, done: str, sections: Iterable[SheetSection]
+) -> None:
+    """Mark what lacks nothing and may yet be refused, because no formula tells."""
+    if names := undecided_names(sections):
+        _mark(sheet, cells, f"AND({done},OR({','.join(names)}))", _UNDECIDED)
 
 
 def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
@@ -77,12 +83,13 @@ def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
         if entry.is_required:
             _mark(sheet, at, f'AND({begun},TRIM({cell})="")', _RED_FILL)
             label = at.replace("B", "A")
-            _mark(sheet, label, f'TRIM({cell})<>""', _GREEN_FONT)
+            wrong = wrong_name(place.section, entry.name)
+            _mark(sheet, label, f'AND(TRIM({cell})<>"",NOT({wrong}))', _GREEN_FONT)
         needed = condition(place.section.key, entry, place.cell)
         if needed:
             starts = f"{begun}," if begun else ""
             _mark(sheet, at, f'AND({starts}{needed},TRIM({cell})="")', _RED_FILL)
-        _mark_values(sheet, at, cell, entry, f"unit_{place.section.key}_{entry.name}")
+        _mark_values(sheet, at, cell, entry, place.section)
 
 
 def mark_lost(book: Workbook, layout: Layout) -> None:
@@ -103,23 +110,28 @@ def mark_lost(book: Workbook, layout: Layout) -> None:
                 _mark(sheet, f"{at}:{letter}{LAST_ROW}", lost, _VIOLET_FILL)
 
 
-def mark_ratio(sheet: Worksheet, cells: str, cell: str) -> None:
-    """Mark a demand/capacity ratio: red above 1, green otherwise."""
+def mark_ratio(sheet: Worksheet, place: TablePlace, name: str) -> None:
+    """Mark a demand/capacity ratio: red above 1, green up to 1 in a complete row."""
+    cells, cell, status = place.cells(name), place.cell(name), place.cell(STATUS)
     _mark(sheet, cells, f'OR({cell}="∞",AND(ISNUMBER({cell}),{cell}>1))', _RED_FONT)
-    _mark(sheet, cells, f"AND(ISNUMBER({cell}),{cell}<=1)", _GREEN_FONT)
+    green = f"AND(ISNUMBER({cell}),{cell}<=1,ISNUMBER({status}),{status}=0)"
+    _mark(sheet, cells, green, _GREEN_FONT)
 
 
-def mark_count(sheet: Worksheet, cell: str, count: str) -> None:
-    """Mark the line at the top of a sheet by the number of cells that it lacks."""
+def mark_count(sheet: Worksheet, cell: str, count: str, sections: Iterable[SheetSection]) -> None:
+    """Mark the line at the top of a sheet by the number of cells that its sections lack."""
+    _mark_undecided(sheet, cell, f"{count}=0", sections)
     _mark(sheet, cell, f"{count}=0", _GREEN_FONT)
     _mark(sheet, cell, f"{count}<>0", _RED_FONT)
 
 
-def _mark_values(sheet: Worksheet, cells: str, cell: str, entry: Entry, unit: str) -> None:
+def _mark_values(
+    sheet: Worksheet, cells: str, cell: str, entry: Entry, section: SheetSection
+) -> None:
     """Mark what is refused, and a number that is not usual."""
-    for test in is_wrong(cell, entry, unit):
-        _mark(sheet, cells, test, _RED_FILL)
+    _mark(sheet, cells, wrong_name(section, entry.name), _RED_FILL)
     if entry.kind in (int, float) and not entry.choices:
+        unit = f"unit_{section.cell_name(entry.name)}"
         value = f"{cell}*{unit}" if entry.quantity else cell
         _mark(sheet, cells, f"AND(ISNUMBER({cell}),{_outside(value, entry)})", _AMBER_FILL)
 

@@ -9,14 +9,27 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from datetime import date
 
 from report.sheet.checking import conditions
+from report.sheet.checking.refused import REFUSED, SHORT, UNDECIDED
+from report.sheet.reading.cells import EARLIEST, LARGEST
+from report.sheet.schema import SECTIONS
+from report.sheet.schema.answers import written
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace
 
 WRONG = 1_000_000
 """A status is the count of cells that a row lacks, less so much for each that is wrong."""
+
+
+_EARLIEST = (EARLIEST - date(1899, 12, 30)).days  # as a spreadsheet counts days
+
+
+def undecided_names(sections: Iterable[SheetSection]) -> list[str]:
+    """Return the defined names of whether no formula tells that `check` accepts some sections."""
+    return [f"undecided_{s.key}" for s in sections if s in SECTIONS and s.key in UNDECIDED]
 
 
 def condition(section: str, entry: Entry, refer: Callable[[str], str]) -> str:
@@ -30,80 +43,105 @@ def status_name(section: SheetSection) -> str:
     return f"status_{section.key}"
 
 
-def row_status(place: TablePlace, layout: Layout) -> str:
+def row_status(place: TablePlace, tests: Iterable[str]) -> str:
     """Return the number of cells that a begun row lacks; an empty text for a row not begun.
 
-    Negative where a cell is wrong: see `WRONG`. For the defined name of the table: the row is that
-    of the cell that asks for it.
+    Negative where a cell is wrong, by tests: see `WRONG`. For the defined name of the table: the
+    row is that of the cell that asks for it.
     """
     cells = [place.here(entry.name) for entry in entries(place.section.model)]
-    lacking = "+".join(_lacking(place.section, place.here)) or "0"
-    tests = "+".join(f"({test})" for test in _wrong_in_row(place, layout))
-    wrong = f"-{WRONG}*({tests})" if tests else ""
-    return f'IF(TRIM({"&".join(cells)})="","",{lacking}{wrong})'
+    lacking = "+".join(_lacking(place.section, place.here).values()) or "0"
+    wrong = "+".join(f"({test})" for test in tests)
+    return f'IFERROR(IF(TRIM({"&".join(cells)})="","",{lacking}-{WRONG}*({wrong})),-{WRONG})'
 
 
 def status_in(row: int, place: TablePlace, layout: Layout) -> str:
-    """Return the status of a row for a workbook of 0.2, which has no name for it."""
-    return re.sub(r"(!\$[A-Z]+)1\b", rf"\g<1>{row}", row_status(place, layout))
+    """Return the status of a row for a workbook of 0.2, which has no names for it."""
+    status = row_status(place, wrong_cells(place, layout, SHORT).values())
+    return re.sub(r"(!\$[A-Z]+)1\b", rf"\g<1>{row}", status)
 
 
-def _lacking(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:
+def wrong_cells(
+    place: TablePlace | BlockPlace, layout: Layout, refused: Iterable[tuple[str, str]] = REFUSED
+) -> Mapping[str, str]:
+    """Return whether each cell of a section is wrong, by its defined name."""
+    refer = place.here if isinstance(place, TablePlace) else place.section.cell_name
+    found = {}
+    for entry in entries(place.section.model):
+        cell, key = refer(entry.name), place.section.cell_name(entry.name)
+        tests = [is_wrong(cell, entry, f"unit_{key}")]
+        for name, test in refused if place.section in SECTIONS else ():
+            if name == key:
+                tests.append(f"IFERROR({written(test, layout, refer)},FALSE)")
+        test = ",".join(tests)
+        found[f"wrong_{key}"] = f"IF(ISERROR({cell}),TRUE,OR({test}))"
+    return found
+
+
+def wrong_name(section: SheetSection, field: str) -> str:
+    """Return the defined name of whether a cell is wrong."""
+    return f"wrong_{section.cell_name(field)}"
+
+
+def wrong_names(section: SheetSection) -> list[str]:
+    """Return these names of all fields."""
+    return [wrong_name(section, entry.name) for entry in entries(section.model)]
+
+
+def _lacking(section: SheetSection, refer: Callable[[str], str]) -> Mapping[str, str]:
+    """Return for each field that may be required whether its cell lacks, as 1 or 0."""
+    found = {}
     for entry in entries(section.model):
         blank = f'TRIM({refer(entry.name)})=""'
         needed = condition(section.key, entry, refer)
         if entry.is_required:
-            yield f"IF({blank},1,0)"
+            found[entry.name] = f"IF({blank},1,0)"
         elif needed:
-            yield f"IF(AND({needed},{blank}),1,0)"
+            found[entry.name] = f"IF(AND({needed},{blank}),1,0)"
+    return found
 
 
-def _wrong_in_row(place: TablePlace, layout: Layout) -> Iterator[str]:
-    """Yield what makes a cell of a row wrong."""
-    section = place.section.key
-    yield from _refused(place.section, place.here)
-    for alike in conditions.UNIQUE:
-        if section in alike:
-            given = f"TRIM({place.here('id')})"  # with any capitals
-            ids = (layout.tables[table].all("id") for table in alike)
-            count = "+".join(f"SUMPRODUCT(--(TRIM({column})={given}))" for column in ids)
-            yield f'AND({given}<>"",{count}>1)'
-    for (home, field), tables in conditions.REFERENCES.items():
-        if home == section:
-            given = f"TRIM({place.here(field)})"
-            ids = (layout.tables[table].all("id") for table in tables)
-            count = "+".join(f"SUMPRODUCT(--EXACT(TRIM({column}),{given}))" for column in ids)
-            if other := conditions.OTHER_NAMES.get((home, field)):
-                count += f'+(LOWER({given})="{other}")'
-            yield f'AND({given}<>"",{count}=0)'
-    for low, high in conditions.ORDERED:
-        if high in place.letters:
-            cells = [place.here(name) for name in (low, high)]
-            given = ",".join(f"ISNUMBER({cell})" for cell in cells)
-            least, most = (f"N({place.here(name)})*unit_{section}_{name}" for name in (low, high))
-            yield f"AND({given},{least}>={most})"
-    if "slope_deg" in place.letters:
-        slope = place.here("slope_deg")
-        yield f"AND(ISNUMBER({slope}),{slope}>={conditions.MAX_SLOPE_DEG:g})"
+def first_open(blocks: Iterable[BlockPlace], tables: Iterable[TablePlace]) -> str:
+    """Return a reference to the first cell of a sheet that is missing or wrong."""
+    steps = []
+    for section in (block.section for block in blocks):
+        lacks = _lacking(section, section.cell_name)
+        for entry, wrong in zip(entries(section.model), wrong_names(section), strict=True):
+            test = f"{lacks.get(entry.name, 0)}+{wrong}>0"
+            steps.append((test, section.cell_name(entry.name)))
+    for table in tables:
+        status, fields = table.all("status"), entries(table.section.model)
+        row = f"MATCH(1,INDEX(ISNUMBER({status})*({status}<>0),0),0)"
+        for entry in (entry for entry in fields if entry.is_required):
+            cell = f"INDEX({table.all(entry.name)},{row})"
+            steps.append((f'IFERROR(TRIM({cell})="",FALSE)', cell))
+        first = table.all(fields[0].name)
+        steps += [(f"ISNUMBER({row})", f"INDEX({first},{row})"), ("TRUE", f"INDEX({first},1)")]
+    target = steps[0][1]
+    for test, cell in reversed(steps):
+        target = f"IF({test},{cell},{target})"
+    return target
 
 
-def _refused(section: SheetSection, refer: Callable[[str], str]) -> Iterator[str]:
-    """Yield whether each cell has what its field does not accept."""
-    for entry in entries(section.model):
-        yield from is_wrong(refer(entry.name), entry, f"unit_{section.key}_{entry.name}")
-
-
-def is_wrong(cell: str, entry: Entry, unit: str) -> Iterator[str]:
-    """Yield whether a filled cell has what its field does not accept, where a formula can tell."""
+def is_wrong(cell: str, entry: Entry, unit: str) -> str:
+    """Return whether a filled cell has what its field does not accept, where a formula can tell."""
+    text = f"TRIM({cell})"
     if entry.choices:
         known = f"|{'|'.join(entry.choices)}|".casefold()
-        yield f'AND(TRIM({cell})<>"",ISERROR(FIND("|"&LOWER(TRIM({cell}))&"|","{known}")))'
-    elif entry.kind in (int, float):
-        tests = [*_beyond(f"{cell}*{unit}" if entry.quantity else cell, entry)]
+        is_known = f'ISNUMBER(FIND("|"&LOWER({text})&"|","{known}"))'
+        return f'AND({text}<>"",OR(NOT({is_known}),ISNUMBER(FIND("|",{cell}))))'
+    if entry.kind in (int, float):
+        value = f"{cell}*{unit}" if entry.quantity else cell
+        tests = [*_beyond(value, entry), f"ABS({value})>{LARGEST:.0f}"]
         tests += [f"{cell}<>INT({cell})"] if entry.kind is int else []
         # Excel shows 0.45 as 45% where that was typed, and `check` asks which is meant.
-        tests.append(f'LEFT(CELL("format",{cell}))="P"')
-        yield f'IF(ISNUMBER({cell}),OR({",".join(tests)}),TRIM({cell})<>"")'
+        # A logical value is a number for LibreOffice.
+        tests += [f'LEFT(CELL("format",{cell}))="P"', f"ISLOGICAL({cell})"]
+        return f'IF(ISNUMBER({cell}),OR({",".join(tests)}),{text}<>"")'
+    if entry.kind is date:
+        no_date = f'OR(LEN({text})<>10,MID({text},5,1)<>"-",ISERROR(DATEVALUE({text})))'
+        return f'IF(ISNUMBER({cell}),{cell}<{_EARLIEST},AND({text}<>"",{no_date}))'
+    return f"OR(LEN({cell})>{entry.max_length},ISLOGICAL({cell}))"
 
 
 def _beyond(value: str, entry: Entry) -> Iterator[str]:
@@ -122,13 +160,7 @@ def table_lacks(place: TablePlace) -> str:
 
 def block_lacks(place: BlockPlace) -> str:
     """Return the number of cells that a block lacks; empty if it requires none."""
-    return "+".join(_lacking(place.section, place.section.cell_name))
-
-
-def block_wrong(place: BlockPlace) -> str:
-    """Return the number of cells of a block that are wrong."""
-    tests = _refused(place.section, place.section.cell_name)
-    return "+".join(f"IF({test},1,0)" for test in tests)
+    return "+".join(_lacking(place.section, place.section.cell_name).values())
 
 
 def block_begun(place: BlockPlace) -> str:

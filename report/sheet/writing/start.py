@@ -18,7 +18,7 @@ from report.sheet.writing.counts import COUNTS_COLUMN, START
 from report.sheet.writing.sketch import SIZE_IN, sketch_png
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS
 
-_WIDTHS = (5, 24, 76, 14, 14)
+_WIDTHS = (5, 24, 76, 16, 14, 12)
 _HINT = "From this workbook to the calculation package. This sheet has no input cells."
 
 STEPS = (
@@ -45,13 +45,21 @@ _NOTES = (
     " lists it, and roofslip check --repair restores its formula. Formulas in yellow cells are"
     " accepted. Macros are not: .xlsm files are rejected.",
 )
-_RED_FILL, _AMBER_FILL, _VIOLET_FILL = (
-    PatternFill("solid", start_color=color) for color in (marks.RED, marks.AMBER, marks.VIOLET)
+_RED_FILL, _AMBER_FILL, _VIOLET_FILL, _DRAWN_FILL = (
+    PatternFill("solid", start_color=color)
+    for color in (marks.RED, marks.AMBER, marks.VIOLET, marks.DRAWN)
 )
 _SAMPLES = (
     ("input", "000000", style.INPUT_FILL, "Input cell."),
-    ("heading", style.WHITE, style.REQUIRED_FILL, "Required column; other required cells have *."),
-    ("heading", style.WHITE, style.OPTIONAL_FILL, "Optional column."),
+    (
+        "heading, tab",
+        style.WHITE,
+        style.REQUIRED_FILL,
+        "Required column or sheet; also cells with *.",
+    ),
+    ("heading, tab", style.WHITE, style.OPTIONAL_FILL, "Optional column or sheet."),
+    ("tab", style.INK, style.RARE_FILL, "Sheet that is rarely needed."),
+    ("tab", style.WHITE, style.HELP_FILL, "Sheet without input cells."),
     ("1.566", style.INK, style.ANSWER_FILL, "Computed cell: a formula, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
     (
@@ -61,20 +69,28 @@ _SAMPLES = (
         "Required and still blank, or refused: no number, out of range, no choice, unknown.",
     ),
     ("1.2", "000000", _AMBER_FILL, "Outside the usual range."),
+    ("8.25", "000000", _DRAWN_FILL, "Row of Outlines or Clearances taken from a drawing."),
     ("1.5", style.INK, _VIOLET_FILL, "Computed cell that has lost its formula."),
-    (
-        "✓",
-        marks.GREEN,
-        style.ANSWER_FILL,
-        "Each cell of the row is filled and accepted. roofslip check compares the rows.",
-    ),
+    ("✓", marks.GREEN, style.ANSWER_FILL, "Nothing is missing, and roofslip check accepts it."),
+    (marks.SEE_CHECK, marks.UNDECIDED, style.ANSWER_FILL, "Nothing is missing; check decides."),
 )
+
+
+def color_tabs(book: Workbook) -> None:
+    """Color the tab of each sheet by the need for it."""
+    for sheet in book.worksheets:
+        sections = [section for section in SECTIONS if section.sheet == sheet.title]
+        fill = style.RARE_FILL if sections else style.HELP_FILL
+        if not all(section.may_be_absent for section in sections):
+            is_needed = any(section.is_needed for section in sections)
+            fill = style.REQUIRED_FILL if is_needed else style.OPTIONAL_FILL
+        sheet.sheet_properties.tabColor = fill.start_color.rgb
 
 
 def write_start(book: Workbook) -> int:
     """Write the sheet; return the first row of the list of what each sheet lacks."""
     sheet = book[START]
-    for column, width in zip("ABCDE", _WIDTHS, strict=True):
+    for column, width in zip("ABCDEF", _WIDTHS, strict=True):
         sheet.column_dimensions[column].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
     sheet.page_setup.fitToHeight = 1
@@ -85,7 +101,7 @@ def write_start(book: Workbook) -> int:
     row = _put_heading(sheet, _write_colors(sheet, row), "Notes")
     for at, note in enumerate(_NOTES, start=row):
         style.put(sheet, at, 2, note)
-        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=5)
+        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=6)
         sheet.row_dimensions[at].height = 34
     return counts
 

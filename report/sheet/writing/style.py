@@ -33,6 +33,8 @@ WHITE = "FFFFFF"
 INPUT_FILL = PatternFill("solid", start_color="FFF6CC")
 REQUIRED_FILL = PatternFill("solid", start_color=INK)
 OPTIONAL_FILL = PatternFill("solid", start_color="6C8796")
+RARE_FILL = PatternFill("solid", start_color="C9CDD1")
+HELP_FILL = PatternFill("solid", start_color="4A90C2")
 HINT_FILL = PatternFill("solid", start_color="F3F4F5")
 ANSWER_FILL = PatternFill("solid", start_color="E3EDF5")
 ANSWER_HEAD_FILL = PatternFill("solid", start_color="9DB4C4")
@@ -134,7 +136,7 @@ def put_title(sheet: Worksheet, title: str, hint: str) -> None:
     """Write the title of a sheet and the line below it."""
     put(sheet, 1, 1, title, bold=True, size=16, wrap=False)
     put(sheet, 2, 1, hint, color=GRAY, wrap=False)
-    sheet.row_dimensions[1].height = 28
+    sheet.row_dimensions[1].height, sheet.row_dimensions[3].height = 28, 20
 
 
 def put_heading(sheet: Worksheet, row: int, title: str, hint: str) -> None:

@@ -19,12 +19,12 @@ from report.sheet.schema.fields import SheetSection
 from report.sheet.schema.layout import Layout
 from report.sheet.writing import style
 from report.sheet.writing.counts import START, write_counts
-from report.sheet.writing.grids import write_answers, write_block, write_table
+from report.sheet.writing.grids import define_tests, write_answers, write_block, write_table
 from report.sheet.writing.lookups import write_lookups
 from report.sheet.writing.marks import mark_block, mark_lost, mark_ratio, mark_table
 from report.sheet.writing.results_panel import write_panel
 from report.sheet.writing.rules import write_rules
-from report.sheet.writing.start import write_start
+from report.sheet.writing.start import color_tabs, write_start
 from solver.files import write_whole
 
 
@@ -40,11 +40,10 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
     write_panel(book, is_us=units.is_us)
     write_rules(book, layout)
     write_lookups(book, layout)
-    clearances = layout.tables["clearances"]
-    ratio = clearances.cell("demand_capacity")
-    mark_ratio(book["Clearances"], clearances.cells("demand_capacity"), ratio)
+    mark_ratio(book["Clearances"], layout.tables["clearances"], "demand_capacity")
     write_counts(book, layout, write_start(book))
     mark_lost(book, layout)
+    color_tabs(book)
     save(book, path, units)
 
 
@@ -65,6 +64,7 @@ def book_of(
             layout.tables[section.key] = write_table(book, section, units, given or ())
         else:
             layout.blocks[section.key] = write_block(book, section, units, given)
+    define_tests(book, layout)
     for place in layout.tables.values():
         write_answers(book, layout, place, is_us=units.is_us)
         mark_table(book[place.section.sheet], place)

@@ -83,7 +83,7 @@ def edge_cases() -> dict[str, ProjectInput]:
         ),
         "given-twice and importance": project(
             arrays=[arrays[0] | {"i_p": 1.5}, alike],
-            site=site(s_ms_g=2.349, s_ds_g=1.566, s_m1_g=0.98, i_e=1.25, risk_category="III"),
+            site=site(s_ms_g=2.349, s_ds_g=1.566, s_m1_g=1.19, i_e=1.25, risk_category="III"),
             objects=[row | {"i_p": 1.25} for row in given["objects"]],
         ),
     }  # fmt: skip
@@ -338,7 +338,9 @@ def test_a_complete_sheet_says_so_on_every_sheet(case):
         wanted = "No cells missing"
         if title == "Options" and options.peer_reviewed and not options.peer_reviewer:
             wanted = "4 cells missing"  # reviewer, license, date, letter
-        assert case.sheets[title][2][0] == wanted, title
+        said, _, undecided = case.sheets[title][2][0].partition("; ")
+        assert said == wanted, title
+        assert undecided == "see check" or title != "Motions"
 
 
 def test_every_site_class_and_interval_of_the_tables(filled):

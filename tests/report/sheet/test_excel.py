@@ -21,9 +21,9 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 # Of Excel 2007 and later, and ISFORMULA of 2013, which is written with this prefix.
 PREFIXED = {"_xlfn.ISFORMULA"}
 FUNCTIONS = {
-    "ABS", "AND", "ATAN", "CELL", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DEGREES", "EXACT",
-    "FALSE", "FIND", "IF", "IFERROR", "INDEX", "INT", "ISERROR", "ISFORMULA", "ISNUMBER", "LEFT",
-    "LOWER", "MATCH", "MAX",
+    "ABS", "AND", "ATAN", "CELL", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DATEVALUE",
+    "DEGREES", "EXACT", "FALSE", "FIND", "HYPERLINK", "IF", "IFERROR", "INDEX", "INT", "ISERROR",
+    "ISFORMULA", "ISLOGICAL", "ISNUMBER", "LEFT", "LEN", "LOWER", "MATCH", "MAX",
     "MID", "MIN", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROW", "ROWS",
     "SUBSTITUTE", "SUM", "SUMIF", "SUMPRODUCT", "TRIM", "UPPER",
 }  # fmt: skip

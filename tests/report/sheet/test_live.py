@@ -162,6 +162,19 @@ def test_a_workbook_of_0_1_has_no_live_formulas():
     assert lost(DATA / "input-0.1.xlsx") == []
 
 
+def as_before(book):
+    """Take the names of whether a cell is wrong, and count as a workbook did that lacked them."""
+    for name in [n for n in book.defined_names if n.startswith(("wrong_", "undecided_", "next_"))]:
+        del book.defined_names[name]
+    put(book, {"Start/Project": "=2-2", "Motions!A3": '="No cells missing"'})
+
+
+def test_a_workbook_keeps_the_formulas_of_its_version_without_a_warning(tmp_path):
+    path = edit(make(tmp_path), as_before)
+    assert lost(path) == []
+    assert lost(type_into(path, {"Clearances/1/Neighbor": "mine"})) == [at("Clearances/1/Neighbor")]
+
+
 def as_of_0_2(book):
     """Give each row the long formula of its status, in place of the name."""
     names = [name for name in book.defined_names if name.startswith("status_")]
