@@ -50,7 +50,7 @@ def answer(
     """
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = UnitFormat(us_first=marked.fmt.us_first, none=NO_VALUE)
-    arrays = list(array_results(marked))
+    arrays = list(array_results(marked, has_runs=False))
     gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
 
