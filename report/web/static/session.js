@@ -1,6 +1,7 @@
 // The values and their answer: one axis while a slider moves, the full model when it rests.
 
 const REST_MS = 160;
+const STILL_MS = 50; // after which the full model is asked ahead, in case the slider rests here
 
 /**
  * Return the session's runner of assessments.
@@ -15,17 +16,36 @@ export function createSession(assess, show, fail) {
   let timer = 0;
   let isMoving = false; // a slider moved since the full model was last asked
   let isPaused = false; // and has stayed where it is for a while
+  let ahead = null; // the full model, asked before the slider rests
+  let still = 0; // timer of the same
 
   // Ask, and show the answer where it still is one: `isCurrent` gets the version that was asked.
   async function ask(moving, phase, isCurrent) {
     const asked = version;
     try {
-      const answer = await assess(moving, { ...values });
+      const answer = await (moving ? assess(true, { ...values }) : full());
       if (answer && isCurrent(asked)) show({ phase, answer });
     } catch (error) {
       if (isCurrent(asked)) fail(error, moving);
     }
   }
+  // The full answer for the values: that asked ahead, or a new one.
+  function full() {
+    const { of, answer } = ahead ?? {};
+    ahead = null;
+    return of === version ? answer : assess(false, { ...values });
+  }
+
+  function askAhead() {
+    const mine = { of: version, answer: assess(false, { ...values }), isThere: false };
+    ahead = mine;
+    const arrived = () => {
+      mine.isThere = true;
+      if (ahead === mine && isPaused) rest();
+    };
+    mine.answer.then(arrived, arrived);
+  }
+
   const askMoving = createLane(async () => {
     if (isMoving) await ask(true, "moving", () => isMoving);
     if (isMoving && isPaused) rest();
@@ -34,20 +54,23 @@ export function createSession(assess, show, fail) {
 
   function changed(next, moves) {
     clearTimeout(timer);
+    clearTimeout(still);
+    ahead = null;
     values = { ...values, ...next };
     version += 1;
     isMoving = moves;
     isPaused = false;
   }
 
-  // A provisional answer that is under way is shown before the full model is asked.
+  // A provisional answer that is under way is shown first, unless the full one is there.
   function pause() {
     isPaused = true;
-    if (!askMoving.isOpen()) rest();
+    if (!askMoving.isOpen() || ahead?.isThere) rest();
   }
 
   function rest() {
     clearTimeout(timer);
+    clearTimeout(still);
     isMoving = false;
     show({ phase: "settling" });
     askFull();
@@ -61,6 +84,7 @@ export function createSession(assess, show, fail) {
     move(id, value) {
       changed({ [id]: value }, true);
       timer = setTimeout(pause, REST_MS);
+      still = setTimeout(askAhead, STILL_MS);
       show({ phase: "moving" });
       askMoving();
     },
