@@ -41,6 +41,10 @@ from report.sheet.schema import PlanPaper, Rectangle
 from report.sheet.schema.shapes import around
 
 
+MOST_CALLOUTS = 12
+"""Clearances that a screen has room to label with their lengths; more are numbered alone."""
+
+
 def is_wide(assessment: Assessment) -> bool:
     """Whether the large plan goes on a page in landscape: for a larger scale, or a wide roof."""
     extent = _extent(assessment)
@@ -151,7 +155,7 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
     spots = [spot for item in plan.placed if (spot := name_spot(plan, item)) is not None]
     for spot in spots:
         plan.paper.placer.take(spot)
-    if plan.size.is_screen:
+    if plan.size.is_screen and len(plan.gaps) <= MOST_CALLOUTS:
         take_edges(plan)
         for draw in (draw_gap, draw_callout):
             for gap in plan.gaps:
