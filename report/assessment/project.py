@@ -388,8 +388,8 @@ def _plan_pairs(
     largest_m = largest_separation_m(data, rules, arrays)
 
     def required(near: PlanNeighbor) -> tuple[float, str]:
-        # Most pairs of a large roof are farther apart than any separation.
-        if not near.given and near.gap_m > largest_m:
+        # Most pairs of a large roof are out of reach, and farther apart than any separation.
+        if not near.given and near.gap_m > max(largest_m, near.reach_m):
             return math.nan, ""
         return minimum_gap(data, rules, arrays, near)
 

@@ -40,7 +40,6 @@ from report.drawing.sheet import (
 from report.sheet.schema import PlanPaper, Rectangle
 from report.sheet.schema.shapes import around
 
-
 MOST_CALLOUTS = 12
 """Clearances that a screen has room to label with their lengths; more are numbered alone."""
 

@@ -1,7 +1,7 @@
 """Warm processes for the page, and which job goes next to which of them.
 
-A newer job of a page replaces one that still waits, if it is no quicker; quick ones go first. A process that ends or
-takes too long is replaced. Knows no route and no physics. Read `Workers.ask`.
+A newer job of a page replaces one that still waits, if it is no quicker; quick ones go first. A
+process that ends or takes too long is replaced. Knows no route and no physics. Read `Workers.ask`.
 """
 
 from __future__ import annotations

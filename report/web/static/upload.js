@@ -19,6 +19,7 @@ export function mountUpload({ zone, files, folder }, { begin, take, fail }) {
       if (mine === given) take(visible(found));
     } catch (error) {
       // A folder that went away while it was read, or that may not be read.
+      if (mine !== given) return;
       begin("");
       fail(new Error(`The files could not be read: ${error.message} Drop them again.`));
     }

@@ -307,12 +307,13 @@ def test_hidden_files_and_excels_lock_are_not_sent(page):
     assert called(page, "upload", body, names) == ["p/input.xlsx", "p/records/a.csv"]
 
 
-def test_of_two_drops_the_last_is_taken_though_the_first_is_longer_to_list(page):
+def test_a_drop_is_told_at_once_and_of_two_the_last_is_taken_though_it_is_listed_first(page):
     body = """
         const part = () => document.createElement("input");
-        const taken = [];
+        const taken = [], told = [];
         const take = (files) => taken.push(files);
-        m.mountUpload({ zone: part(), files: part(), folder: part() }, take);
+        const begin = (text) => told.push(text);
+        m.mountUpload({ zone: part(), files: part(), folder: part() }, { begin, take, fail() {} });
         const answers = [];
         const drop = (path) => {
           const file = (done) => answers.push(() => done(path));
@@ -322,12 +323,31 @@ def test_of_two_drops_the_last_is_taken_though_the_first_is_longer_to_list(page)
           dispatchEvent(event);
         };
         drop("/first"); drop("/last");
+        const early = [...told];
         for (const answer of answers.toReversed()) {
           answer();
           await new Promise((done) => setTimeout(done, 0));
         }
-        return taken.map((files) => files.map(({ path }) => path));"""
-    assert called(page, "upload", body) == [["last"]]
+        return [early, taken.map((files) => files.map(({ path }) => path))];"""
+    assert called(page, "upload", body) == [["Reading the files …"] * 2, [["last"]]]
+
+
+def test_files_that_cannot_be_read_are_an_error_and_nothing_is_under_way(page):
+    body = """
+        const part = () => document.createElement("input");
+        const told = [], failed = [];
+        m.mountUpload({ zone: part(), files: part(), folder: part() },
+          { begin: (text) => told.push(text), fail: ({ message }) => failed.push(message) });
+        const file = (_, fails) => fails(new Error("Gone."));
+        const entry = { isFile: true, fullPath: "/gone", file };
+        const event = new Event("drop");
+        event.dataTransfer = { items: [{ webkitGetAsEntry: () => entry }] };
+        dispatchEvent(event);
+        await new Promise((done) => setTimeout(done, 0));
+        return [told.at(-1), failed];"""
+    told, failed = called(page, "upload", body)
+    assert told == ""
+    assert failed == ["The files could not be read: Gone. Drop them again."]
 
 
 def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_first(page):
@@ -398,7 +418,7 @@ def _contrast(a, b):
 def test_text_has_the_contrast_of_wcag_aa(theme):
     blocks = re.findall(r":root \{(.*?)\}", (STATIC / "style.css").read_text(), re.DOTALL)
     colors = dict(_COLOR.findall(blocks[theme]))
-    for text in ("ink", "muted", "accent"):
+    for text in ("ink", "muted", "accent", "ng", "ok", "conditions"):
         for ground in ("paper", "wash", "accent-wash"):
             assert _contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
     # What bounds a control or draws a curve needs 3 (WCAG 1.4.11).
