@@ -8,7 +8,7 @@ import { button, html, replace } from "./make.js";
 import { mountMotions } from "./motions.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { showNoVerdict, showProvisional, showTable, showVerdict, withoutVerdicts } from "./results.js";
+import { dropVerdicts, showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
@@ -170,7 +170,7 @@ function show({ phase, answer: next }) {
     showAnswer(next, phase === "rest" ? "final" : "provisional");
   } else if (answer?.verdict) {
     announce("");
-    showAnswer(withoutVerdicts(answer), "former");
+    keepFormer();
   }
   if (phase === "rest") showRest();
   else showMoving(phase, next);
@@ -191,6 +191,16 @@ function showAnswer(next, values) {
   plan.show(answer.plan);
   showTable(part("clearances"), answer.clearances, { named: 1 });
   showPicked();
+}
+
+// The values stay, and no verdict of them: drawn anew they would hold up what is asked.
+function keepFormer() {
+  document.body.dataset.values = "former";
+  const { rows, ...table } = answer.arrays;
+  const bare = rows.map((cells) => cells.map((cell) => (cell?.look ? null : cell)));
+  answer = { ...answer, verdict: null, arrays: { ...table, rows: bare } };
+  plan.dropVerdicts();
+  for (const id of ["arrays", "clearances"]) dropVerdicts(part(id));
 }
 
 function showPicked() {

@@ -1,26 +1,15 @@
 // The verdict, the arrays and the clearances, as the server words them.
 
 import { button, headings, html, note, replace, words } from "./make.js";
-import { withoutMarks } from "./plan.js";
 
 /** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
 function tag(verdict) {
   return verdict ? html("strong", { class: `tag is-${verdict.look}` }, verdict.text) : html("span", { class: "note" }, "–");
 }
 
-/** Return an answer whose values stay while others are computed: no verdict of it does. */
-export function withoutVerdicts({ plan, arrays, clearances, ...rest }) {
-  return {
-    ...rest,
-    verdict: null,
-    arrays: withoutTags(arrays),
-    clearances: withoutTags(clearances),
-    plan: withoutMarks(plan),
-  };
-}
-
-function withoutTags({ rows, ...table }) {
-  return { ...table, rows: rows.map((cells) => cells.map((cell) => (cell?.look ? null : cell))) };
+/** Take the verdicts out of a table whose values stay while others are computed. */
+export function dropVerdicts(element) {
+  for (const found of element.querySelectorAll("td .tag")) found.replaceWith(tag(null));
 }
 
 /** Show the verdict of a full answer: the causes of NG whole, and what else needs attention. */
@@ -50,8 +39,12 @@ function line(...parts) {
 
 function list(reasons) {
   if (reasons.length === 0) return null;
-  const item = ({ level, text }) => html("li", {}, level ? [html("strong", { class: `level is-${level.toLowerCase()}` }, level), " "] : null, words(text));
-  return html("ul", { "aria-label": "Reasons" }, reasons.map(item));
+  return html("ul", { "aria-label": "Reasons" }, reasons.map(reasonItem));
+}
+
+function reasonItem({ level, text }) {
+  const named = level ? [html("strong", { class: `level is-${level.toLowerCase()}` }, level), " "] : null;
+  return html("li", {}, named, words(text));
 }
 
 /**
