@@ -300,7 +300,8 @@ def largest_separation_m(
 ) -> float:
     """Return a length [m] that no separation of a project exceeds, whatever is across it."""
     designs = [array.permitted_toward_m(Direction.ANY) for array in arrays]
-    importance = max(data.site.i_e, *(item.i_p for item in (*data.arrays, *data.objects)))
+    i_ps = *(array.i_p for array in data.arrays), *(item.i_p for item in data.objects)
+    importance = max(data.site.i_e, *i_ps)
     return max(
         provisions.required_separation(rules, neighbor, design_m=each_m, importance=importance)
         for each_m in (0.0, *designs)

@@ -16,36 +16,18 @@ export function createSession(assess, show, fail) {
   let timer = 0;
   let isMoving = false; // a slider moved since the full model was last asked
   let isPaused = false; // and has stayed where it is for a while
-  let ahead = null; // the full model, asked before the slider rests
-  let still = 0; // timer of the same
 
   // Ask, and show the answer where it still is one: `isCurrent` gets the version that was asked.
   async function ask(moving, phase, isCurrent) {
     const asked = version;
     try {
-      const answer = await (moving ? assess(true, { ...values }) : full());
+      const answer = await (moving ? assess(true, { ...values }) : ahead.take());
       if (answer && isCurrent(asked)) show({ phase, answer });
     } catch (error) {
       if (isCurrent(asked)) fail(error, moving);
     }
   }
-  // The full answer for the values: that asked ahead, or a new one.
-  function full() {
-    const { of, answer } = ahead ?? {};
-    ahead = null;
-    return of === version ? answer : assess(false, { ...values });
-  }
-
-  function askAhead() {
-    const mine = { of: version, answer: assess(false, { ...values }), isThere: false };
-    ahead = mine;
-    const arrived = () => {
-      mine.isThere = true;
-      if (ahead === mine && isPaused) rest();
-    };
-    mine.answer.then(arrived, arrived);
-  }
-
+  const ahead = createAhead(() => assess(false, { ...values }), () => isPaused && rest());
   const askMoving = createLane(async () => {
     if (isMoving) await ask(true, "moving", () => isMoving);
     if (isMoving && isPaused) rest();
@@ -54,8 +36,7 @@ export function createSession(assess, show, fail) {
 
   function changed(next, moves) {
     clearTimeout(timer);
-    clearTimeout(still);
-    ahead = null;
+    ahead.drop();
     values = { ...values, ...next };
     version += 1;
     isMoving = moves;
@@ -65,12 +46,11 @@ export function createSession(assess, show, fail) {
   // A provisional answer that is under way is shown first, unless the full one is there.
   function pause() {
     isPaused = true;
-    if (!askMoving.isOpen() || ahead?.isThere) rest();
+    if (!askMoving.isOpen() || ahead.isThere()) rest();
   }
 
   function rest() {
     clearTimeout(timer);
-    clearTimeout(still);
     isMoving = false;
     show({ phase: "settling" });
     askFull();
@@ -84,7 +64,7 @@ export function createSession(assess, show, fail) {
     move(id, value) {
       changed({ [id]: value }, true);
       timer = setTimeout(pause, REST_MS);
-      still = setTimeout(askAhead, STILL_MS);
+      ahead.plan();
       show({ phase: "moving" });
       askMoving();
     },
@@ -98,6 +78,38 @@ export function createSession(assess, show, fail) {
     rest,
     /** Ask for the full answer again where there is one, which stays until then. */
     again: () => isMoving || askFull(),
+  };
+}
+
+// A question asked some time after it is planned, or when its answer is taken; `arrived` is called
+// when the answer is there and nobody has taken it.
+function createAhead(ask, arrived) {
+  let timer = 0;
+  let asked = null;
+  function begin() {
+    const mine = { answer: ask(), isThere: false };
+    asked = mine;
+    const note = () => {
+      mine.isThere = true;
+      if (asked === mine) arrived();
+    };
+    mine.answer.then(note, note);
+  }
+  function drop() {
+    clearTimeout(timer);
+    asked = null;
+  }
+  return {
+    plan() {
+      timer = setTimeout(begin, STILL_MS);
+    },
+    drop,
+    isThere: () => asked?.isThere === true,
+    take() {
+      const answer = asked?.answer ?? ask();
+      drop();
+      return answer;
+    },
   };
 }
 
