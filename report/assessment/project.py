@@ -220,8 +220,8 @@ class Assessment:
 
     @cached_property
     def _gaps_by_array(self) -> Mapping[str, Sequence[ClearanceCheck]]:
-        ids = {gap.clearance.array for gap in self.clearances}
-        ids |= {gap.clearance.object for gap in self.clearances}
+        rows = [gap.clearance for gap in self.clearances]
+        ids = {row.array for row in rows} | {row.object for row in rows}
         return {each: [gap for gap in self.clearances if gap.involves(each)] for each in ids}
 
     @property

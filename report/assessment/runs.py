@@ -75,10 +75,9 @@ class OrientedRun:
 
 @dataclass(frozen=True, kw_only=True)
 class MotionRun:
-    """One array under one motion, with each horizontal component in the requested polarities.
+    """One array under one motion, with each horizontal component in the requested polarities."""
 
-    Arrays share it; what follows from it alone is computed once.
-    """
+    # Arrays share it: what follows from it alone is computed once.
 
     motion: Motion
     runs: tuple[OrientedRun, ...]

@@ -95,10 +95,8 @@ def answer(
 
 def _reasons(assessment: Assessment) -> list[dict[str, str]]:
     """Return what needs attention, the causes of NG first."""
-    return [
-        asdict(line)
-        for line in sorted(attention(assessment), key=lambda line: line.level != Consequence.NG)
-    ]
+    lines = sorted(attention(assessment), key=lambda line: line.level != Consequence.NG)
+    return list(map(asdict, lines))
 
 
 def _rests_on(assessment: Assessment) -> str:
@@ -123,44 +121,23 @@ def _rows(
     verdict: ShowVerdict,
 ) -> list[list[Cell | None]]:
     """Return the clearances and the pairs of the plan without one; what is NG first."""
-    rows = [
-        (
-            gap.verdict,
-            cells(
-                gap,
-                _CLEARANCE,
-                fmt,
-                array=_between(gap.array, gap.object, gap.direction.value),
-                verdict=verdict(gap.verdict),
-            ),
-        )
-        for gap in gaps
-    ]
-    for near in missing:
-        found = Verdict.NG if near.is_short else Verdict.CONDITIONS
-        shown, had = compared(near.required_m, near.gap_m)
-        lengths = ((near.gap_m, had, ""), (near.required_m, shown, near.mark))
-        rows.append(
-            (
-                found,
-                [
-                    {"text": ""},
-                    _between(near.array, near.other, "not given; in plan"),
-                    *(
-                        {
-                            "text": fmt.short(value_m, show=show) + mark,
-                            "title": fmt.both(value_m, show=show) + mark,
-                        }
-                        for value_m, show, mark in lengths
-                    ),
-                    {"text": ""},
-                    verdict(found),
-                ],
-            )
-        )
-    if verdict(Verdict.NG) is not None:
-        rows.sort(key=lambda row: row[0] in (Verdict.OK, Verdict.CONDITIONS))
-    return [row for _, row in rows]
+    rows = []
+    for gap in gaps:
+        names = _between(gap.array, gap.object, gap.direction.value)
+        rows.append(cells(gap, _CLEARANCE, fmt, array=names, verdict=verdict(gap.verdict)))
+    rows += [_missing(near, fmt, verdict) for near in missing]
+    return sorted(rows, key=lambda row: not row[-1] or row[-1]["look"] in ("ok", "conditions"))
+
+
+def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
+    shown, had = compared(near.required_m, near.gap_m)
+    lengths = ((near.gap_m, had, ""), (near.required_m, shown, near.mark))
+    found = (
+        {"text": fmt.short(value_m, show=show) + mark, "title": fmt.both(value_m, show=show)}
+        for value_m, show, mark in lengths
+    )
+    names, none = _between(near.array, near.other, "not given; in plan"), {"text": ""}
+    return [none, names, *found, none, verdict(Verdict.NG if near.is_short else Verdict.CONDITIONS)]
 
 
 def _between(one: str, other: str, note: str) -> Cell:

@@ -66,9 +66,9 @@ def plan(
     """Return the plan with its design displacements, its clearances and what is without one."""
     words = {name: str(cell["text"]) for name, cell in designs.items()}
     given, missing = gaps
-    ng = verdict(Verdict.NG)
+    has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
-    paper = plan_on_paper(assessment, _size(wide_px), words, has_verdicts=ng is not None)
+    paper = plan_on_paper(assessment, _size(wide_px), words, has_verdicts=has_verdicts)
     return {
         "title": "Roof plan to scale",
         "described": [
@@ -77,7 +77,7 @@ def plan(
                 {
                     "text": f"{near.array} to {near.other}: no clearance given, "
                     f"{fmt.both(near.gap_m)} in plan, required {fmt.both(near.required_m)}",
-                    "verdict": ng if near.is_short else verdict(Verdict.CONDITIONS),
+                    "verdict": verdict(Verdict.NG if near.is_short else Verdict.CONDITIONS),
                 }
                 for near in missing
             ),

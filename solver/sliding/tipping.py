@@ -101,13 +101,7 @@ def tipping(scene: Scene, supports: Supports) -> Tipping:
 
 
 def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping:
-    """Return the same where the largest shear over normal force with no slip is known.
-
-    Raises
-    ------
-    InputError
-        With every length that is not above 0.
-    """
+    """Return the same, or its error, from the largest shear over normal force with no slip."""
     _check(supports)
     slips = demand > friction.mu_static
     return Tipping(

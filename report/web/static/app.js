@@ -73,7 +73,6 @@ function take(files) {
   opening(() => api.upload(files));
 }
 
-// Say at once what is under way; no text when it is over.
 function showBusy(text) {
   part("busy").textContent = text;
   part("busy").hidden = text === "";

@@ -3,10 +3,7 @@
 // Excel's lock files and what file systems leave in folders.
 const HIDDEN = /(^|\/)(\.|~\$|__MACOSX\/|Thumbs\.db$)/;
 
-/**
- * Listen to the whole page; `begin` gets words as soon as something is given, `take` a list of
- * `{file, path}`, `fail` an error.
- */
+/** Listen to the whole page; `begin` gets words at once, `take` a list of `{file, path}`. */
 export function mountUpload({ zone, files, folder }, { begin, take, fail }) {
   let given = 0;
   // A large folder takes a while to list: what is given meanwhile counts, not the folder.
@@ -18,7 +15,6 @@ export function mountUpload({ zone, files, folder }, { begin, take, fail }) {
       const found = await listed;
       if (mine === given) take(visible(found));
     } catch (error) {
-      // A folder that went away while it was read, or that may not be read.
       if (mine !== given) return;
       begin("");
       fail(new Error(`The files could not be read: ${error.message} Drop them again.`));
