@@ -57,10 +57,7 @@ part("example").addEventListener("click", () => {
   showBusy("Opening the example …");
   opening(api.example);
 });
-part("add-clearances").addEventListener("click", () => {
-  showBusy("Adding clearances from the plan …");
-  opening(api.addClearances, true);
-});
+part("add-clearances").addEventListener("click", () => opening(api.addClearances, true));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
 addEventListener("hashchange", () => state?.project && restore());
 opening(api.state, true);
