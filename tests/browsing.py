@@ -77,10 +77,10 @@ def serve_scripts(page):
 
 
 @contextmanager
-def served():
+def served(root=ROOT):
     """Yield a server's address with its token, and its process, which ends with the test."""
     command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as server:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=root) as server:
         try:
             yield server.stdout.readline().strip(), server.pid
         finally:

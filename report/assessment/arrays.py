@@ -18,8 +18,8 @@ from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
 from solver.sliding import least_model
-from solver.sliding.tipping import Supports, Tipping, tipping
-from solver.sliding.uplift import Uplift, minimum_normal_mps2, uplift
+from solver.sliding.tipping import Supports, Tipping, tipping_at
+from solver.sliding.uplift import Uplift
 
 NOT_PERMITTED = "not permitted"
 """In place of a design displacement by a route that is not permitted, or beside it."""
@@ -342,7 +342,7 @@ def assess_array(
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),
-        uplift=uplift(min((run.scene for run in each), key=minimum_normal_mps2)),
+        uplift=min((motion.uplift for motion in runs), key=lambda found: found.n_min_g),
         checks=limits.checks,
         analysis_checks=limits.analysis_checks,
         prescriptive_checks=limits.prescriptive_checks,
@@ -373,7 +373,7 @@ def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
     # Both ratios of the check rise with the friction that a run demands.
     worst = max(runs, key=lambda run: run.solution.friction_demand)
-    return tipping(worst.scene, supports)
+    return tipping_at(worst.solution.friction_demand, worst.scene.friction, supports)
 
 
 def _route(has_value: bool, analysis: Sequence[Limit], prescriptive: Sequence[Limit]) -> Route:

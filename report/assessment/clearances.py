@@ -293,3 +293,18 @@ def _neighbor(rules: RuleSet, obstacle: RoofObject, array: Array) -> Neighbor:
         rules, parapet_height_m=obstacle.height_m, cg_height_m=array.cg_height_m
     )
     return Neighbor.PARAPET if qualifies else Neighbor.EDGE
+
+
+def largest_separation_m(
+    data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment]
+) -> float:
+    """Return a length [m] that no separation of a project exceeds, whatever is across it."""
+    designs = [array.permitted_toward_m(Direction.ANY) for array in arrays]
+    i_ps = *(array.i_p for array in data.arrays), *(item.i_p for item in data.objects)
+    importance = max(data.site.i_e, *i_ps)
+    return max(
+        provisions.required_separation(rules, neighbor, design_m=each_m, importance=importance)
+        for each_m in (0.0, *designs)
+        if not math.isnan(each_m)
+        for neighbor in Neighbor
+    )

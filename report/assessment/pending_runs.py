@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from concurrent.futures import Executor, Future
-from functools import partial
+from functools import cache, partial
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import MotionRun, run_motion, scene_key
@@ -57,7 +57,8 @@ def begin_runs(
         return partial(_done, runs, [pool.submit(chosen, motion) for motion in motions])
 
     by_key = {key(array): array for array in data.arrays}
-    runs = {each: begun(array) for each, array in by_key.items()}
+    # One result for all arrays of a key: what follows from the runs alone is computed once.
+    runs = {each: cache(begun(array)) for each, array in by_key.items()}
     return [runs[key(array)] for array in data.arrays]
 
 

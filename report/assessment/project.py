@@ -12,11 +12,16 @@ import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
-from report.assessment.clearances import ClearanceCheck, check_clearance, minimum_gap
+from report.assessment.clearances import (
+    ClearanceCheck,
+    check_clearance,
+    largest_separation_m,
+    minimum_gap,
+)
 from report.assessment.conditions import (
     MOTIONS_ID,
     array_rows,
@@ -56,7 +61,7 @@ from solver.rules.spectra import RequiredSpectrum
 THREADS = 2
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Assessment:
     """Everything that was computed for a project.
 
@@ -79,7 +84,7 @@ class Assessment:
     linked : tuple of LinkedArray
         The arrays for which the workbook requests a check of the rigid-block model.
     pairs : tuple of PlanNeighbor
-        What the plan shows beside each array, with its clearances.
+        What the plan shows beside each array, with its clearances; none in `at_reduced_friction`.
     acceptance : Acceptance
         Limits on the motions as run, at the roof.
     rows : tuple of Requirement
@@ -205,7 +210,11 @@ class Assessment:
 
     def rows_of(self, subject: str) -> Sequence[Requirement]:
         """Return the rows about an array or a motion."""
-        return [row for row in self.rows if row.subject == subject]
+        return self._rows_by_subject.get(subject, ())
+
+    @cached_property
+    def _rows_by_subject(self) -> Mapping[str, Sequence[Requirement]]:
+        return grouped_by(self.rows, lambda row: row.subject)
 
     def linked_of(self, array: ArrayAssessment) -> Sequence[LinkedArray]:
         """Return an array as a row of linked blocks, where the workbook requests it."""
@@ -213,7 +222,13 @@ class Assessment:
 
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""
-        return [gap for gap in self.clearances if gap.involves(array_id)]
+        return self._gaps_by_array.get(array_id, ())
+
+    @cached_property
+    def _gaps_by_array(self) -> Mapping[str, Sequence[ClearanceCheck]]:
+        rows = [gap.clearance for gap in self.clearances]
+        ids = {row.array for row in rows} | {row.object for row in rows}
+        return {each: [gap for gap in self.clearances if gap.involves(each)] for each in ids}
 
     @property
     def troubled_runs(self) -> Mapping[Status, str]:
@@ -257,7 +272,7 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
         slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
-        at_reduced_friction = partial(whole, reduced, begun=less)
+        at_reduced_friction = partial(whole, reduced, begun=less, has_pairs=False)
         return whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
 
 
@@ -287,18 +302,20 @@ def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
     Each motion runs in the orientation that governs in the given assessment, where it still has it.
     """
     governing = {
-        (array.id, run.motion.id): run.governing.orientation
+        array.id: {run.motion.id: run.governing.orientation for run in array.motions}
         for array in given.arrays
-        for run in array.motions
     }
 
     def along(array: Array, motion: Motion) -> MotionRun:
-        orientation = governing.get((array.id, motion.id))
+        orientation = governing.get(array.id, {}).get(motion.id)
         orientations = [orientation] if orientation in motion.orientations else motion.orientations
         return run_along(array, motion, orientations)
 
-    # Arrays that are alike now may have had other orientations that govern.
-    return reassess(given, project, along, lambda array: array.id)
+    def key(array: Array) -> Hashable:
+        # Arrays that are alike now may have had other orientations that govern.
+        return scene_key(array), tuple(governing.get(array.id, {}).items())
+
+    return reassess(given, project, along, key)
 
 
 def _assess(
@@ -310,6 +327,7 @@ def _assess(
     pool: Executor,
     begun: PendingRuns,
     slow: PendingRuns = (),
+    has_pairs: bool = True,
     reduced_friction: Callable[[], Assessment] | None = None,
 ) -> Assessment:
     """Assess an input from its runs.
@@ -318,6 +336,8 @@ def _assess(
     ----------
     slow : PendingRuns, optional
         Runs of the arrays of `with_low_velocity`; given with `reduced_friction`.
+    has_pairs : bool
+        Whether the plan is measured: with less friction it is the same.
     reduced_friction : callable, optional
         Assesses the same with less friction. With it, one rigid block is compared with a row of
         linked blocks, and the verdicts with those for less friction.
@@ -337,8 +357,7 @@ def _assess(
         qualify = acceptance.qualifies
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    required = partial(minimum_gap, data, rules, arrays)
-    pairs = plan_pairs(data, reaches_of(arrays), sheet.addresses, required)
+    pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
     horizontal, vertical = ac156(data)
     return Assessment(
         sheet=sheet,
@@ -360,13 +379,27 @@ def _assess(
             *(row for item in arrays for row in array_rows(data, item)),
             *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
             *pathway_rows(data, arrays, clearances),
-            *plan_rows(data, pairs),
+            *plan_rows(data, [pair for pair in pairs if pair.is_listed]),
             *(less_friction_rows(arrays, clearances, reduced) if reduced else ()),
         ),
         at_reduced_friction=reduced,
         low_velocity=slower,
         solver_seconds=seconds,
     )
+
+
+def _plan_pairs(
+    sheet: Sheet, data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment]
+) -> tuple[PlanNeighbor, ...]:
+    largest_m = largest_separation_m(data, rules, arrays)
+
+    def required(near: PlanNeighbor) -> tuple[float, str]:
+        # Most pairs of a large roof are out of reach, and farther apart than any separation.
+        if not near.given and near.gap_m > max(largest_m, near.reach_m):
+            return math.nan, ""
+        return minimum_gap(data, rules, arrays, near)
+
+    return plan_pairs(data, reaches_of(arrays), sheet.addresses, required)
 
 
 def _verdict(is_ok: bool) -> Verdict:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from report.memoized import memoized
 from report.sheet.schema import Array, Direction, ModelChoice
@@ -16,6 +17,7 @@ from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, 
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
 from solver.sliding.least_model import Model, Settings, Solution
+from solver.sliding.uplift import Uplift, minimum_normal_mps2, uplift
 
 REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
     ModelChoice.ONE_AXIS: Model.ONE_AXIS,
@@ -71,9 +73,11 @@ class OrientedRun:
         }[direction]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class MotionRun:
     """One array under one motion, with each horizontal component in the requested polarities."""
+
+    # Arrays share it: what follows from it alone is computed once.
 
     motion: Motion
     runs: tuple[OrientedRun, ...]
@@ -86,7 +90,19 @@ class MotionRun:
 
     def peak_m(self, direction: Direction) -> float:
         """Return the largest excursion of all runs in a direction [m]; NaN if any has none."""
-        return max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
+        return self._peaks_m[direction]
+
+    @cached_property
+    def _peaks_m(self) -> Mapping[Direction, float]:
+        return {
+            direction: max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
+            for direction in Direction
+        }
+
+    @cached_property
+    def uplift(self) -> Uplift:
+        """Of the run with the smallest normal force."""
+        return uplift(min((run.scene for run in self.runs), key=minimum_normal_mps2))
 
     def history(self) -> SlideHistory:
         """Rerun the governing run for its values at the samples, for plotting only."""

@@ -302,9 +302,15 @@ class ArrayResult(LowVelocityResult):
 
 
 def array_result(
-    assessment: Assessment, item: ArrayAssessment, clause: str = "", **marks: str
+    assessment: Assessment,
+    item: ArrayAssessment,
+    clause: str = "",
+    *,
+    has_runs: bool = True,
+    **marks: str,
 ) -> ArrayResult:
-    """Return an array with its runs and limits, and the marks of its fields."""
+    """Return an array with its limits, with or without its runs, and the marks of its fields."""
+    motions = item.motions if has_runs else ()
     given = item.array.interconnection_n
     required, provided = compared(item.interconnection_n, math.nan if given is None else given)
     gap = assessment.governing_clearance(item.id)
@@ -336,12 +342,12 @@ def array_result(
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
         directions={direction: direction_result(item, direction) for direction in item.directions},
-        peaks=tuple(map(peak_result, item.motions)),
-        runs=tuple(run_result(motion, run) for motion in item.motions for run in motion.runs),
+        peaks=tuple(map(peak_result, motions)),
+        runs=tuple(run_result(motion, run) for motion in motions for run in motion.runs),
     )
 
 
-def array_results(marked: Marked) -> Iterator[ArrayResult]:
+def array_results(marked: Marked, *, has_runs: bool = True) -> Iterator[ArrayResult]:
     """Yield the arrays with the marks of their numbers, and beside an NG its cause."""
     for item in marked.assessment.arrays:
         cause = unshown_cause(marked.assessment, item)
@@ -350,6 +356,7 @@ def array_results(marked: Marked) -> Iterator[ArrayResult]:
             marked.assessment,
             item,
             clause=marked.clause("interconnection_sds"),
+            has_runs=has_runs,
             interconnection_n=marked.mark("interconnection_sds"),
             prescriptive_m=marked.prescriptive_mark(item),
             computed_m=item.mark(lambda array: array.analysis.value_m),

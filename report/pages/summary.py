@@ -18,7 +18,7 @@ from report.assessment.verdict import Verdict
 from report.entities.array import ArrayResult, array_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
-from report.pages.registry import package_data
+from report.pages.registry import package_data, parts
 from report.sheet.checking.findings import lines
 from report.sheet.schema import ModelChoice
 from report.sheet.schema.fields import Level
@@ -133,7 +133,8 @@ def attention(assessment: Assessment) -> Iterator[Concern]:
 
 def _models(assessment: Assessment) -> Iterator[Concern]:
     """Yield arrays that tip, and whose model is not adequate."""
-    see = f"see {package_data(assessment).part('model')} of the package"
+    (title,) = (part.title for part in parts(package_data(assessment)) if part.id == "model")
+    see = f"see '{title}' in the package"
     for item in assessment.arrays:
         if not item.tipping.is_ok:
             tipping = f"{ratio(item.tipping.ratio)} of the ratio at which it tips; 1.00 or less is"

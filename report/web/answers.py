@@ -11,6 +11,7 @@ from dataclasses import asdict
 from typing import Any
 
 from report.assessment.arrays import NOT_PERMITTED
+from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
@@ -24,7 +25,9 @@ from report.pages.registry import package_data
 from report.pages.summary import attention
 from report.typeset.pdf import TEMPLATES
 from report.web.plan import NO_VALUE, USUAL_PX, plan
-from report.web.tables import Cell, cells, heads, stamp
+from report.web.tables import Cell, ShowVerdict, cells, heads, stamp
+from report.words.units import compared
+from solver.rules.limit import Consequence
 
 ONE_AXIS, FULL = "one axis", "full"
 
@@ -50,8 +53,9 @@ def answer(
     """
     marked = Marked(assessment=assessment, has_daggers=False)
     fmt = UnitFormat(us_first=marked.fmt.us_first, none=NO_VALUE)
-    arrays = list(array_results(marked))
+    arrays = list(array_results(marked, has_runs=False))
     gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
+    missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
 
     def verdict(found: Verdict, text: str = "") -> Cell | None:
@@ -63,7 +67,7 @@ def answer(
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "verdict": verdict(assessment.verdict, assessment.verdict.value),
         "verdict_text": None if is_provisional else _rests_on(assessment),
-        "reasons": [] if is_provisional else list(map(asdict, attention(assessment))),
+        "reasons": [] if is_provisional else _reasons(assessment),
         "arrays": {
             "caption": "Arrays: displacement",
             "heads": heads(ArrayResult, _ARRAY, mean_prd_m="Mean PRD"),
@@ -75,10 +79,7 @@ def answer(
         "clearances": {
             "caption": "Clearances",
             "heads": heads(ClearanceResult, _CLEARANCE, array="From, to"),
-            "rows": [
-                cells(gap, _CLEARANCE, fmt, array=_between(gap), verdict=verdict(gap.verdict))
-                for gap in gaps
-            ],
+            "rows": _rows(gaps, missing, fmt, verdict),
         },
         "bars": {
             "heads": ["Motion", "Bar", "PRD"],
@@ -88,8 +89,14 @@ def answer(
                 for item, assessed in zip(arrays, assessment.arrays, strict=True)
             },
         },
-        "plan": plan(assessment, designs, gaps, fmt, verdict, room_px),
+        "plan": plan(assessment, designs, (gaps, missing), fmt, verdict, room_px),
     }
+
+
+def _reasons(assessment: Assessment) -> list[dict[str, str]]:
+    """Return what needs attention, the causes of NG first."""
+    lines = sorted(attention(assessment), key=lambda line: line.level != Consequence.NG)
+    return list(map(asdict, lines))
 
 
 def _rests_on(assessment: Assessment) -> str:
@@ -107,8 +114,34 @@ def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:
     return {"text": NOT_PERMITTED if item.is_refused else text, "title": f"{both}, {item.source}"}
 
 
-def _between(gap: ClearanceResult) -> Cell:
-    return {"text": f"{gap.array} to {gap.object}", "note": gap.direction.value}
+def _rows(
+    gaps: Sequence[ClearanceResult],
+    missing: Sequence[PlanNeighbor],
+    fmt: UnitFormat,
+    verdict: ShowVerdict,
+) -> list[list[Cell | None]]:
+    """Return the clearances and the pairs of the plan without one; what is NG first."""
+    rows = []
+    for gap in gaps:
+        names = _between(gap.array, gap.object, gap.direction.value)
+        rows.append(cells(gap, _CLEARANCE, fmt, array=names, verdict=verdict(gap.verdict)))
+    rows += [_missing(near, fmt, verdict) for near in missing]
+    return sorted(rows, key=lambda row: not row[-1] or row[-1]["look"] in ("ok", "conditions"))
+
+
+def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
+    shown, had = compared(near.required_m, near.gap_m)
+    lengths = ((near.gap_m, had, ""), (near.required_m, shown, near.mark))
+    found = (
+        {"text": fmt.short(value_m, show=show) + mark, "title": fmt.both(value_m, show=show)}
+        for value_m, show, mark in lengths
+    )
+    names, none = _between(near.array, near.other, "not given; in plan"), {"text": ""}
+    return [none, names, *found, none, verdict(Verdict.NG if near.is_short else Verdict.CONDITIONS)]
+
+
+def _between(one: str, other: str, note: str) -> Cell:
+    return {"text": f"{one} to {other}", "from": one, "to": other, "note": note}
 
 
 def _bars(

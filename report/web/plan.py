@@ -10,6 +10,7 @@ from bisect import bisect
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from report.assessment.neighbors import PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing.items import Arrow, Circle, Item, Look, Mark, Outline, Point, Text
@@ -57,20 +58,29 @@ _CLASSES: Mapping[Look, str] = {
 def plan(
     assessment: Assessment,
     designs: Mapping[str, Cell],
-    clearances: Sequence[ClearanceResult],
+    gaps: tuple[Sequence[ClearanceResult], Sequence[PlanNeighbor]],
     fmt: UnitFormat,
     verdict: ShowVerdict,
     room_px: int = USUAL_PX,
 ) -> Mapping[str, Any]:
-    """Return the plan, with its design displacements and clearances as they are shown."""
+    """Return the plan with its design displacements, its clearances and what is without one."""
     words = {name: str(cell["text"]) for name, cell in designs.items()}
+    given, missing = gaps
     has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
     paper = plan_on_paper(assessment, _size(wide_px), words, has_verdicts=has_verdicts).paper
     return {
         "title": "Roof plan to scale",
         "described": [
-            {"text": _sentence(row, fmt), "verdict": verdict(row.verdict)} for row in clearances
+            *({"text": _sentence(row, fmt), "verdict": verdict(row.verdict)} for row in given),
+            *(
+                {
+                    "text": f"{near.array} to {near.other}: no clearance given, "
+                    f"{fmt.both(near.gap_m)} in plan, required {fmt.both(near.required_m)}",
+                    "verdict": verdict(Verdict.NG if near.is_short else Verdict.CONDITIONS),
+                }
+                for near in missing
+            ),
         ],
         "size_px": [round(paper.wide * _PX), round(paper.tall * _PX)],
         "rooms_px": [0 if wide_px == _WIDE_PX[0] else wide_px, more_px],

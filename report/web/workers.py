@@ -1,7 +1,7 @@
 """Warm processes for the page, and which job goes next to which of them.
 
-A newer job of a page replaces one that still waits; quick ones go first. A process that ends or
-takes too long is replaced. Knows no route and no physics. Read `Workers.ask`.
+A newer job of a page replaces one that still waits, if it is no quicker; quick ones go first. A
+process that ends or takes too long is replaced. Knows no route and no physics. Read `Workers.ask`.
 """
 
 from __future__ import annotations
@@ -105,7 +105,9 @@ class Workers:
         rivals = [each for each in self._waiting if each.origin.key == origin.key]
         if any(each.origin.number > origin.number for each in rivals):
             raise StaleError
-        for each in rivals:
+        # A slider that moves ends what waits of the values before; the full model of the same
+        # values, asked ahead, does not end its provisional answer.
+        for each in (each for each in rivals if each.rank >= rank):
             self._waiting.remove(each)
             if not each.answer.done():
                 each.answer.set_exception(StaleError())

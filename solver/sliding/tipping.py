@@ -97,8 +97,12 @@ def tipping(scene: Scene, supports: Supports) -> Tipping:
     InputError
         With every length that is not above 0.
     """
+    return tipping_at(forces(scene).friction_demand, scene.friction, supports)
+
+
+def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping:
+    """Return the same, or its error, from the largest shear over normal force with no slip."""
     _check(supports)
-    demand, friction = forces(scene).friction_demand, scene.friction
     slips = demand > friction.mu_static
     return Tipping(
         demand=demand,

@@ -4,19 +4,25 @@ In the browser, from the event to the drawn answer: one axis while a slider move
 when it is let go, once the answer in one axis is drawn. Each move is to another value, half a
 second after the answer before. At the server, users move a slider once a second; at rest a newer
 move of a session replaces what waits. Wall time: other programs on the same cores slow it down.
+
+`page_speed.py --beside TREE` compares with another version instead: both open the campus, 30
+arrays, and are moved in turns, from a move of a slider to the answer at rest.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
+import statistics
 import threading
 import time
 import urllib.error
 import urllib.request
+from contextlib import ExitStack
 from http.cookiejar import CookieJar
 
 import numpy as np
-from measure import SMOKE, figure
+from measure import ROOT, SMOKE, figure
 
 from browsing import chromium, opened, quiet_page, served
 
@@ -127,6 +133,58 @@ def at_the_server() -> None:
     figure("their answers at rest, 95th percentile", float(np.percentile(resting, 95)), "s")
 
 
+RESTED = """
+async ([slider, value]) => {
+  const input = document.querySelector(`#slider-${slider}`);
+  await new Promise((done) => setTimeout(done, 500));
+  return new Promise((done) => {
+    const start = performance.now();
+    const observer = new MutationObserver(() => {
+      if (document.body.dataset.phase !== "rest") return;
+      observer.disconnect();
+      requestAnimationFrame(() => setTimeout(() => done(performance.now() - start)));
+    });
+    observer.observe(document.body, { attributes: true, attributeFilter: ["data-phase"] });
+    input.value = value;
+    input.dispatchEvent(new InputEvent("input", { bubbles: true }));
+  });
+}
+"""
+LOADED = """(name) => document.querySelector("h1").innerText !== name
+  && document.body.dataset.phase === "rest"
+"""
+
+
+def beside(tree: str, moves: int = 11) -> None:
+    """Move the campus in this version and in another, in turns."""
+    times: dict[str, list[float]] = {"here": [], "there": []}
+    with chromium() as browser, ExitStack() as stack:
+        pages = {}
+        for name, root in zip(times, (str(ROOT), tree), strict=True):
+            address, _ = stack.enter_context(served(root))
+            page = pages[name] = stack.enter_context(quiet_page(browser))
+            page.set_default_timeout(1e3 * WAIT_S)
+            page.goto(address)  # a version that has not run before compiles the solver first
+            page.wait_for_selector("body[data-phase=rest]")
+            before = page.inner_text("h1")
+            page.set_input_files("#folder", ROOT / "projects" / "campus")
+            page.wait_for_function(LOADED, arg=before)
+        for move in range(1 + moves):
+            # Each is the first in every other turn.
+            for name in list(pages)[:: 1 if move % 2 else -1]:
+                slider, (first, step) = list(STEPS.items())[move % 2]
+                value = round(first + step * (move + 1), 2)
+                times[name].append(pages[name].evaluate(RESTED, [slider, value]))
+    here, there = (statistics.median(taken[1:]) for taken in times.values())
+    figure("30 arrays, from a move to the answer at rest, median", here, "ms")
+    figure("30 arrays, from a move to the answer at rest, ratio to the other", here / there)
+
+
 if __name__ == "__main__":
-    in_the_browser()
-    at_the_server()
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--beside", metavar="TREE")
+    if other := parser.parse_known_args()[0].beside:
+        beside(other)
+    else:
+        in_the_browser()
+        at_the_server()

@@ -264,9 +264,10 @@ class Array(Placed):
     @property
     def shape(self) -> Shape:
         """The array in roof plan."""
-        if self.placed is None:
+        placed = self.placed
+        if placed is None:
             raise DefectError(f"array {self.id} has no place in plan")
-        return self.placed
+        return placed
 
 
 class RoofObject(Placed):

@@ -61,7 +61,8 @@ export function createApi(announce, room) {
     }
   }
 
-  const computed = (kind, body) => latest(kind, (number) => asked(`/api/${kind}`, about({ page, n: number, ...body })));
+  // A provisional answer stays one while the full model is asked ahead: it is a kind of its own.
+  const computed = (kind, body, as = kind) => latest(as, (number) => asked(`/api/${kind}`, about({ page, n: number, ...body })));
 
   // Of two projects, the one that was opened last stays, whichever answer comes first.
   async function open(url, options) {
@@ -76,7 +77,7 @@ export function createApi(announce, room) {
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
     addClearances: () => open("/api/clearances", about({})),
-    assess: (moving, values) => computed("assess", { moving, values, room: room() }),
+    assess: (moving, values) => computed("assess", { moving, values, room: room() }, moving ? "moving" : "assess"),
     computed,
     startPackage: (values) => asked("/api/package", about({ values })),
     packageState: (ticket) => asked(`/api/package/${ticket}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),

@@ -8,7 +8,7 @@ import { button, html, replace } from "./make.js";
 import { mountMotions } from "./motions.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { showNoVerdict, showProvisional, showTable, showVerdict, withoutVerdicts } from "./results.js";
+import { dropVerdicts, showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
@@ -51,12 +51,12 @@ let controls = null;
 const chosen = { array: null, motion: null };
 
 mountTabs(part("tabs"), (panel) => views.open(panel));
-mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, (files) => {
-  dropped = files;
-  opening(() => api.upload(files));
-});
+mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, { begin: showBusy, take, fail });
 part("back").addEventListener("click", showDesk);
-part("example").addEventListener("click", () => opening(api.example));
+part("example").addEventListener("click", () => {
+  showBusy("Opening the example …");
+  opening(api.example);
+});
 part("add-clearances").addEventListener("click", () => opening(api.addClearances, true));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
 addEventListener("hashchange", () => state?.project && restore());
@@ -64,14 +64,27 @@ opening(api.state, true);
 
 // Fetch a state and show it: the example, an upload, or what the session holds. Only what the
 // session holds belongs to the values in the address.
+function take(files) {
+  dropped = files;
+  showBusy(`Sending and checking ${files.length} file${files.length === 1 ? "" : "s"} …`);
+  opening(() => api.upload(files));
+}
+
+function showBusy(text) {
+  part("busy").textContent = text;
+  part("busy").hidden = text === "";
+}
+
 async function opening(fetched, isRestored = false) {
   document.body.setAttribute("aria-busy", "true");
   hideError();
   try {
     const next = await fetched();
-    if (!next) return; // something else is being opened since
+    if (!next) return; // something else is being opened since, which has its own words
+    showBusy("");
     open(next, isRestored);
   } catch (error) {
+    showBusy("");
     fail(error);
   }
   document.body.removeAttribute("aria-busy");
@@ -146,16 +159,24 @@ function fillSelects() {
 
 // The session reports: a slider moves, the full model runs, or an answer came.
 function show({ phase, answer: next }) {
+  keepHeight(phase === "rest");
   document.body.dataset.phase = phase;
   if (next) {
     hideError();
     showAnswer(next, phase === "rest" ? "final" : "provisional");
   } else if (answer?.verdict) {
     announce("");
-    showAnswer(withoutVerdicts(answer), "former");
+    keepFormer();
   }
   if (phase === "rest") showRest();
   else showMoving(phase, next);
+}
+
+// Until the next verdict its box keeps its height: no slider moves from under the pointer.
+function keepHeight(isFinal) {
+  const { style, offsetHeight } = part("verdict");
+  if (isFinal) style.minHeight = "";
+  else if (!style.minHeight) style.minHeight = `${offsetHeight}px`;
 }
 
 // What the values shown are: final, provisional, or former, which are not of what is asked now.
@@ -166,6 +187,16 @@ function showAnswer(next, values) {
   plan.show(answer.plan);
   showTable(part("clearances"), answer.clearances, { named: 1 });
   showPicked();
+}
+
+// The values stay, and no verdict of them: drawn anew they would hold up what is asked.
+function keepFormer() {
+  document.body.dataset.values = "former";
+  const { rows, ...table } = answer.arrays;
+  const bare = rows.map((cells) => cells.map((cell) => (cell?.look ? null : cell)));
+  answer = { ...answer, verdict: null, arrays: { ...table, rows: bare } };
+  plan.dropVerdicts();
+  for (const id of ["arrays", "clearances"]) dropVerdicts(part(id));
 }
 
 function showPicked() {

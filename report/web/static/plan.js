@@ -22,20 +22,17 @@ export function mountPlan(element, ask) {
       replace(element, drawing(plan));
       look();
     },
+    /** Take out what is a verdict, of values that stay while others are computed. */
+    dropVerdicts() {
+      for (const mark of element.querySelectorAll("[class^=ng-]")) mark.remove();
+      const described = element.querySelector("desc");
+      if (described) described.textContent = latest.described.map(({ text }) => `${text}.`).join(" ");
+    },
   };
 }
 
 function isFor({ rooms_px: [least, most] }, room) {
   return room >= least && room < most;
-}
-
-/** Return a plan without what is a verdict of it. */
-export function withoutMarks({ items, described, ...rest }) {
-  return {
-    ...rest,
-    described: described.map((item) => ({ ...item, verdict: null })),
-    items: items.filter((item) => !item.class.startsWith("ng-")),
-  };
 }
 
 function drawing({ title, described, size_px: [wide, tall], items }) {

@@ -1,31 +1,25 @@
 // The verdict, the arrays and the clearances, as the server words them.
 
 import { button, headings, html, note, replace, words } from "./make.js";
-import { withoutMarks } from "./plan.js";
 
 /** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
 function tag(verdict) {
   return verdict ? html("strong", { class: `tag is-${verdict.look}` }, verdict.text) : html("span", { class: "note" }, "–");
 }
 
-/** Return an answer whose values stay while others are computed: no verdict of it does. */
-export function withoutVerdicts({ plan, arrays, clearances, ...rest }) {
-  return {
-    ...rest,
-    verdict: null,
-    arrays: withoutTags(arrays),
-    clearances: withoutTags(clearances),
-    plan: withoutMarks(plan),
-  };
+/** Take the verdicts out of a table whose values stay while others are computed. */
+export function dropVerdicts(element) {
+  for (const found of element.querySelectorAll("td .tag")) found.replaceWith(tag(null));
 }
 
-function withoutTags({ rows, ...table }) {
-  return { ...table, rows: rows.map((cells) => cells.map((cell) => (cell?.look ? null : cell))) };
-}
-
-/** Show the verdict of a full answer. */
+/** Show the verdict of a full answer: the causes of NG whole, and what else needs attention. */
 export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
-  replace(element, line(tag(verdict), " ", text), note(model), list(reasons.map((reason) => reason.text)));
+  const causes = reasons.filter(({ level }) => level === "NG");
+  const others = reasons.filter(({ level }) => level !== "NG");
+  const more = causes.length > 0 && others.length > 0;
+  const summary = html("summary", {}, `Conditions and warnings: ${others.length}`);
+  const listed = html("div", { class: "reasons" }, list(causes), more ? html("details", {}, summary, list(others)) : list(others));
+  replace(element, line(tag(verdict), " ", text), note(model), reasons.length > 0 ? listed : null);
 }
 
 /** Show what a provisional answer is; it has no verdict. */
@@ -35,7 +29,8 @@ export function showProvisional(element, what, model) {
 
 /** Show that there is no verdict, and why, with the reasons of the server where it gave any. */
 export function showNoVerdict(element, why, reasons) {
-  replace(element, line(`No verdict: ${why}.`), list(reasons));
+  const listed = list(reasons.map((text) => ({ text })));
+  replace(element, line(`No verdict: ${why}.`), listed ? html("div", { class: "reasons" }, listed) : null);
 }
 
 function line(...parts) {
@@ -44,7 +39,12 @@ function line(...parts) {
 
 function list(reasons) {
   if (reasons.length === 0) return null;
-  return html("ul", { class: "reasons", tabindex: "0", "aria-label": "Reasons" }, reasons.map((text) => html("li", {}, words(text))));
+  return html("ul", { "aria-label": "Reasons" }, reasons.map(reasonItem));
+}
+
+function reasonItem({ level, text }) {
+  const named = level ? [html("strong", { class: `level is-${level.toLowerCase()}` }, level), " "] : null;
+  return html("li", {}, named, words(text));
 }
 
 /**
@@ -54,12 +54,17 @@ function list(reasons) {
 export function showTable(element, { caption, heads, rows }, { named = 0, picked = null, pick = null } = {}) {
   // A new body keeps no focus: the button that had it gets it back.
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
-  const name = ({ text, note: small }) =>
-    html("th", { scope: "row" }, pick ? pickButton(text, text === picked, pick) : text, small ? html("small", {}, small) : null);
+  const name = (cell) =>
+    html("th", { scope: "row", title: cell.text }, pick ? pickButton(cell.text, cell.text === picked, pick) : between(cell), cell.note ? html("small", {}, cell.note) : null);
   const row = (cells) =>
     html("tr", { class: cells[named].text === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
   replace(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
   if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();
+}
+
+// The two names of a clearance, each cut where it is too long.
+function between({ from, to }) {
+  return [html("span", { class: "cut" }, from), " to ", html("span", { class: "cut" }, to)];
 }
 
 // A verdict has a look; where it is not known yet, its cell is null.
@@ -68,5 +73,5 @@ function value(cell) {
 }
 
 function pickButton(name, isPicked, pick) {
-  return button(name, () => pick(name), { class: "pick", "data-name": name, "aria-pressed": String(isPicked) });
+  return button(name, () => pick(name), { class: "pick cut", "data-name": name, "aria-pressed": String(isPicked) });
 }

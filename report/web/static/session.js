@@ -1,6 +1,7 @@
 // The values and their answer: one axis while a slider moves, the full model when it rests.
 
 const REST_MS = 160;
+const STILL_MS = 50; // after which the full model is asked ahead, in case the slider rests here
 
 /**
  * Return the session's runner of assessments.
@@ -20,12 +21,13 @@ export function createSession(assess, show, fail) {
   async function ask(moving, phase, isCurrent) {
     const asked = version;
     try {
-      const answer = await assess(moving, { ...values });
+      const answer = await (moving ? assess(true, { ...values }) : ahead.take());
       if (answer && isCurrent(asked)) show({ phase, answer });
     } catch (error) {
       if (isCurrent(asked)) fail(error, moving);
     }
   }
+  const ahead = createAhead(() => assess(false, { ...values }), () => isPaused && rest());
   const askMoving = createLane(async () => {
     if (isMoving) await ask(true, "moving", () => isMoving);
     if (isMoving && isPaused) rest();
@@ -34,16 +36,17 @@ export function createSession(assess, show, fail) {
 
   function changed(next, moves) {
     clearTimeout(timer);
+    ahead.drop();
     values = { ...values, ...next };
     version += 1;
     isMoving = moves;
     isPaused = false;
   }
 
-  // A provisional answer that is under way is shown before the full model is asked.
+  // A provisional answer that is under way is shown first, unless the full one is there.
   function pause() {
     isPaused = true;
-    if (!askMoving.isOpen()) rest();
+    if (!askMoving.isOpen() || ahead.isThere()) rest();
   }
 
   function rest() {
@@ -61,6 +64,7 @@ export function createSession(assess, show, fail) {
     move(id, value) {
       changed({ [id]: value }, true);
       timer = setTimeout(pause, REST_MS);
+      ahead.plan();
       show({ phase: "moving" });
       askMoving();
     },
@@ -74,6 +78,38 @@ export function createSession(assess, show, fail) {
     rest,
     /** Ask for the full answer again where there is one, which stays until then. */
     again: () => isMoving || askFull(),
+  };
+}
+
+// A question asked some time after it is planned, or when its answer is taken; `arrived` is called
+// when the answer is there and nobody has taken it.
+function createAhead(ask, arrived) {
+  let timer = 0;
+  let asked = null;
+  function begin() {
+    const mine = { answer: ask(), isThere: false };
+    asked = mine;
+    const note = () => {
+      mine.isThere = true;
+      if (asked === mine) arrived();
+    };
+    mine.answer.then(note, note);
+  }
+  function drop() {
+    clearTimeout(timer);
+    asked = null;
+  }
+  return {
+    plan() {
+      timer = setTimeout(begin, STILL_MS);
+    },
+    drop,
+    isThere: () => asked?.isThere === true,
+    take() {
+      const answer = asked?.answer ?? ask();
+      drop();
+      return answer;
+    },
   };
 }
 

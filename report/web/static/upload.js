@@ -3,15 +3,22 @@
 // Excel's lock files and what file systems leave in folders.
 const HIDDEN = /(^|\/)(\.|~\$|__MACOSX\/|Thumbs\.db$)/;
 
-/** Listen to the whole page; `take` gets a list of `{file, path}`. */
-export function mountUpload({ zone, files, folder }, take) {
+/** Listen to the whole page; `begin` gets words at once, `take` a list of `{file, path}`. */
+export function mountUpload({ zone, files, folder }, { begin, take, fail }) {
   let given = 0;
   // A large folder takes a while to list: what is given meanwhile counts, not the folder.
   async function receive(listed) {
     given += 1;
     const mine = given;
-    const found = await listed;
-    if (mine === given) take(visible(found));
+    begin("Reading the files …");
+    try {
+      const found = await listed;
+      if (mine === given) take(visible(found));
+    } catch (error) {
+      if (mine !== given) return;
+      begin("");
+      fail(new Error(`The files could not be read: ${error.message} Drop them again.`));
+    }
   }
   for (const input of [files, folder]) {
     input.addEventListener("change", () => {

@@ -102,20 +102,37 @@ def test_a_slider_that_stays_where_it_is_rests(page):
     steps = """
         session.move("x", 1);
         asked[0].done(); await tick();
-        const before = asked.length;
-        while (asked.length === before) await new Promise((done) => setTimeout(done, 20));
-        return [asked.at(-1).moving, shown.at(-1).phase];"""
-    assert session(page, steps) == [False, "settling"]
+        while (shown.at(-1).phase !== "settling") await new Promise((done) => setTimeout(done, 20));
+        return asked.map(({ moving }) => moving);"""
+    assert session(page, steps) == [True, False]
 
 
-def test_a_slow_provisional_answer_is_shown_before_the_full_model_is_asked(page):
-    steps = """
+STAYED = """
         session.move("x", 1);
         await new Promise((done) => setTimeout(done, 400));
-        const before = asked.length;
-        asked[0].done(); await tick();
-        return [before, asked.map(({ moving }) => moving), answers()];"""
-    assert session(page, steps) == [1, [True, False], [["moving", 1]]]
+        for (const k of g) { asked[k].done(); await tick(); }
+        return [asked.map(({ moving }) => moving), answers()];"""
+SHOWN = {(0, 1): [["moving", 1], ["rest", 1]], (1, 0): [["rest", 1]]}
+
+
+@pytest.mark.parametrize("order", SHOWN)
+def test_of_a_slow_provisional_and_the_full_answer_asked_ahead_the_first_is_shown(page, order):
+    shown = called(page, "session", SESSION + STAYED, order)
+    assert shown == [[True, False], SHOWN[order]]
+
+
+def test_what_was_asked_ahead_is_asked_again_where_the_slider_went_on(page):
+    steps = """
+        session.move("x", 1);
+        await new Promise((done) => setTimeout(done, 100));
+        session.move("x", 2);
+        session.release();
+        asked[1].done(); await tick();
+        const early = answers();
+        asked.at(-1).done(); await tick();
+        return [asked.map(({ moving, values }) => [moving, values.x]), early, answers()];"""
+    asked = [[True, 1], [False, 1], [False, 2]]
+    assert session(page, steps) == [asked, [], [["rest", 2]]]
 
 
 UNITS = {
@@ -290,12 +307,13 @@ def test_hidden_files_and_excels_lock_are_not_sent(page):
     assert called(page, "upload", body, names) == ["p/input.xlsx", "p/records/a.csv"]
 
 
-def test_of_two_drops_the_last_is_taken_though_the_first_is_longer_to_list(page):
+def test_a_drop_is_told_at_once_and_of_two_the_last_is_taken_though_it_is_listed_first(page):
     body = """
         const part = () => document.createElement("input");
-        const taken = [];
+        const taken = [], told = [];
         const take = (files) => taken.push(files);
-        m.mountUpload({ zone: part(), files: part(), folder: part() }, take);
+        const begin = (text) => told.push(text);
+        m.mountUpload({ zone: part(), files: part(), folder: part() }, { begin, take, fail() {} });
         const answers = [];
         const drop = (path) => {
           const file = (done) => answers.push(() => done(path));
@@ -305,12 +323,31 @@ def test_of_two_drops_the_last_is_taken_though_the_first_is_longer_to_list(page)
           dispatchEvent(event);
         };
         drop("/first"); drop("/last");
+        const early = [...told];
         for (const answer of answers.toReversed()) {
           answer();
           await new Promise((done) => setTimeout(done, 0));
         }
-        return taken.map((files) => files.map(({ path }) => path));"""
-    assert called(page, "upload", body) == [["last"]]
+        return [early, taken.map((files) => files.map(({ path }) => path))];"""
+    assert called(page, "upload", body) == [["Reading the files …"] * 2, [["last"]]]
+
+
+def test_files_that_cannot_be_read_are_an_error_and_nothing_is_under_way(page):
+    body = """
+        const part = () => document.createElement("input");
+        const told = [], failed = [];
+        m.mountUpload({ zone: part(), files: part(), folder: part() },
+          { begin: (text) => told.push(text), fail: ({ message }) => failed.push(message) });
+        const file = (_, fails) => fails(new Error("Gone."));
+        const entry = { isFile: true, fullPath: "/gone", file };
+        const event = new Event("drop");
+        event.dataTransfer = { items: [{ webkitGetAsEntry: () => entry }] };
+        dispatchEvent(event);
+        await new Promise((done) => setTimeout(done, 0));
+        return [told.at(-1), failed];"""
+    told, failed = called(page, "upload", body)
+    assert told == ""
+    assert failed == ["The files could not be read: Gone. Drop them again."]
 
 
 def test_what_was_opened_last_is_shown_and_asked_about_whichever_answer_comes_first(page):
@@ -381,7 +418,7 @@ def _contrast(a, b):
 def test_text_has_the_contrast_of_wcag_aa(theme):
     blocks = re.findall(r":root \{(.*?)\}", (STATIC / "style.css").read_text(), re.DOTALL)
     colors = dict(_COLOR.findall(blocks[theme]))
-    for text in ("ink", "muted", "accent"):
+    for text in ("ink", "muted", "accent", "ng", "ok", "conditions"):
         for ground in ("paper", "wash", "accent-wash"):
             assert _contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
     # What bounds a control or draws a curve needs 3 (WCAG 1.4.11).

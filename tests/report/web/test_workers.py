@@ -107,6 +107,20 @@ def test_of_the_jobs_of_a_page_only_the_newest_waits_in_whatever_order_they_come
     assert (newest["name"], other["name"]) == ("n7", "other page")
 
 
+def test_a_move_ends_what_waits_and_the_full_model_asked_ahead_does_not_end_the_move():
+    async def script(pool):
+        running = await busy(pool)
+        jobs = [("before", Rank.AT_REST), ("move", Rank.MOVING), ("ahead", Rank.AT_REST)]
+        tasks = [ask(pool, name, rank, number=n) for n, (name, rank) in enumerate(jobs)]
+        await asyncio.sleep(0)
+        late = ask(pool, "late", number=0)
+        return await gathered(running, late, *tasks)
+
+    _, late, before, move, ahead = done(1, script)
+    assert {type(late), type(before)} == {StaleError}
+    assert (move["name"], ahead["name"]) == ("move", "ahead")
+
+
 def test_quick_jobs_go_first_and_equal_ones_in_order():
     async def script(pool):
         order = []

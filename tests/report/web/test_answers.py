@@ -1,0 +1,64 @@
+"""What the page shows of an assessment, beside what `test_values` compares with the workbook."""
+
+import pytest
+
+from places import ROOT
+from report.assessment.friction import with_friction
+from report.assessment.project import assess, reassess
+from report.web.answers import answer
+from report.web.opened import opened
+
+
+@pytest.fixture(scope="module")
+def assessed():
+    """The example with less friction, two of its clearances, and one of these next to nothing."""
+    given = opened(ROOT / "projects" / "example" / "input.xlsx")
+    whole = assess(given.sheet, given.shaking)
+    first, _, third, *_ = whole.project.clearances
+    rows = (third, first.model_copy(update={"provided_m": 0.01}))
+    data = with_friction(whole.project.model_copy(update={"clearances": rows}), 0.9)
+    return reassess(whole, data)
+
+
+def test_pairs_of_the_plan_without_a_clearance_are_rows_and_what_is_ng_is_first(assessed):
+    table = answer(assessed, is_provisional=False)["clearances"]
+    names = [(row[1]["text"], row[-1]["text"]) for row in table["rows"]]
+    missing = {
+        (f"{near.array} to {near.other}", "NG" if near.is_short else "Condition")
+        for near in assessed.neighbors
+        if near.is_missing
+    }
+    assert {verdict for _, verdict in missing} == {"NG", "Condition"}
+    assert {pair for pair, row in zip(names, table["rows"], strict=True) if not row[0]["text"]} == (
+        missing
+    )
+    verdicts = [verdict == "NG" for _, verdict in names]
+    assert verdicts == sorted(verdicts, reverse=True)
+    assert names[0] == ("A1 to A2", "NG")
+    # Within reach, and farther apart than any separation.
+    east = next(row for row in table["rows"] if row[1]["text"] == "A3 to EAST")
+    assert [cell["text"] for cell in east[2:4]] == ["120.0 in", "97.3 in"]
+    assert len(names) == len(missing) + 2
+
+
+def test_while_provisional_the_rows_have_the_order_of_the_workbook_and_no_verdict(assessed):
+    rows = answer(assessed, is_provisional=True)["clearances"]["rows"]
+    assert [row[0]["text"] for row in rows[:3]] == ["1", "2", ""]
+    assert {row[-1] for row in rows} == {None}
+
+
+def test_a_screen_reader_hears_of_the_pairs_without_a_clearance(assessed):
+    said = answer(assessed, is_provisional=False)["plan"]["described"]
+    short = [near for near in assessed.neighbors if near.is_short]
+    assert short
+    for near in short:
+        (found,) = (one for one in said if one["text"].startswith(f"{near.array} to {near.other}:"))
+        assert "no clearance given" in found["text"]
+        assert found["verdict"]["text"] == "NG"
+
+
+def test_the_causes_of_ng_are_listed_first(assessed):
+    levels = [reason["level"] for reason in answer(assessed, is_provisional=False)["reasons"]]
+    count = levels.count("NG")
+    assert 0 < count < len(levels)
+    assert set(levels[:count]) == {"NG"}
