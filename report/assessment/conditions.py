@@ -24,7 +24,7 @@ from report.motions.history import PreparedMotion
 from report.motions.targets import targets
 from report.sheet.schema import Array, ClearanceSource, DistanceBasis, ProjectInput
 from report.sheet.schema.fields import Place
-from report.words.counts import lowered, ranged
+from report.words.counts import lowered
 from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, number, pair
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
@@ -252,7 +252,7 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
         for index, row in enumerate(data.clearances)
         if row.source is ClearanceSource.DRAWING and array.id in (row.array, row.object)
     ]
-    if drawn:
+    if drawn:  # their numbers are below the table of clearances: so arrays share a condition
         by, date = data.project.drawing_confirmed_by, data.project.drawing_confirmed_date
         is_confirmed = data.basis_of(data.clearances[drawn[0]]) is DistanceBasis.CONFIRMED
         state = f"confirmed by {by}, {date}" if is_confirmed else "not confirmed"
@@ -260,7 +260,7 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
             id="drawing_distances",
             title="Clear distances from the drawing",
             subject=array.id,
-            found=f"No. {ranged(str(index + 1) for index in drawn)} {state}",
+            found=state,
             limit="measured, or confirmed by name and date",
             basis="roof plan",
             is_satisfied=is_confirmed,

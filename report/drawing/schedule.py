@@ -21,7 +21,7 @@ from report.words.counts import ids_by, ranged
 from report.words.units import Quantity, measured, number
 
 ROW_IN = 0.175  # of a table of the package
-_IDS_IN, _FROM_IN, _TO_IN = 0.6, 0.33, 0.46  # width of words in columns of the tables
+_IDS_IN, _FROM_IN, _TO_IN = 0.48, 0.33, 0.46  # width of words in columns of the tables
 _AROUND_ARRAYS_IN, _AROUND_SCHEDULE_IN = 1.05, 0.62  # captions, headings, notes and margins
 _BELOW_IN = 0.35  # by which columns may be taller than the plan
 

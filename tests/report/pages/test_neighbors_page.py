@@ -89,7 +89,7 @@ def drawn(**changes):
 def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_measured():
     package = drawn()
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
-    assert (row.subject, row.found, row.is_satisfied) == ("A1", "No. 1 not confirmed", False)
+    assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
     assert row.verdict is Verdict.CONDITIONS
     made = printed(package, "clearances")
     line = made.line("Distances provided")
@@ -104,7 +104,7 @@ def test_name_and_date_confirm_every_distance_from_the_drawing():
     package = drawn(project=inputs.HEAD | confirmed)
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
     assert row.is_satisfied
-    assert row.found == "No. 1 confirmed by MT, 2026-03-05"
+    assert row.found == "confirmed by MT, 2026-03-05"
     made = printed(package, "clearances")
     line = made.line("Distances provided")
     assert line == "Distances provided: drawing, confirmed No. 1; measured No. 2."
