@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from openpyxl import Workbook
+from openpyxl import Workbook, load_workbook
 from openpyxl.utils import range_boundaries
 
 from report.sheet.reading.read import read
@@ -18,14 +18,16 @@ def typed_cells(workbook: Path) -> dict[str, dict[str, str]]:
     Each by its address, with section and field: of a workbook before commands fill it, those that
     a person has typed; of one after that, less those, what the commands have.
     """
-    sheet = read(workbook)
+    sheet, book = read(workbook), load_workbook(workbook)
     found: dict[str, dict[str, str]] = {section.sheet: {} for section in SECTIONS}
     for section in SECTIONS:
         for row, values in enumerate(sheet.draft[section.key]):
             for entry in entries(section.model):
                 if values.get(entry.name) not in (None, "", entry.default):
                     address = sheet.where(Place(section.key, row, entry.name))
-                    found[section.sheet][address] = f"{section.key}.{entry.name}"
+                    title, _, at = address.rpartition("!")
+                    if book[title.strip("'")][at].value is not None:  # a weight may be computed
+                        found[section.sheet][address] = f"{section.key}.{entry.name}"
     return found
 
 
