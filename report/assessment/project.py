@@ -11,8 +11,8 @@ import math
 import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass
-from functools import cached_property, partial
+from dataclasses import dataclass, field
+from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
@@ -61,7 +61,7 @@ from solver.rules.spectra import RequiredSpectrum
 THREADS = 2
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Assessment:
     """Everything that was computed for a project.
 
@@ -116,6 +116,17 @@ class Assessment:
     at_reduced_friction: Assessment | None
     low_velocity: LowVelocityAssessment
     solver_seconds: float
+    # What many ask for, once; not when it is asked for first: nothing may change while it is sent.
+    _rows_by_subject: Mapping[str, Sequence[Requirement]] = field(init=False, compare=False)
+    _gaps_by_array: Mapping[str, Sequence[ClearanceCheck]] = field(init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        rows = [gap.clearance for gap in self.clearances]
+        ids = {row.array: None for row in rows} | {row.object: None for row in rows}
+        gaps = {each: [gap for gap in self.clearances if gap.involves(each)] for each in ids}
+        object.__setattr__(self, "_gaps_by_array", gaps)
+        rows_by_subject = grouped_by(self.rows, lambda row: row.subject)
+        object.__setattr__(self, "_rows_by_subject", rows_by_subject)
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
@@ -212,10 +223,6 @@ class Assessment:
         """Return the rows about an array or a motion."""
         return self._rows_by_subject.get(subject, ())
 
-    @cached_property
-    def _rows_by_subject(self) -> Mapping[str, Sequence[Requirement]]:
-        return grouped_by(self.rows, lambda row: row.subject)
-
     def linked_of(self, array: ArrayAssessment) -> Sequence[LinkedArray]:
         """Return an array as a row of linked blocks, where the workbook requests it."""
         return [linked for linked in self.linked if linked.design.id == array.id]
@@ -223,12 +230,6 @@ class Assessment:
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""
         return self._gaps_by_array.get(array_id, ())
-
-    @cached_property
-    def _gaps_by_array(self) -> Mapping[str, Sequence[ClearanceCheck]]:
-        rows = [gap.clearance for gap in self.clearances]
-        ids = {row.array for row in rows} | {row.object for row in rows}
-        return {each: [gap for gap in self.clearances if gap.involves(each)] for each in ids}
 
     @property
     def troubled_runs(self) -> Mapping[Status, str]:

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 
 from report.memoized import memoized
 from report.sheet.schema import Array, Direction, ModelChoice
@@ -73,15 +72,25 @@ class OrientedRun:
         }[direction]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class MotionRun:
     """One array under one motion, with each horizontal component in the requested polarities."""
-
-    # Arrays share it: what follows from it alone is computed once.
 
     motion: Motion
     runs: tuple[OrientedRun, ...]
     governing: OrientedRun  # the run with the largest PRD, or one without a displacement
+    # Arrays share a run: what follows from it alone is computed once, before it is sent anywhere.
+    uplift: Uplift = field(init=False)  # of the run with the smallest normal force
+    _peaks_m: Mapping[Direction, float] = field(init=False)
+
+    def __post_init__(self) -> None:
+        lightest = min((run.scene for run in self.runs), key=minimum_normal_mps2)
+        object.__setattr__(self, "uplift", uplift(lightest))
+        peaks_m = {
+            direction: max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
+            for direction in Direction
+        }
+        object.__setattr__(self, "_peaks_m", peaks_m)
 
     @property
     def seconds(self) -> float:
@@ -91,18 +100,6 @@ class MotionRun:
     def peak_m(self, direction: Direction) -> float:
         """Return the largest excursion of all runs in a direction [m]; NaN if any has none."""
         return self._peaks_m[direction]
-
-    @cached_property
-    def _peaks_m(self) -> Mapping[Direction, float]:
-        return {
-            direction: max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
-            for direction in Direction
-        }
-
-    @cached_property
-    def uplift(self) -> Uplift:
-        """Of the run with the smallest normal force."""
-        return uplift(min((run.scene for run in self.runs), key=minimum_normal_mps2))
 
     def history(self) -> SlideHistory:
         """Rerun the governing run for its values at the samples, for plotting only."""

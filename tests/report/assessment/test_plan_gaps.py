@@ -55,7 +55,7 @@ def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     label = {"NG", "not given; in plan 12.0 in", "required 40.8 in"}
     assert label <= set(shown)
     designs = {item.id: {"text": ""} for item in done.arrays}
-    items = plan(done, designs, (), UnitFormat(us_first=True), stamp)["items"]
+    items = plan(done, designs, ((), ()), UnitFormat(us_first=True), stamp)["items"]
     said = [item.get("text") for item in items]
     assert label <= set(said)
 
@@ -87,7 +87,7 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", row.limit)
     assert done.is_overridden
     designs = {item.id: {"text": ""} for item in done.arrays}
-    items = plan(done, designs, (), UnitFormat(us_first=True), stamp)["items"]
+    items = plan(done, designs, ((), ()), UnitFormat(us_first=True), stamp)["items"]
     said = " ".join(item.get("text", "") for item in items)
     assert re.search(r"required [\d.]+ in‡", said)
     load_charts()
