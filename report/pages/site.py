@@ -28,28 +28,19 @@ def site(package: PackageData) -> Mapping[str, object]:
     """Return what the table of the site needs beside the package."""
     site, building = package.data.site, package.data.building
     factors = sorted({array.i_p for array in package.data.arrays})
+    categories = hazard.design_categories(
+        s_ds_g=site.s_ds,
+        s_d1_g=site.s_d1,
+        s_1_g=site.s_1_g,
+        is_essential=site.risk_category is RiskCategory.IV,
+    )
     return {
         "columns": listed((), _COLUMNS, kind="compact"),
         "i_p": tuple(dict.fromkeys((factors[0], factors[-1]))),
         "period_s": approximate_period_s(building.structure or "other", site.structure_height_m),
         "force": site_force(package),
-        **_categories(site),
-    }
-
-
-def _categories(site: Site) -> Mapping[str, object]:
-    """Return the seismic design categories by each criterion, None where it is not known."""
-    is_essential, s_d1, s_1 = site.risk_category is RiskCategory.IV, site.s_d1, site.s_1_g
-    return {
         "near_fault_g": hazard.NEAR_FAULT_S_1_G,
-        "sdc_short": hazard.sdc_short(site.s_ds, is_essential=is_essential),
-        "sdc_1s": None if s_d1 is None else hazard.sdc_1s(s_d1, is_essential=is_essential),
-        "sdc_near_fault": (
-            None if s_1 is None else hazard.sdc_near_fault(s_1, is_essential=is_essential)
-        ),
-        "sdc": hazard.controlling_sdc(
-            s_ds_g=site.s_ds, s_d1_g=s_d1, s_1_g=s_1, is_essential=is_essential
-        ),
+        "categories": categories,
     }
 
 

@@ -162,37 +162,22 @@ LIMITS_1S_G = (0.067, 0.133, 0.20)
 NEAR_FAULT_S_1_G = 0.75
 
 
-def sdc_short(s_ds_g: float, *, is_essential: bool) -> str:
-    """Return the SDC by S_DS (ASCE 7 Table 11.6-1); essential: risk category IV."""
-    return _sdc(s_ds_g, LIMITS_SHORT_G, is_essential)
-
-
-def sdc_1s(s_d1_g: float, *, is_essential: bool) -> str:
-    """Return the SDC by S_D1 (ASCE 7 Table 11.6-2)."""
-    return _sdc(s_d1_g, LIMITS_1S_G, is_essential)
-
-
-def sdc_near_fault(s_1_g: float, *, is_essential: bool) -> str:
-    """Return E or F where S_1 is 0.75 g or more (ASCE 7, 11.6); otherwise nothing."""
-    if s_1_g < NEAR_FAULT_S_1_G:
-        return ""
-    return "F" if is_essential else "E"
-
-
-def controlling_sdc(
+def design_categories(
     *, s_ds_g: float, s_d1_g: float | None, s_1_g: float | None, is_essential: bool
-) -> str:
-    """Return the most severe category of both tables and of S_1, as far as they are known."""
-    return max(
-        sdc_short(s_ds_g, is_essential=is_essential),
-        "" if s_d1_g is None else sdc_1s(s_d1_g, is_essential=is_essential),
-        "" if s_1_g is None else sdc_near_fault(s_1_g, is_essential=is_essential),
-    )
+) -> tuple[str, str, str]:
+    """Return the SDC by S_DS, by S_D1 and by S_1 (ASCE 7, 11.6); the most severe one controls.
 
-
-def _sdc(value_g: float, limits_g: tuple[float, float, float], is_essential: bool) -> str:
+    Those of Tables 11.6-1 and 11.6-2; E or F where S_1 is 0.75 g or more. Empty for a value that is
+    not known, and for a smaller S_1. Essential: risk category IV.
+    """
     steps = "ACDD" if is_essential else "ABCD"
-    return steps[sum(value_g >= limit for limit in limits_g)]
+
+    def by(value_g: float | None, limits_g: tuple[float, float, float]) -> str:
+        return "" if value_g is None else steps[sum(value_g >= limit for limit in limits_g)]
+
+    is_near = s_1_g is not None and s_1_g >= NEAR_FAULT_S_1_G
+    by_s_1 = ("F" if is_essential else "E") if is_near else ""
+    return by(s_ds_g, LIMITS_SHORT_G), by(s_d1_g, LIMITS_1S_G), by_s_1
 
 
 class HazardBasis(StrEnum):

@@ -192,17 +192,17 @@ def _sdc(row: DraftRow) -> Iterator[Finding]:
     parameters = site_parameters(row)
     if sdc is None or risk_category is None or parameters is None or parameters.s_ds is None:
         return
-    is_essential = risk_category is RiskCategory.IV
     s_ds_g, s_d1_g, s_1_g = parameters.s_ds, parameters.s_d1, row["s_1_g"]
-    by_short = hazard.sdc_short(s_ds_g, is_essential=is_essential)
-    by_1s = "" if s_d1_g is None else hazard.sdc_1s(s_d1_g, is_essential=is_essential)
-    near_fault = "" if s_1_g is None else hazard.sdc_near_fault(s_1_g, is_essential=is_essential)
-    least, reason, clause = max(
-        (by_short, f"S_DS = {s_ds_g:.3f} g", "ASCE 7 Table 11.6-1"),
-        (by_1s, f"S_D1 = {s_d1_g or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
-        (near_fault, f"S_1 = {s_1_g or 0.0:g} g", "ASCE 7 section 11.6"),
-        key=lambda table: table[0],
+    is_essential = risk_category is RiskCategory.IV
+    found = hazard.design_categories(
+        s_ds_g=s_ds_g, s_d1_g=s_d1_g, s_1_g=s_1_g, is_essential=is_essential
     )
+    reasons = (
+        (f"S_DS = {s_ds_g:.3f} g", "ASCE 7 Table 11.6-1"),
+        (f"S_D1 = {s_d1_g or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
+        (f"S_1 = {s_1_g or 0.0:g} g", "ASCE 7 section 11.6"),
+    )
+    least, (reason, clause) = max(zip(found, reasons, strict=True), key=lambda by: by[0])
     if sdc < least:
         wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
         yield _fault("sdc", f"seismic design category is '{sdc}'", wanted)

@@ -6,11 +6,8 @@ from solver.building.periods import FOOT_M, approximate_period_s
 from solver.rules.hazard import (
     EDITIONS,
     component_force,
-    controlling_sdc,
+    design_categories,
     period_height_factor,
-    sdc_1s,
-    sdc_near_fault,
-    sdc_short,
     seismic_parameters,
 )
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
@@ -23,8 +20,8 @@ def test_a_permit_sheet_of_asce_7_16():
     printed = [f"{value:.3f}" for value in (site.s_ms, site.s_ds, site.s_m1, site.s_d1, site.t_s)]
     assert printed == ["1.525", "1.017", "0.839", "0.560", "0.550"]
     assert f"{approximate_period_s('other', 30 * FOOT_M):.3f}" == "0.256"
-    sdc = controlling_sdc(s_ds_g=site.s_ds, s_d1_g=site.s_d1, s_1_g=0.455, is_essential=False)
-    assert sdc == "D"
+    given = {"s_ds_g": site.s_ds, "s_d1_g": site.s_d1, "s_1_g": 0.455}
+    assert design_categories(**given, is_essential=False) == ("D", "D", "")
 
 
 def force(edition=E16, **given):
@@ -84,17 +81,24 @@ def test_an_ac156_report_that_envelopes_roof_and_grade():
     ],
 )
 def test_the_steps_of_both_category_tables(s_ds, s_d1, ordinary, essential):
-    assert sdc_short(s_ds, is_essential=False) == sdc_1s(s_d1, is_essential=False) == ordinary
-    assert sdc_short(s_ds, is_essential=True) == sdc_1s(s_d1, is_essential=True) == essential
+    given = {"s_ds_g": s_ds, "s_d1_g": s_d1, "s_1_g": None}
+    assert design_categories(**given, is_essential=False) == (ordinary, ordinary, "")
+    assert design_categories(**given, is_essential=True) == (essential, essential, "")
 
 
-def test_the_more_severe_category_governs():
-    given = {"s_ds_g": 0.2, "is_essential": False}
-    assert controlling_sdc(s_d1_g=None, s_1_g=None, **given) == "B"
-    assert controlling_sdc(s_d1_g=0.25, s_1_g=0.3, **given) == "D"
-    assert controlling_sdc(s_d1_g=0.01, s_1_g=0.75, **given) == "E"
-    assert [sdc_near_fault(0.75, is_essential=e) for e in (False, True)] == ["E", "F"]
-    assert sdc_near_fault(0.749, is_essential=False) == ""
+@pytest.mark.parametrize(
+    ("s_d1", "s_1", "is_essential", "categories"),
+    [
+        (None, None, False, ("B", "", "")),
+        (0.25, 0.3, False, ("B", "D", "")),
+        (0.01, 0.749, False, ("B", "A", "")),
+        (0.01, 0.75, False, ("B", "A", "E")),
+        (0.01, 0.75, True, ("C", "A", "F")),
+    ],
+)
+def test_categories_by_what_is_known_of_a_site(s_d1, s_1, is_essential, categories):
+    given = {"s_ds_g": 0.2, "s_d1_g": s_d1, "s_1_g": s_1, "is_essential": is_essential}
+    assert design_categories(**given) == categories
 
 
 def test_edition_22_takes_the_values_of_the_hazard_tool_and_no_coefficients():
