@@ -14,7 +14,7 @@ from report.assessment.overrides import mark_of
 from report.assessment.project import Assessment
 from report.assessment.runs import OrientedRun
 from report.sheet.schema import Direction, Polygon, Shape
-from report.sheet.schema.shapes import Point, merged, sides
+from report.sheet.schema.shapes import Point, merged, ring, sides
 from solver.model import INCH_M
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor
@@ -100,26 +100,13 @@ def _moved(points: Sequence[Point], moves: Sequence[Point]) -> Outline:
 
 
 def hull(points: Iterable[Point]) -> Outline:
-    """Return the convex hull of points (Andrew's monotone chain)."""
-    ordered = sorted(set(points))
-    if len(ordered) < 3:
-        return tuple(ordered)
-    lower, upper = _chain(ordered), _chain(ordered[::-1])
-    return (*lower[:-1], *upper[:-1])
+    """Return the convex hull of points, from the leftmost one on."""
+    import shapely
 
-
-def _chain(ordered: Sequence[Point]) -> list[Point]:
-    chain: list[Point] = []
-    for point in ordered:
-        while len(chain) > 1 and _turn(chain[-2], chain[-1], point) <= 0.0:
-            chain.pop()
-        chain.append(point)
-    return chain
-
-
-def _turn(a: Point, b: Point, c: Point) -> float:
-    # Twice the area of a, b, c: above 0 where the way from a over b to c turns left.
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    found = shapely.get_coordinates(shapely.LineString(list(points)).convex_hull)
+    around = ring([(x, y) for x, y in found.tolist()])
+    first = around.index(min(around))
+    return (*around[first:], *around[:first])
 
 
 def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
