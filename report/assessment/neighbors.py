@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from itertools import combinations, starmap
+from itertools import combinations
 
 from report.assessment.arrays import ArrayAssessment
 from report.sheet.schema import (
@@ -222,9 +222,9 @@ def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:
 def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tuple[BareEdge, ...]:
     """Return the parts of an outline along which no strip lies."""
     found = []
-    for number, side in enumerate(starmap(_Side, sides(outline.points)), start=1):
-        ux, uy = side.direction
-        outward_deg = math.degrees(math.atan2(-ux, uy))
+    for number, side in enumerate(sides(outline.points), start=1):
+        (x0, y0), (x1, y1) = side
+        outward_deg = math.degrees(math.atan2(x0 - x1, y1 - y0))
         # East, first in the list, is a quarter turn clockwise of north.
         point = _COMPASS[round((outward_deg - north_deg + 90.0) / 45.0) % 8]
         name = f"{point} edge of the roof"
@@ -232,35 +232,6 @@ def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tup
             name += f" (side {number})"
         found += [BareEdge(name, ends) for ends in _bare(side, strips)]
     return tuple(found)
-
-
-@dataclass(frozen=True, slots=True)
-class _Side:
-    """A side of the roof, from a vertex to the next, counterclockwise."""
-
-    start: Point
-    end: Point
-
-    @property
-    def long(self) -> float:
-        """Its length [m]."""
-        return math.dist(self.start, self.end)
-
-    @property
-    def direction(self) -> Point:
-        """From its start to its end, of length 1."""
-        (x0, y0), (x1, y1) = self.start, self.end
-        return (x1 - x0) / self.long, (y1 - y0) / self.long
-
-    def at(self, along: float) -> Point:
-        """Return the point at a distance from its start [m]."""
-        (x, y), (ux, uy) = self.start, self.direction
-        return x + along * ux, y + along * uy
-
-    def along(self, point: Point) -> float:
-        """Return the distance of a point's foot from its start [m]."""
-        (x, y), (ux, uy) = self.start, self.direction
-        return (point[0] - x) * ux + (point[1] - y) * uy
 
 
 def _line(start: Point, end: Point) -> Shape:
@@ -271,25 +242,31 @@ def _line(start: Point, end: Point) -> Shape:
     return Polygon((start, end))
 
 
-def _bare(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[Point, Point]]:
+def _bare(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[Point, Point]]:
     """Yield the parts of a side along which no strip lies; none shorter than `EDGE_STRIP_M`."""
-    at = 0.0
-    for start, end in [*sorted(_covered(side, strips)), (side.long, side.long)]:
+    from shapely import LineString
+    from shapely.ops import substring
+
+    line, at = LineString(side), 0.0
+    for start, end in [*sorted(_covered(side, strips)), (line.length, line.length)]:
         if start - at > EDGE_STRIP_M:
-            yield side.at(at), side.at(start) if start < side.long else side.end
+            first, last = substring(line, at, start).coords
+            yield first, last
         at = max(at, end)
 
 
-def _covered(side: _Side, strips: Sequence[Shape]) -> Iterator[tuple[float, float]]:
-    """Yield the ranges of a side near which strips lie."""
-    line = _line(side.start, side.end)
+def _covered(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[float, float]]:
+    """Yield the ranges of a side near which strips lie [m], from its start."""
+    import shapely
+
+    line, path = _line(*side), shapely.LineString(side)
     for strip in strips:
         if isinstance(line, Rectangle) and isinstance(strip, Rectangle):
             parts = [strip.points] if gap_m(line, strip) <= EDGE_STRIP_M else []
         else:
-            parts = spans_near(strip, side.start, side.end, EDGE_STRIP_M)
+            parts = spans_near(strip, *side, EDGE_STRIP_M)
         for points in parts:
-            found = [side.along(point) for point in points]
+            found = shapely.line_locate_point(path, shapely.points(points)).tolist()
             yield min(found), max(found)
 
 
