@@ -12,7 +12,7 @@ from report.assessment.runs import nan_is_worst
 from report.drawing.section import drawn_slope_deg
 from report.pages.parts import PackageData, statistic
 from report.pages.site import site_force
-from report.sheet.schema import Array, Direction
+from report.sheet.schema import Direction
 from report.words.units import Quantity
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
@@ -73,19 +73,14 @@ def _motion(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def weight_per_area_pa(array: Array) -> float:
-    """Return the weight of an array over its plan area [Pa]."""
-    return array.weight_n / array.shape.area_m2
-
-
 def _weights(package: PackageData) -> Mapping[str, object]:
     """Return the weight over plan area of the governing array, and the range of the others."""
     own, fmt = package.governing.array, package.fmt
-    others = [weight_per_area_pa(one) for one in package.data.arrays if one.id != own.id]
+    others = [one.weight_pa for one in package.data.arrays if one.id != own.id]
     ends = [fmt.cells(end(others), Quantity.PRESSURE)[0] for end in (min, max) if others]
     unit = fmt.units(Quantity.PRESSURE)[0].symbol
     return {
-        "weight_pa": weight_per_area_pa(own),
+        "weight_pa": own.weight_pa,
         "other_weights": " to ".join(dict.fromkeys(ends)) + f" {unit}" if others else "",
     }
 

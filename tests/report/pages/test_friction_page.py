@@ -16,7 +16,6 @@ from report.drawing.section import drawn_slope_deg
 from report.figures.base import load_fonts
 from report.figures.friction import friction_by_velocity
 from report.figures.section import array_section
-from report.pages.method import weight_per_area_pa
 from report.typeset.pdf import TEMPLATES
 from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
@@ -163,7 +162,7 @@ def test_the_section_states_its_dimensions_and_stays_on_the_sheet(slope):
 
 def test_the_weight_is_taken_over_the_plan_area():
     array = stand_in.project().arrays[0]  # 42,000 lb on 80 ft x 60 ft
-    assert weight_per_area_pa(array) == pytest.approx(8.75 * 47.880259)
+    assert array.weight_pa == pytest.approx(8.75 * 47.880259)
 
 
 def test_a_weight_from_modules_and_ballast_is_said_with_its_parts():

@@ -15,7 +15,6 @@ from inputs import FT, INCH, NO_SIDES
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
 from report.assessment.clearances import check_clearance
-from report.pages.method import weight_per_area_pa
 from report.sheet.schema import ProjectInput, UnitsFirst
 from report.sheet.schema.choices import SiteClass
 from report.sheet.writing.template import write_template
@@ -323,7 +322,7 @@ def test_weight_per_area_is_that_of_the_package(case):
     unit = Quantity.PRESSURE.us if is_psf else Quantity.PRESSURE.si
     found = case.column("Arrays", "Weight per area")
     for array, value in zip(case.data.arrays, found, strict=False):
-        wanted = weight_per_area_pa(array) / PRESSURES[unit.symbol]
+        wanted = array.weight_pa / PRESSURES[unit.symbol]
         assert number(value, unit.decimals) == number(wanted, unit.decimals)
 
 
