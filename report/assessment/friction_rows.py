@@ -138,20 +138,18 @@ def has_enough_runs(one: Series) -> bool:
 
 def _runs(given: Mapping[Surface, Series | None], us_first: bool) -> Iterator[str]:
     """Yield the runs in each condition, those that are alike together."""
-    surfaces: dict[str, list[Surface]] = {}
-    for surface, one in given.items():
-        words = runs_by_velocity(one, us_first) if one else runs_text(0)
-        surfaces.setdefault(words, []).append(surface)
-    yield from (f"{' and '.join(alike)} {words}" for words, alike in surfaces.items())
+    words = {s: runs_by_velocity(one, us_first) if one else "0 runs" for s, one in given.items()}
+    for said, alike in grouped_by(words, words.__getitem__).items():
+        yield f"{' and '.join(alike)} {said}"
 
 
 def runs_by_velocity(one: Series, us_first: bool) -> str:
     """Return in words how many runs there are at each velocity."""
     counts = grouped_by(one.repeats, lambda each: (len(each.runs), math.isnan(each.velocity_mps)))
     return ", ".join(
-        f"{runs_text(count)} with velocity {NOT_GIVEN}"
+        f"{numbered(count, 'run')} with velocity {NOT_GIVEN}"
         if is_unknown
-        else f"{runs_text(count)} at {'each of ' if len(alike) > 1 else ''}"
+        else f"{numbered(count, 'run')} at {'each of ' if len(alike) > 1 else ''}"
         f"{_velocities([each.velocity_mps for each in alike], us_first)}"
         for (count, is_unknown), alike in counts.items()
     )
@@ -163,11 +161,6 @@ def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
         for unit in (Quantity.VELOCITY.value if us_first else Quantity.VELOCITY.value[::-1])
     )
     return f"{first} ({second})"
-
-
-def runs_text(count: int) -> str:
-    """Return a number of runs in words, such as `3 runs`."""
-    return numbered(count, "run")
 
 
 _row = partial(

@@ -18,7 +18,6 @@ from report.assessment.friction_rows import (
     friction_rows,
     has_enough_runs,
     runs_by_velocity,
-    runs_text,
     tested,
 )
 from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
@@ -29,7 +28,7 @@ from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
 from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import Array, FrictionTests, ProjectInput
-from report.words.counts import grouped_by, ids_by
+from report.words.counts import grouped_by, ids_by, numbered
 from report.words.units import Quantity, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing
 
@@ -127,7 +126,7 @@ def _run_rows(data: ProjectInput, one: Series) -> Iterator[tuple[object, ...]]:
         velocity = "—" if math.isnan(run.velocity_mps) else run.velocity_mps
         mus = number(run.mu, 3), number(run.mu_static, 3)
         yield one.report or "—", one.surface, count, velocity, *mus
-    mean = Wide(f"Mean, {one.surface}, {runs_text(len(one.runs))}", 5)
+    mean = Wide(f"Mean, {one.surface}, {numbered(len(one.runs), 'run')}", 5)
     yield mean, "", "", "", number(one.mean, 3), number(one.static_mean, 3)
 
 
