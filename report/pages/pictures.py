@@ -14,7 +14,7 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Plotted
 from report.assessment.spectra import Spectra, departures
 from report.assessment.uncertainty import Uncertainty
-from report.assessment.verdict import Requirement, Verdict
+from report.assessment.verdict import Verdict
 from report.drawing.on_paper import printed_plan
 from report.drawing.sheet import SMALL
 from report.pages import friction_tests, limits
@@ -90,26 +90,19 @@ def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
     troubles = 0.3 + 0.33 * sum(map(len, found.values())) if found else 0.0
     missed = 0.5 * len(departures(spectra))
     room = 5.1 - 0.2 * rows - 0.15 * edges - answers - troubles - missed
-    room -= _conditions_in(package) + sum(map(_wrapped_in, assessment.arrays))
-    return room % SHEET_IN
+    # Friction that depends on velocity adds a line to the row of an array.
+    room -= 0.3 * sum(not item.array.friction.is_constant for item in assessment.arrays)
+    return (room - _conditions_in(package)) % SHEET_IN
 
 
 def _conditions_in(package: PackageData) -> float:
     """Return how tall the list of conditions is [in]."""
-    rows = package.assessment.conditions
-    return 0.3 + sum(0.16 * math.ceil(_letters(row) / 110) for row in rows) if rows else 0.0
-
-
-def _letters(row: Requirement) -> int:
-    """Return how long a condition is, with the words between its parts."""
-    of_subject = len(f"array {row.subject}, ") if row.subject else 0
-    texts = (row.consequence.value, row.title, row.found, row.limit, row.remedy)
-    return of_subject + len(": : ; required: . ") + sum(map(len, texts))
-
-
-def _wrapped_in(array: ArrayAssessment) -> float:
-    """Return what friction that depends on velocity adds to the row of an array [in]."""
-    return 0.0 if array.array.friction.is_constant else 0.3
+    heights = []
+    for row in package.assessment.conditions:
+        of_subject = f"array {row.subject}, " if row.subject else ""
+        letters = sum(map(len, (of_subject, ": : ; required: . ", *row.said)))
+        heights.append(0.16 * math.ceil(letters / 110))
+    return 0.3 + sum(heights) if heights else 0.0
 
 
 def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
