@@ -24,7 +24,7 @@ from report.sheet.schema import ModelChoice
 from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
 from report.words.counts import lowered, ranged
-from report.words.formats import aligned
+from report.words.formats import aligned, finite
 from report.words.units import Quantity, compared_pairs, no_less, pair, ratio
 from solver.model import Status
 
@@ -76,20 +76,16 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
     gap = assessment.governing_clearance(item.id)
     return {
         "id": item.id,
-        "computed_m": _finite(item.analysis.value_m),
+        "computed_m": finite(item.analysis.value_m),
         "prescriptive_m": item.prescriptive.value_m,
-        "design_m": _finite(item.design_m),
+        "design_m": finite(item.design_m),
         "design_is_overridden": bool(item.design_mark),
         "governing_clearance": gap.across_from(item.id) if gap else None,
-        "demand_capacity": _finite(gap.demand_capacity) if gap else None,
+        "demand_capacity": finite(gap.demand_capacity) if gap else None,
         "required_is_overridden": bool(gap and gap.mark),
         "verdict": assessment.array_verdict(item).value,
         "causes": causes(assessment, item),
     }
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
