@@ -16,14 +16,15 @@ def this_machine() -> dict[str, str]:
     return {
         "Roofslip": metadata.version("roofslip"),
         "Python": platform.python_version(),
-        **{name: _version(name) for name in _LIBRARIES},
+        **{name: installed(name) for name in _LIBRARIES},
         "Processor": processor(),
         "Cores": str(os.cpu_count() or 1),
         "System": f"{platform.system()} {platform.release()}, {platform.machine()}",
     }
 
 
-def _version(library: str) -> str:
+def installed(library: str) -> str:
+    """Return the version of a library, or that it is not installed."""
     try:
         return metadata.version(library)
     except metadata.PackageNotFoundError:

@@ -10,14 +10,14 @@ import json
 import platform
 import sys
 from collections.abc import Mapping
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import solver
-from report.manual.machine import processor
+from report.manual.machine import installed, processor
 from report.words.units import G_MPS2
 from solver.model import InputError, Motion
 from solver.sliding.least_model import DEFAULT
@@ -37,7 +37,7 @@ def program() -> dict[str, str]:
     return {
         "roofslip": version("roofslip"),
         "python": platform.python_version(),
-        **{name: _version(name) for name in _LIBRARIES},
+        **{name: installed(name) for name in _LIBRARIES},
         "solver_sha256": _source_sha256(),
     }
 
@@ -49,13 +49,6 @@ def unlike(there: Mapping[str, str], here: Mapping[str, str]) -> str:
         for name, said in here.items()
         if there.get(name) != said
     )
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "not installed"
 
 
 def _source_sha256() -> str:
