@@ -22,9 +22,9 @@ from report.study.read import StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput
 from report.words.units import G_MPS2
 from solver.building.roof import building_of_periods, shaking_to_roof
-from solver.model import Floats, Motion
+from solver.model import Motion
 from solver.records.measures import measures
-from solver.records.record import Record
+from solver.records.record import Record, read_only
 from solver.records.spectrum import response_spectrum
 
 ROOF = "roof"
@@ -168,9 +168,9 @@ def _motion(
         id=row.id,
         source=row.source,
         dt_s=dt_s,
-        ax_mps2=_frozen(a["record"]),
-        ay_mps2=_frozen(a.get("transverse", np.empty(0))),
-        az_mps2=_frozen(a.get("vertical", np.empty(0))),
+        ax_mps2=read_only(a["record"]),
+        ay_mps2=read_only(a.get("transverse", np.empty(0))),
+        az_mps2=read_only(a.get("vertical", np.empty(0))),
         scale=1.0 / unit,
         signs=SIGNS[row.polarity],
     )
@@ -199,9 +199,3 @@ def _intensity(given: StudyInput, recorded: Record, at_roof: Record) -> float:
         case Intensity.S_DS:
             return float(study.s_ds_g or math.nan)
     return float(np.abs(at_roof.a_mps2).max() / G_MPS2)
-
-
-def _frozen(values: Floats) -> Floats:
-    values = np.ascontiguousarray(values)
-    values.setflags(write=False)
-    return values
