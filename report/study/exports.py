@@ -133,14 +133,9 @@ def _cells(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> l
     """Return the columns of a limit state; an undetermined one has its description alone."""
     f = exported(results, one, state)
     if not f.is_known:
-        return ["", "", "", "", f"{sentence(state)} {_sentence(NO_NUMBER)}"]
-    about = f"{sentence(state)}{_warned(results)}"
+        return ["", "", "", "", f"{_sentence(state.words)} {_sentence(NO_NUMBER)}"]
+    about = f"{_sentence(state.words)}{_warned(results)}"
     return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", about]
-
-
-def sentence(state: LimitState) -> str:
-    """Return what a limit state is, as a sentence."""
-    return _sentence(state.words)
 
 
 def _sentence(words: str) -> str:
@@ -174,7 +169,7 @@ def _entry(results: StudyResults, one: ArrayStudyResult) -> dict[str, object]:
         "LimitStates": {
             state.name: {
                 "DS1": {
-                    "Description": sentence(state),
+                    "Description": _sentence(state.words),
                     "RepairAction": "Inspect; not part of this study.",
                 }
             }
