@@ -227,7 +227,6 @@ _PAPER = "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to Seismi
 _SUBSTEPS: Parameters = MappingProxyType({"substeps": 64})
 _LINK: Parameters = MappingProxyType({"stiffness_per_m": 1e5, "substeps": 20})
 _POWERS_OF_TWO = (1, 2, 4, 8, 16, 32, 64, 128, 256)
-_STIFFNESSES = (1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8)
 
 _WHOLE = "a whole number of 1 or more"
 _POSITIVE = "a finite number above 0"
@@ -243,29 +242,42 @@ WANTED: Mapping[str, tuple[str, Callable[[float], bool]]] = {
 ANY_NUMBER = ("a finite number", math.isfinite)
 """What a parameter of a method of your own accepts."""
 
+# What methods have in common: those by the exact kernel, by sub-steps, and with a link.
+_by_events = partial(
+    Method,
+    ceiling=1e-12,
+    parameters=MappingProxyType({}),
+    knob="",
+    sweep=(),
+    order=math.nan,
+    takes_vertical=True,
+)
+_by_substeps = partial(Method, parameters=_SUBSTEPS, knob="substeps", sweep=_POWERS_OF_TWO)
+_by_link = partial(
+    Method,
+    ceiling=0.005,
+    parameters=_LINK,
+    knob="stiffness_per_m",
+    sweep=(1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8),
+    order=2.0,
+    takes_vertical=True,
+    link_steps_per_radian=1.0,
+)
+
 _ALL = (
-    Method(
+    _by_events(
         name="exact",
         title="Exact, event by event",
         label="exact",
-        ceiling=1e-12,
-        parameters=MappingProxyType({}),
-        knob="",
-        sweep=(),
-        order=math.nan,
-        takes_vertical=True,
         invalid_when="Never, if the model is one rigid block with one friction coefficient.",
         source="solver.kernels.one_axis.slide_exact: roots of the cubic motion between samples",
         follow=_exact,
     ),
-    Method(
+    _by_substeps(
         name="paper",
         title="The paper's, constant acceleration",
         label="paper's, constant acceleration",
         ceiling=0.01,
-        parameters=_SUBSTEPS,
-        knob="substeps",
-        sweep=_POWERS_OF_TWO,
         order=1.0,
         takes_vertical=False,
         invalid_when=(
@@ -275,14 +287,11 @@ _ALL = (
         source=f"{_PAPER}, Eqs. 1-19",
         follow=partial(_constant, skips=False),
     ),
-    Method(
+    _by_substeps(
         name="linear",
         title="Linear acceleration",
         label="linear acceleration",
         ceiling=1e-4,
-        parameters=_SUBSTEPS,
-        knob="substeps",
-        sweep=_POWERS_OF_TWO,
         order=2.0,
         takes_vertical=True,
         invalid_when=(
@@ -292,14 +301,11 @@ _ALL = (
         source=f"{_PAPER}, Limitations: a linear acceleration method",
         follow=_linear,
     ),
-    Method(
+    _by_substeps(
         name="adaptive",
         title="The paper's, sub-steps during slip only",
         label="paper's, sub-steps in slip only",
         ceiling=0.01,
-        parameters=_SUBSTEPS,
-        knob="substeps",
-        sweep=_POWERS_OF_TWO,
         order=1.0,
         takes_vertical=True,
         invalid_when=(
@@ -309,41 +315,27 @@ _ALL = (
         source=f"{_PAPER}, Limitations: larger time steps while no slip is detected",
         follow=partial(_constant, skips=True),
     ),
-    Method(
+    _by_link(
         name="penalty-explicit",
         title="Link with a friction cap, explicit",
         label="link, explicit",
-        ceiling=0.005,
-        parameters=_LINK,
-        knob="stiffness_per_m",
-        sweep=_STIFFNESSES,
-        order=2.0,
-        takes_vertical=True,
         invalid_when=(
             "It is unstable for sub-steps above 2 / sqrt(g k), and above 1.7 / sqrt(g k) it may "
             "slip in every third sub-step. A soft link adds its own stretch, mu / k, and vibrates "
             "without decay."
         ),
         source=f"{_PAPER}, SAP 2000: Newmark gamma 0.5, beta 0, no damping, 100 N/mm on 1 N",
-        link_steps_per_radian=1.0,
         follow=partial(_link, implicit=False),
     ),
-    Method(
+    _by_link(
         name="penalty-implicit",
         title="Link with a friction cap, implicit",
         label="link, implicit",
-        ceiling=0.005,
-        parameters=_LINK,
-        knob="stiffness_per_m",
-        sweep=_STIFFNESSES,
-        order=2.0,
-        takes_vertical=True,
         invalid_when=(
             "For sub-steps above 2 / sqrt(g k) Newton's method may alternate between stick and "
             "slip without converging. A soft link adds its own stretch, mu / k."
         ),
         source="OpenSees flatSliderBearing with Newmark gamma 0.5, beta 0.25 and Newton's method",
-        link_steps_per_radian=1.0,
         follow=partial(_link, implicit=True),
     ),
     Method(
@@ -363,16 +355,10 @@ _ALL = (
         source="scipy.integrate.solve_ivp, RK45: Dormand and Prince, J. Comp. Appl. Math. 6 (1980)",
         follow=_regularized,
     ),
-    Method(
+    _by_events(
         name="frozen-normal",
         title="Constant normal force, m g cos(theta)",
         label="normal force frozen",
-        ceiling=1e-12,
-        parameters=MappingProxyType({}),
-        knob="",
-        sweep=(),
-        order=math.nan,
-        takes_vertical=True,
         invalid_when="On any slope and with vertical shaking: both change the normal force.",
         source="As in SLAMMER's dual-slope analysis and with an elastic-plastic spring",
         follow=_frozen,
