@@ -5,10 +5,17 @@ A compiled loop hears no signal and no exception: only another process can end i
 
 import multiprocessing as mp
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from solver.verification.random_pairs import pair, warm_up
+import numpy as np
+
+from solver.model import Friction, coulomb
+from solver.records.record import read_only
+from solver.rivals.methods import NO_RECORD
+from solver.sliding.two_axes import follow
+from solver.verification.random_pairs import pair
+from solver.verification.study import flat_scene
 
 LIMIT_S = 5.0
 """Of a call; the longest pair of runs takes a tenth of it."""
@@ -31,6 +38,16 @@ class Ended:
 def run_pair(kind, index):
     """Run a pair of random scenes."""
     return pair(kind, index).run()
+
+
+def warm_up():
+    """Compile or load what pairs need: two axes with and without vertical, and both laws."""
+    push = read_only(np.array([0.0, 5.0, -5.0, 0.0]))
+    scene = flat_scene(push, push, 0.01, coulomb(0.2))
+    law = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=1.0, mu_static=0.2)
+    for friction in (scene.friction, law):
+        for az in (NO_RECORD, push):
+            follow(replace(scene, friction=friction, az_mps2=az))
 
 
 def campaign(function, calls, limit_s=LIMIT_S, prepare=warm_up):

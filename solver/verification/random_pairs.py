@@ -21,7 +21,6 @@ from solver.records.record import read_only
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.two_axes import TwoAxesOutcome, follow
 from solver.verification.model_evidence import BoundRatios
-from solver.verification.study import flat_scene
 
 EPS = 2.0**-52
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
@@ -357,13 +356,3 @@ def _of_kind(kind: str, count: int) -> BoundRatios:
         n_unanswered=count - len(outcomes),
         ratios=np.sort([outcome.ratio for outcome in outcomes if outcome.prd_m > 0.0]),
     )
-
-
-def warm_up() -> None:
-    """Compile or load what pairs need: two axes with and without vertical, and both laws."""
-    push = read_only(np.array([0.0, 5.0, -5.0, 0.0]))
-    scene = flat_scene(push, push, 0.01, coulomb(0.2))
-    law = Friction(mu_slow=0.2, mu_fast=0.3, rate_s_per_m=1.0, mu_static=0.2)
-    for friction in (scene.friction, law):
-        for az in (NO_RECORD, push):
-            follow(replace(scene, friction=friction, az_mps2=az))
