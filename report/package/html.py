@@ -68,7 +68,7 @@ def pages(
         **(plots or plot(assessment, changes, evidence)),
         **draw_uncertainty(package, evidence.uncertainty),
     }
-    ids = (*_FRONT, *(page.id for page in pages_of(package)))
+    ids = (*_FRONT, *(page.id for page in pages_of(package.changes)))
     return _html(package, _content(package, evidence, ids), drawings, equations)
 
 
@@ -85,7 +85,7 @@ _FRONT: Mapping[str, Callable[[PackageData], Content]] = {
 
 
 def _content(package: PackageData, evidence: Evidence, ids: Sequence[str]) -> dict[str, Content]:
-    pages = {page.id: page for page in pages_of(package)}
+    pages = {page.id: page for page in pages_of(package.changes)}
     return {
         id: _FRONT[id](package) if id in _FRONT else pages[id].fill(package, evidence) for id in ids
     }

@@ -94,18 +94,14 @@ CHANGES = Page("changes", "Changes", _alone(changes.page), is_appendix=True)
 """The last appendix, so that the other parts have the same numbers in every revision."""
 
 
-def pages_of(package: PackageData) -> tuple[Page, ...]:
+def pages_of(since: Changes) -> tuple[Page, ...]:
     """Return the pages of a package: with the changes only where they are asked for."""
-    return _pages(package.changes)
-
-
-def _pages(since: Changes) -> tuple[Page, ...]:
     return (*PAGES, replace(CHANGES, title=changes.title(since))) if since.is_asked_for else PAGES
 
 
 def package_data(assessment: Assessment, since: Changes = NO_FORMER) -> PackageData:
     """Return an assessment with the part numbers, and what changed since a former revision."""
-    return PackageData(assessment=assessment, numbers=_numbers(_pages(since)), changes=since)
+    return PackageData(assessment=assessment, numbers=_numbers(pages_of(since)), changes=since)
 
 
 def _numbers(pages: Sequence[Page]) -> Mapping[str, str]:
@@ -128,5 +124,5 @@ def parts(package: PackageData) -> tuple[Part, ...]:
                 for count, (name, title) in enumerate(page.below(package), start=1)
             ),
         )
-        for page in pages_of(package)
+        for page in pages_of(package.changes)
     )

@@ -107,11 +107,14 @@ def test_every_page_is_whole(state):
     assert revisions.cells
     assert [table.headings for table in tables if not (table.title and table.cells)] == []
     opened = [one.get("id") for one in body.iter("h1")]
-    assert opened == ["contents", "letter", *(page.id for page in pages_of(made))]
+    assert opened == ["contents", "letter", *(page.id for page in pages_of(made.changes))]
 
 
 def test_every_template_of_the_package_is_rendered_in_some_state():
-    ids = {*printed.FRONT, *(page.id for state in STATES for page in pages_of(package(state)))}
+    ids = {
+        *printed.FRONT,
+        *(page.id for state in STATES for page in pages_of(package(state).changes)),
+    }
     reached, left = set(), {"package.html", *(f"{id}.html" for id in ids)}
     while left:
         name = left.pop()
