@@ -24,7 +24,7 @@ import report.typeset.pdf
 import stand_in
 from places import ROOT
 from report.cli.main import main
-from report.figures import charts
+from report.figures import accelerations, charts, history, hodograph, plan, spectra
 from report.typeset.finish import Attached
 
 
@@ -151,9 +151,12 @@ def undrawn() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         empty = '<svg width="1pt" height="1pt"></svg>'
         patch.setattr(Figure, "savefig", lambda _, out, **__: out.write(empty))
-        for name in ("accelerations", "clearances", "comparison", "histories", "hodographs",
-                     "paper_svg", "roof_plan", "spectra"):  # fmt: skip
-            patch.setattr(charts, name, lambda *_, **__: empty)
+        for module, name in (
+            (accelerations, "accelerations"), (charts, "clearances"), (charts, "comparison"),
+            (history, "histories"), (hodograph, "hodographs"), (plan, "paper_svg"),
+            (plan, "roof_plan"), (spectra, "spectra"),
+        ):  # fmt: skip
+            patch.setattr(module, name, lambda *_, **__: empty)
         yield
 
 

@@ -17,40 +17,11 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
-from report.figures.accelerations import accelerations
-from report.figures.base import (
-    ACCENT,
-    FAMILY,
-    GRAY,
-    INK,
-    framed,
-    load_fonts,
-    style,
-    svg_text,
-)
-from report.figures.history import MAX_POINTS, envelope, histories
-from report.figures.hodograph import hodographs
-from report.figures.plan import paper_svg, roof_plan
-from report.figures.spectra import spectra
+from report.figures.base import ACCENT, GRAY, INK, framed, style, svg_text
 from report.memoized import memoized
 from report.words.counts import ranged
 from report.words.letters import cut
 from report.words.units import Unit
-
-__all__ = [
-    "FAMILY",
-    "MAX_POINTS",
-    "accelerations",
-    "clearances",
-    "comparison",
-    "envelope",
-    "histories",
-    "hodographs",
-    "load_fonts",
-    "paper_svg",
-    "roof_plan",
-    "spectra",
-]
 
 
 @memoized

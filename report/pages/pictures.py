@@ -45,7 +45,7 @@ def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
 
 def draw_assessment(package: PackageData) -> Drawings:
     """Return the drawings that need no evidence."""
-    from report.figures import charts as figures
+    from report.figures import accelerations, charts, plan
     from report.figures.section import array_section
 
     load_charts()
@@ -55,15 +55,15 @@ def draw_assessment(package: PackageData) -> Drawings:
         "inputs-friction": friction_tests.drawings(package),
         "method-motion": [array_section(package.governing.array, us_first)],
         "motions-list": [
-            figures.accelerations(some)
+            accelerations.accelerations(some)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
-        "plan": [printed, *map(figures.paper_svg, (printed.plan, printed.key))],
+        "plan": [printed, *map(plan.paper_svg, (printed.plan, printed.key))],
         "comparison": [
-            figures.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
+            charts.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
         ],
         "clearances": [
-            figures.clearances(some, us_first, start=1 + count * GAP_ROWS)
+            charts.clearances(some, us_first, start=1 + count * GAP_ROWS)
             for count, some in enumerate(_in_parts(assessment.clearances, GAP_ROWS))
         ],
     }
@@ -71,11 +71,11 @@ def draw_assessment(package: PackageData) -> Drawings:
 
 def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[str]:
     """Yield the plan for the summary in the room that its tables leave; none on a full sheet."""
-    from report.figures import charts as figures
+    from report.figures.plan import roof_plan
 
     tall = min(_summary_room_in(package, spectra), SMALL.tall)
     if tall >= LEAST_PLAN_IN:
-        yield figures.roof_plan(package.assessment, replace(SMALL, tall=tall))
+        yield roof_plan(package.assessment, replace(SMALL, tall=tall))
 
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
@@ -107,8 +107,8 @@ def _conditions_in(package: PackageData) -> float:
 
 def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
     """Return the drawings of spectra and of runs."""
-    from report.figures import charts as figures
     from report.figures.accuracy import work_precision
+    from report.figures.spectra import spectra
 
     load_charts()
     us_first, rivals = package.fmt.us_first, shown.accuracy.rivals
@@ -117,9 +117,7 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
     runs = zip(package.assessment.alike, shown.histories, strict=True)
     return {
         "summary": list(_small_plan(package, shown.spectra)),
-        "motions-spectra": [
-            figures.spectra(parts) for parts in ((roof, ground) if ground else (roof,))
-        ],
+        "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
         "accuracy": [work_precision(rivals)] if rivals.runs else [],
         **{
             f"results-{count}": list(_histories(group[0], followed, us_first))
@@ -141,7 +139,8 @@ def draw_uncertainty(package: PackageData, found: Uncertainty) -> Drawings:
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[tuple[str, str]]:
-    from report.figures.charts import histories, hodographs
+    from report.figures.history import histories
+    from report.figures.hodograph import hodographs
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for motions, paths in runs:

@@ -9,6 +9,9 @@ import stand_in
 from report.assessment.spectra import spectra
 from report.drawing.sheet import LANDSCAPE, SMALL
 from report.figures import charts as figures
+from report.figures import history, plan
+from report.figures.base import FAMILY
+from report.figures.spectra import spectra as drawn_spectra
 
 
 @pytest.fixture(scope="module")
@@ -25,9 +28,9 @@ def drawn(assessment):
     """Every chart of the package."""
     parts = spectra(assessment)
     return [
-        figures.roof_plan(assessment, SMALL),
-        figures.roof_plan(assessment, LANDSCAPE),
-        figures.spectra(parts),
+        plan.roof_plan(assessment, SMALL),
+        plan.roof_plan(assessment, LANDSCAPE),
+        drawn_spectra(parts),
         histories(assessment.arrays[0]),
         figures.comparison(assessment.alike, True),
         figures.clearances(assessment.clearances, True),
@@ -35,7 +38,7 @@ def drawn(assessment):
 
 
 def histories(array, us_first=True):
-    return figures.histories(array.motions, [run.history() for run in array.motions], us_first)
+    return history.histories(array.motions, [run.history() for run in array.motions], us_first)
 
 
 def words(svg):
@@ -45,7 +48,7 @@ def words(svg):
 def test_charts_carry_no_date_and_only_the_shipped_font(charts):
     for svg in charts:
         assert "<dc:date>" not in svg
-        assert set(re.findall(r"font: [^;]*?'([^']+)'", svg)) <= {figures.FAMILY}
+        assert set(re.findall(r"font: [^;]*?'([^']+)'", svg)) <= {FAMILY}
 
 
 def test_two_runs_draw_the_same_bytes_whatever_the_settings_of_the_machine(charts, assessment):
@@ -56,8 +59,8 @@ def test_two_runs_draw_the_same_bytes_whatever_the_settings_of_the_machine(chart
 def test_an_envelope_keeps_the_peaks_and_the_ends():
     rng = np.random.default_rng(3)
     t, u = np.arange(6000) * 0.005, np.cumsum(rng.standard_normal(6000))
-    t_few, u_few = figures.envelope(t, u)
-    assert len(t_few) <= figures.MAX_POINTS
+    t_few, u_few = history.envelope(t, u)
+    assert len(t_few) <= history.MAX_POINTS
     assert (u_few.min(), u_few.max()) == (u.min(), u.max())
     assert (t_few[0], t_few[-1]) == (t[0], t[-1])
     assert np.all(np.diff(t_few) > 0)
@@ -65,7 +68,7 @@ def test_an_envelope_keeps_the_peaks_and_the_ends():
 
 def test_a_short_record_is_drawn_as_it_is():
     t, u = np.arange(5.0), np.arange(5.0)
-    assert figures.envelope(t, u) == (t, u)
+    assert history.envelope(t, u) == (t, u)
 
 
 def test_each_history_states_its_prd_in_both_systems(assessment):

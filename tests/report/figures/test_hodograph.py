@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 import scenes
-from report.figures.charts import hodographs
-from report.figures.hodograph import STEP_IN, PanelScale, path_of, thinned
+from report.figures.hodograph import STEP_IN, PanelScale, hodographs, path_of, thinned
 
 
 @pytest.fixture(scope="module")
