@@ -6,7 +6,7 @@ Computes nothing. Read `report.pages.parts` first.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from report.assessment.arrays import Route
 from report.assessment.evidence import Evidence
@@ -21,30 +21,20 @@ from report.pages.limits import troubles
 from report.pages.parts import PackageData, statistic
 from report.pages.remedies import answers
 from report.words.validation import explained
-from solver.rules.limit import Limit
 from solver.verification.shake_table import SHIPPED
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Review:
-    """Arrays that peer review concerns: by analysis, and on roofs over the slope limit."""
-
-    by_analysis: tuple[str, ...]
-    steeper: tuple[str, ...]
-    slope_limit: Limit | None
-
-
-def _review(package: PackageData) -> Review:
-    """Return the arrays that have no floor, or a steeper roof, where peer review is stated."""
+def _review(package: PackageData) -> Mapping[str, object]:
+    """Return the arrays that peer review concerns: by analysis, and on roofs over a slope limit."""
     arrays = package.assessment.arrays
     excepted = {
         item.id: check for item in arrays for check in item.limits if check.passes_by_exception
     }
-    return Review(
-        by_analysis=tuple(item.id for item in arrays if item.route is Route.ANALYSIS),
-        steeper=tuple(excepted),
-        slope_limit=next(iter(excepted.values()), None),
-    )
+    return {
+        "by_analysis": [item.id for item in arrays if item.route is Route.ANALYSIS],
+        "steeper": list(excepted),
+        "slope_limit": next(iter(excepted.values()), None),
+    }
 
 
 def letter(package: PackageData) -> Mapping[str, object]:
