@@ -137,28 +137,23 @@ def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
         (f"Ground, {name}", goals.ground, [s.scaled[name] for s in ground if name in s.scaled])
         for name in ("horizontal", "transverse")
     )
-    return (
-        *(_spectra(*part, is_ground=False) for part in at_roof if part[-1]),
-        *(_spectra(*part, is_ground=True) for part in below if part[-1]),
+    parts = [*((*part, False) for part in at_roof), *((*part, True) for part in below)]
+    return tuple(
+        Spectra(
+            ids=tuple(record.name for record in records),
+            periods_s=PERIODS_S,
+            sa_g=np.array([_ordinates(each.a_mps2, each.dt_s) for each in records]) / G_MPS2,
+            target=target,
+            title=title,
+            is_ground=is_ground,
+        )
+        for title, target, records, is_ground in parts
+        if records
     )
 
 
 def _scaled(motion: Motion, a_mps2: Floats) -> Record:
     return Record(name=motion.id, dt_s=motion.dt_s, a_mps2=a_mps2 * motion.scale)
-
-
-def _spectra(
-    title: str, target: TargetSpectrum, records: Sequence[Record], *, is_ground: bool
-) -> Spectra:
-    ordinates = [_ordinates(record.a_mps2, record.dt_s) for record in records]
-    return Spectra(
-        ids=tuple(record.name for record in records),
-        periods_s=PERIODS_S,
-        sa_g=np.array(ordinates) / G_MPS2,
-        target=target,
-        title=title,
-        is_ground=is_ground,
-    )
 
 
 @memoized
