@@ -26,7 +26,7 @@ from report.figures.base import (
     svg_text,
 )
 from report.memoized import memoized
-from report.words.units import Quantity, Unit, number, pair
+from report.words.units import Unit, number
 from solver.model import Floats, SlideHistory
 
 MAX_POINTS = 150  # in a history; a panel is 150 pt wide
@@ -169,21 +169,15 @@ def _names(axes: Axes, grid: _Grid, index: int, history: SlideHistory) -> None:
 def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
     top = grid.y(index, grid.high) + 0.045
     name = f"{tick_text(run.motion.id)} {_short(run)}"
+    prd = UnitFormat(us_first).both(run.governing.prd_m)
     axes.text(grid.x(index, 0.0), top, name, weight="semibold")
-    axes.text(index % grid.columns + 0.97, top, _prd_text(run, us_first), ha="right")
+    axes.text(index % grid.columns + 0.97, top, prd, ha="right")
 
 
 def _short(run: MotionRun) -> str:
     """Return the polarity of the governing run, with its component if there are two."""
     orientation = run.governing.orientation
     return orientation.name if run.motion.has_transverse else orientation.name[-1]
-
-
-def _prd_text(run: MotionRun, us_first: bool) -> str:
-    prd_m = run.governing.prd_m
-    if math.isnan(prd_m):
-        return "none"
-    return pair(prd_m, Quantity.DISPLACEMENT, us_first)
 
 
 def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, Floats]:

@@ -11,13 +11,14 @@ from functools import partial
 from typing import Any
 
 from report.document.templates import said
+from report.entities.columns import UnitFormat
 from report.entities.marks import UNVERIFIED
 from report.pages.symbols import with_symbols
 from report.study.design import I_E, SDC
 from report.study.dispersion import is_refused, is_warned
 from report.study.results import MEAN, SLOPE_DECIMALS, StudyResults
 from report.typeset.pdf import TEMPLATES
-from report.words.units import Quantity, no_less, pair
+from report.words.units import no_less
 from solver.rules.provisions import SEPARATION_KEYS
 
 NO_NUMBER = "not determined"
@@ -52,10 +53,7 @@ def both(results: StudyResults, value_m: float) -> str:
 
     What is found for a clearance holds for a larger one.
     """
-    if math.isnan(value_m):
-        return "none"
-    us_first = results.plan.input.study.units_first.is_us
-    return pair(value_m, Quantity.DISPLACEMENT, us_first, no_less)
+    return UnitFormat(results.plan.input.study.units_first.is_us).both(value_m, show=no_less)
 
 
 def level(results: StudyResults, value: float) -> str:
