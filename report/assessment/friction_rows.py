@@ -23,7 +23,8 @@ LEAST_RUNS = 3
 """Runs at one velocity in each condition, whose kinetic coefficients are averaged (PV1-2012)."""
 
 _NOISE = 1e-9  # of a coefficient: a mean of equal values is not above them
-_STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
+STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
+"""What names the standard of friction tests."""
 
 
 def tested(data: ProjectInput) -> tuple[Series, ...]:
@@ -52,7 +53,7 @@ def _on_file(data: ProjectInput) -> Requirement:
 
 def _standard(data: ProjectInput) -> Requirement:
     tests = data.friction_tests
-    by_standard = bool(_STANDARD.search(tests.standard))
+    by_standard = bool(STANDARD.search(tests.standard))
     standard = f"standard {tests.standard or NOT_GIVEN}"
     accreditation = f"accreditation {tests.accreditation or NOT_GIVEN}"
     return _row(

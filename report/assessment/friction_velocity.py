@@ -15,13 +15,12 @@ from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import at_low_velocity, coefficient
 from report.assessment.friction_rows import tested
 from report.assessment.pending_runs import PendingRuns
-from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict
+from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict, condition
 from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.words.units import Quantity, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
-from solver.rules.limit import Consequence
 from solver.rules.provisions import RuleSet
 
 VELOCITY_ROW = "friction_velocity"
@@ -162,7 +161,7 @@ def _row(
     if alone is not None:
         outcome = ", ".join(_outcome(alone, slow, us_first))
         remedy += f" With {coefficient(alone.array.mu)} at every velocity: {outcome}."
-    return Requirement(
+    return condition(
         id=VELOCITY_ROW,
         title="Friction beyond the velocities tested",
         subject=array_id,
@@ -170,7 +169,6 @@ def _row(
         limit=f"slower than tested, or μ beyond ≤ {least}",
         basis="friction tests",
         is_satisfied=check.is_satisfied,
-        consequence=Consequence.CONDITION,
         remedy=remedy,
     )
 

@@ -8,6 +8,7 @@ from itertools import zip_longest
 
 from markupsafe import Markup, escape
 
+from report.assessment.friction_rows import STANDARD
 from report.document.tables import listed
 from report.entities.shown import words
 from report.pages.parts import PackageData
@@ -89,7 +90,6 @@ SYMBOLS: Mapping[str, str] = {
 }
 
 
-_STANDARD = re.compile(r"\bASTM[\s-]*G[\s-]*115\b", re.IGNORECASE)
 # Those with a subscript: a letter alone may be a word.
 _NAME = re.compile(rf"\b(?:{'|'.join(name for name in SYMBOLS if '_' in name)})\b")
 
@@ -103,7 +103,7 @@ def with_symbols(text: str) -> Markup:
 def friction_standard(package: PackageData) -> str:
     """Return the standard of the friction tests if it is a document to be cited, else nothing."""
     standard = package.data.friction_tests.standard
-    return standard if _STANDARD.search(standard) else ""
+    return standard if STANDARD.search(standard) else ""
 
 
 def page(package: PackageData) -> Mapping[str, object]:
