@@ -85,10 +85,6 @@ class Marked:
         mark = array.mark(lambda item: item.prescriptive.value_m)
         return joined(self.mark(self.prescriptive_key(array)), mark)
 
-    def floor_m(self, array: ArrayAssessment) -> float:
-        """Return the floor of an array for print [m]; NaN where peer review removes it."""
-        return math.nan if self.data.options.peer_reviewed else array.floor_m
-
     def floor_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of the floor of an array, if it has one."""
         if self.data.options.peer_reviewed:
