@@ -44,8 +44,8 @@ def dots(surface: ResponseSurface) -> str:
 def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:
     """Return the grid at the governing array, and one step beside it as a ratio to that."""
     array, means, mus, slopes = surface.array.array, surface.mean_m, surface.mus, surface.slopes_rad
-    row = _nearest(slopes.tolist(), array.slope_rad)
-    column = _nearest(mus.tolist(), array.mu)
+    row = int(np.abs(slopes - array.slope_rad).argmin())
+    column = int(np.abs(mus - array.mu).argmin())
     here = float(means[row, column])
     beside: dict[str, object] = {"reduced_friction": None, "steeper": None}
     if here > 0.0 and column > 0:
@@ -58,10 +58,6 @@ def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:
         "slides": bool((means > 0.0).any()),
         "n_lost": int(np.isnan(means).sum()),
     }
-
-
-def _nearest(values: Sequence[float], wanted: float) -> int:
-    return min(range(len(values)), key=lambda k: abs(values[k] - wanted))
 
 
 def _smallest(margins: Sequence[Margin]) -> Mapping[str, object]:
