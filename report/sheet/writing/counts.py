@@ -19,7 +19,6 @@ from report.sheet.writing import style
 from report.sheet.writing.marks import SEE_CHECK, mark_count
 from report.sheet.writing.needs import (
     block_lacks,
-    first_open,
     table_lacks,
     undecided_names,
     wrong_names,
@@ -46,13 +45,7 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
         to_sheet = style.put(start, row, COUNTS_COLUMN, title)
         # By a defined name, which follows a sheet that is renamed.
         to_sheet.hyperlink = Hyperlink(ref=to_sheet.coordinate, location=f"line_{sheet_name}")
-        to_cell = start.cell(row, COUNTS_COLUMN + 2)
-        said = f'IF(lacks_{sheet_name}=0,"","first cell")'
-        at = f'"#"&CELL("address",{first_open(blocks, tables)})'
-        style.put_answer(to_cell, f"HYPERLINK({at},{said})")
-        for link in (to_sheet, to_cell):
-            link.font = Font(name="Calibri", size=10, color=style.INK, underline="single")
-        name_cell(f"next_{sheet_name}", start, row, COUNTS_COLUMN + 2)
+        to_sheet.font = Font(name="Calibri", size=10, color=style.INK, underline="single")
         name = f"lacks_{sheet_name}"
         count = start.cell(row, COUNTS_COLUMN + 1)
         style.put_answer(count, "+".join(lacks) or "0", COUNT_FORMAT)

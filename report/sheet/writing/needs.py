@@ -50,7 +50,7 @@ def row_status(place: TablePlace, tests: Iterable[str]) -> str:
     row is that of the cell that asks for it.
     """
     cells = [place.here(entry.name) for entry in entries(place.section.model)]
-    lacking = "+".join(_lacking(place.section, place.here).values()) or "0"
+    lacking = _lacking(place.section, place.here) or "0"
     wrong = "+".join(f"({test})" for test in tests)
     return f'IFERROR(IF(TRIM({"&".join(cells)})="","",{lacking}-{WRONG}*({wrong})),-{WRONG})'
 
@@ -88,39 +88,14 @@ def wrong_names(section: SheetSection) -> list[str]:
     return [wrong_name(section, entry.name) for entry in entries(section.model)]
 
 
-def _lacking(section: SheetSection, refer: Callable[[str], str]) -> Mapping[str, str]:
-    """Return for each field that may be required whether its cell lacks, as 1 or 0."""
-    found = {}
+def _lacking(section: SheetSection, refer: Callable[[str], str]) -> str:
+    """Return the number of cells that are required and blank; empty if none may be."""
+    counts = []
     for entry in entries(section.model):
-        blank = f'TRIM({refer(entry.name)})=""'
-        needed = condition(section.key, entry, refer)
-        if entry.is_required:
-            found[entry.name] = f"IF({blank},1,0)"
-        elif needed:
-            found[entry.name] = f"IF(AND({needed},{blank}),1,0)"
-    return found
-
-
-def first_open(blocks: Iterable[BlockPlace], tables: Iterable[TablePlace]) -> str:
-    """Return a reference to the first cell of a sheet that is missing or wrong."""
-    steps = []
-    for section in (block.section for block in blocks):
-        lacks = _lacking(section, section.cell_name)
-        for entry, wrong in zip(entries(section.model), wrong_names(section), strict=True):
-            test = f"{lacks.get(entry.name, 0)}+{wrong}>0"
-            steps.append((test, section.cell_name(entry.name)))
-    for table in tables:
-        status, fields = table.all("status"), entries(table.section.model)
-        row = f"MATCH(1,INDEX(ISNUMBER({status})*({status}<>0),0),0)"
-        for entry in (entry for entry in fields if entry.is_required):
-            cell = f"INDEX({table.all(entry.name)},{row})"
-            steps.append((f'IFERROR(TRIM({cell})="",FALSE)', cell))
-        first = table.all(fields[0].name)
-        steps += [(f"ISNUMBER({row})", f"INDEX({first},{row})"), ("TRUE", f"INDEX({first},1)")]
-    target = steps[0][1]
-    for test, cell in reversed(steps):
-        target = f"IF({test},{cell},{target})"
-    return target
+        needed = "TRUE" if entry.is_required else condition(section.key, entry, refer)
+        if needed:
+            counts.append(f'IF(AND({needed},TRIM({refer(entry.name)})=""),1,0)')
+    return "+".join(counts)
 
 
 def is_wrong(cell: str, entry: Entry, unit: str) -> str:
@@ -160,7 +135,7 @@ def table_lacks(place: TablePlace) -> str:
 
 def block_lacks(place: BlockPlace) -> str:
     """Return the number of cells that a block lacks; empty if it requires none."""
-    return "+".join(_lacking(place.section, place.section.cell_name).values())
+    return _lacking(place.section, place.section.cell_name)
 
 
 def block_begun(place: BlockPlace) -> str:

@@ -18,7 +18,7 @@ from report.sheet.writing.counts import COUNTS_COLUMN, START
 from report.sheet.writing.sketch import SIZE_IN, sketch_png
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS
 
-_WIDTHS = (5, 24, 76, 16, 14, 12)
+_WIDTHS = (5, 24, 76, 16, 14)
 _HINT = "From this workbook to the calculation package. This sheet has no input cells."
 
 STEPS = (
@@ -90,7 +90,7 @@ def color_tabs(book: Workbook) -> None:
 def write_start(book: Workbook) -> int:
     """Write the sheet; return the first row of the list of what each sheet lacks."""
     sheet = book[START]
-    for column, width in zip("ABCDEF", _WIDTHS, strict=True):
+    for column, width in zip("ABCDE", _WIDTHS, strict=True):
         sheet.column_dimensions[column].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
     sheet.page_setup.fitToHeight = 1
@@ -101,7 +101,7 @@ def write_start(book: Workbook) -> int:
     row = _put_heading(sheet, _write_colors(sheet, row), "Notes")
     for at, note in enumerate(_NOTES, start=row):
         style.put(sheet, at, 2, note)
-        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=6)
+        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=5)
         sheet.row_dimensions[at].height = 34
     return counts
 

@@ -22,7 +22,7 @@ MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 PREFIXED = {"_xlfn.ISFORMULA"}
 FUNCTIONS = {
     "ABS", "AND", "ATAN", "CELL", "CHAR", "CODE", "COUNT", "COUNTA", "COUNTIF", "DATEVALUE",
-    "DEGREES", "EXACT", "FALSE", "FIND", "HYPERLINK", "IF", "IFERROR", "INDEX", "INT", "ISERROR",
+    "DEGREES", "EXACT", "FALSE", "FIND", "IF", "IFERROR", "INDEX", "INT", "ISERROR",
     "ISFORMULA", "ISLOGICAL", "ISNUMBER", "LEFT", "LEN", "LOWER", "MATCH", "MAX",
     "MID", "MIN", "MOD", "N", "NA", "NOT", "OFFSET", "OR", "RADIANS", "ROUNDUP", "ROW", "ROWS",
     "SUBSTITUTE", "SUM", "SUMIF", "SUMPRODUCT", "TRIM", "UPPER",

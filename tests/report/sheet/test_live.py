@@ -164,7 +164,7 @@ def test_a_workbook_of_0_1_has_no_live_formulas():
 
 def as_before(book):
     """Take the names of whether a cell is wrong, and count as a workbook did that lacked them."""
-    for name in [n for n in book.defined_names if n.startswith(("wrong_", "undecided_", "next_"))]:
+    for name in [n for n in book.defined_names if n.startswith(("wrong_", "undecided_"))]:
         del book.defined_names[name]
     put(book, {"Start/Project": "=2-2", "Motions!A3": '="No cells missing"'})
 
