@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from report.cli.groups import SectionedGroup
-from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors, plain
+from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors, plain, say_next
 from report.cli.values import TIME_STEP, Number
 from report.words.command import called
 from report.words.counts import numbered
@@ -203,7 +203,8 @@ def suite(
         click.echo(line)
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
     if sheet:
-        _say_added(sheet.path, len(rows), has_formulas)
+        click.echo(f"{sheet.path}: {numbered(len(rows), 'row')} added to the sheet Motions.")
+        say_next(sheet.path, has_formulas)
         return
     click.echo("Next: copy the records into records/ of a project, list them on its sheet Motions,")
     click.echo(f"then run: {called()} check DIR")
@@ -259,7 +260,8 @@ def rows(
             added, files = set_rows(book, folder, sets, about)
             has_formulas = add_motions(book.path, added, files)
             click.echo(f"{book.path.parent}: {numbered(len(files), 'record')} copied.")
-            _say_added(book.path, len(added), has_formulas)
+            click.echo(f"{book.path}: {numbered(len(added), 'row')} added to the sheet Motions.")
+            say_next(book.path, has_formulas)
 
 
 def _in_library(source: Path) -> Path:
@@ -270,25 +272,17 @@ def _in_library(source: Path) -> Path:
     if source.exists():
         return source
     config = Path(click.get_app_dir("roofslip")) / "config.toml"
+    wanted = f"write motions = '/folder/of/motions' in {config}"
     try:
-        given = tomllib.loads(config.read_text(encoding="utf-8")).get("motions")
-    except FileNotFoundError:
-        hint = f"give one, or write motions = '/folder/of/motions' in {config}"
-        raise InputError(f"no such folder or zip; {meant(source) or hint}") from None
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{config}: cannot be read ({error}); write motions = '/a/folder'"
-        ) from error
-    if not isinstance(given, str) or not (found := Path(given).expanduser() / source).exists():
-        raise InputError(f"no such folder or zip, here or in the motions of {config} ({given})")
+        text = config.read_text(encoding="utf-8") if config.exists() else ""
+        library = str(tomllib.loads(text).get("motions", ""))
+        found = Path(library).expanduser() / source
+    except (OSError, ValueError, RuntimeError) as error:  # the last of an unknown ~user
+        raise InputError(f"{config}: cannot be read ({error}); {wanted}") from error
+    if not library or not found.exists():
+        place = f"here or in {library}" if library else f"here; {meant(source) or wanted}"
+        raise InputError(f"no such folder or zip, {place}")
     return found
-
-
-def _say_added(workbook: Path, count: int, has_formulas: bool) -> None:
-    click.echo(f"{workbook}: {numbered(count, 'row')} added to the sheet Motions.")
-    click.echo(f"Next: {called()} check {workbook}")
-    if has_formulas:
-        click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 
 
 def _targets(

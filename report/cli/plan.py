@@ -14,7 +14,7 @@ import click
 
 from report.cli.groups import SectionedGroup
 from report.cli.plan_layers import choose, given_kinds
-from report.cli.terminal import SOURCE, input_errors, plain
+from report.cli.terminal import SOURCE, input_errors, plain, say_next
 from report.cli.values import Measured, Number
 from report.words.command import called
 
@@ -93,7 +93,8 @@ def read(
     except InputError as error:
         click.echo(plain(f"Clearances are not added yet: {error.problems[0]}."))
         click.echo(f"Once the workbook has no errors, run: {called()} plan clearances {project}")
-    _say_filled(path, project, "the plan is", has_formulas)
+    click.echo(f"{path}: the plan is filled in.")
+    say_next(project, has_formulas)
 
 
 @plan.command()
@@ -107,8 +108,7 @@ def clearances(project: Path) -> None:
     """
     with input_errors(project):
         has_formulas = _with_clearances(project)
-    click.echo(f"Next: {called()} check {project}")
-    _note_formulas(has_formulas)
+    say_next(project, has_formulas)
 
 
 def _with_clearances(project: Path) -> bool:
@@ -123,17 +123,6 @@ def _with_clearances(project: Path) -> bool:
     for line in lines:
         click.echo(plain(line))
     return has_formulas
-
-
-def _say_filled(path: Path, project: Path, what: str, has_formulas: bool) -> None:
-    """Say what was filled in, and what comes next."""
-    click.echo(f"{path}: {what} filled in. Complete it, then run: {called()} check {project}")
-    _note_formulas(has_formulas)
-
-
-def _note_formulas(has_formulas: bool) -> None:
-    if has_formulas:
-        click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 
 
 def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
@@ -324,7 +313,8 @@ def ballast(ballast_map: Path, project: Path, units: str, block_n: float, replac
         "The model has no rotation in plan and one friction coefficient under an array; it uses no"
         " eccentricity."
     )
-    _say_filled(book.path, project, "the ballast weights are", has_formulas)
+    click.echo(f"{book.path}: the ballast weights are filled in.")
+    say_next(project, has_formulas)
 
 
 def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:

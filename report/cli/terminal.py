@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
-from report.words.command import as_typed
+from report.words.command import as_typed, called
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
@@ -152,6 +152,13 @@ def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
     for problem in grouped(problems):
         click.echo(f"  {as_typed(plain(problem.line))}", err=True)
+
+
+def say_next(project: Path, has_formulas: bool) -> None:
+    """Say what comes after cells of a workbook were filled in."""
+    click.echo(f"Next: {called()} check {project}")
+    if has_formulas:
+        click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 
 
 def system_problem(error: OSError) -> Problem:

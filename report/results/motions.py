@@ -5,9 +5,8 @@ Read `add_motions`.
 
 from __future__ import annotations
 
-import posixpath
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -55,16 +54,19 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
     Raises
     ------
     InputError
-        With each cell that has one of their IDs or records already, or if they have no room.
+        With each cell that has one of their IDs already, or if they have no room.
     """
     table = GrowingTable.of(book, "motions")
-    if doubled := list(_doubled(table, rows)):
-        raise InputError(doubled)
-    cells: dict[CellPosition, Value] = {}
-    for row in rows:
-        number = table.added()
-        cells |= {table.position(number, field): value for field, value in row.items()}
-    return cells
+    ids = [table.cell(number, "id") for row in rows for number in table.rows("id", str(row["id"]))]
+    if ids:
+        wanted = "remove the row, or leave the motion out"
+        raise InputError([Problem(f"has '{c.shown}' already", wanted, c.address) for c in ids])
+    numbered = [(table.added(), row) for row in rows]
+    return {
+        table.position(number, field): value
+        for number, row in numbered
+        for field, value in row.items()
+    }
 
 
 def name_beside(book: OpenBook, path: Path) -> str:
@@ -96,12 +98,13 @@ def set_rows(
     InputError
         For each file in whose place another one is.
     """
+    home = book.path.parent
     names: dict[str, str] = {}
     files: dict[str, bytes] = {}
     taken: list[str] = []
     for file in {each.file: None for group in sets.values() for each in group}:
-        source, target = folder / file, book.path.parent / "records" / file
-        if source.resolve().is_relative_to(book.path.parent.resolve()):
+        source, target = folder / file, home / "records" / file
+        if source.resolve().is_relative_to(home.resolve()):
             names[file] = name_beside(book, source)
             continue
         names[file], content = name_beside(book, target), source.read_bytes()
@@ -113,26 +116,7 @@ def set_rows(
         raise InputError(taken)
     rows: list[Row] = []
     for name, group in sets.items():
-        cells = (f"{names[each.file]}{each.name.removeprefix(each.file)}" for each in group)
-        source_text = f"{name}, {group[0].format}"
-        rows.append(
-            {"id": name, **dict(zip(LABELS, cells, strict=True)), "source": source_text, **about}
-        )
+        cells = [names[each.file] + each.name.removeprefix(each.file) for each in group]
+        records = dict(zip(LABELS, cells, strict=True))
+        rows.append({"id": name, **records, "source": f"{name}, {group[0].format}", **about})
     return rows, files
-
-
-def _doubled(table: GrowingTable, rows: Sequence[Row]) -> Iterator[Problem]:
-    fields = [field for field in ("id", *LABELS) if field in table.found.columns]
-    new = {_key(field, str(row[field])) for row in rows for field in fields}
-    for number in table.found.rows:
-        for field in fields:
-            cell = table.cell(number, field)
-            if not cell.is_blank and _key(field, cell.shown) in new:
-                wanted = "remove the row, or leave the motion out"
-                yield Problem(f"has '{cell.shown}' already", wanted, cell.address)
-
-
-def _key(field: str, text: str) -> tuple[bool, str]:
-    """Return what is equal for equal IDs, and for names of the same record."""
-    file, bar, channel = text.replace("\\", "/").casefold().partition(BAR)
-    return field == "id", posixpath.normpath(file.strip()) + bar + " ".join(channel.split())

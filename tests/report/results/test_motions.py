@@ -52,7 +52,7 @@ def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
     # Everything stands already: each cell is listed, and nothing changes.
     after = path.read_bytes()
     told = commands.refused(*rows(library, path, "--at", "ground", "--only", "k*"))
-    assert told.count("already; remove the row, or leave the motion out") == 4
+    assert told.count("already; remove the row, or leave the motion out") == 1
     assert path.read_bytes() == after
 
 
@@ -135,6 +135,7 @@ def test_the_library_of_the_user_is_searched(library, tmp_path, monkeypatch):
     for text, why in (
         ("motions = 3", "no such folder or zip, here or in"),
         ("motions", "cannot be read"),
+        ("motions = '~nobody-here/m'", "cannot be read"),
     ):
         config.write_text(text)
         assert why in commands.refused(*rows("kobe"))
