@@ -22,7 +22,7 @@ from report.sheet.schema.answers import STATUS
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from report.sheet.schema.layout import LAST_ROW, BlockPlace, Layout, TablePlace
 from report.sheet.schema.scene import DRAWING
-from report.sheet.writing.needs import block_begun, condition, undecided_names, wrong_name
+from report.sheet.writing.needs import block_begun, lacks, undecided_names, wrong_name
 
 RED, AMBER, GREEN, VIOLET, DRAWN = "F4B6B0", "FFCE8A", "2E7D4F", "D9C3EC", "CFE9E1"
 RED_INK, UNDECIDED = "B3261E", "5F6A72"
@@ -49,15 +49,8 @@ def mark_table(sheet: Worksheet, place: TablePlace) -> None:
     # A row that was inserted has no status, but a name.
     begun = f'{status}&TRIM({place.cell(entries(place.section.model)[0].name)})<>""'
     for entry in entries(place.section.model):
-        cell = place.cell(entry.name)
-        needed = "TRUE" if entry.is_required else condition(place.section.key, entry, place.cell)
-        if needed:
-            lacks = f'{begun},TRIM({cell})=""'
-            test = f"AND({lacks})" if entry.is_required else f"AND({lacks},{needed})"
-            _mark(sheet, place.cells(entry.name), test, _RED_FILL)
-        _mark_values(sheet, place.cells(entry.name), cell, entry, place.section)
-    if "source" in place.letters:
-        for entry in entries(place.section.model):
+        _mark_cells(sheet, place.cells(entry.name), place, entry, begun)
+        if "source" in place.letters:
             drawn = f'TRIM({place.cell("source")})="{DRAWING}"'
             _mark(sheet, place.cells(entry.name), drawn, _DRAWN_FILL)
     done = f"AND(ISNUMBER({status}),{status}=0)"
@@ -80,16 +73,11 @@ def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
     for entry in entries(place.section.model):
         cell = place.cell(entry.name)
         at = cell.replace("$", "")
+        _mark_cells(sheet, at, place, entry, begun or "TRUE")
         if entry.is_required:
-            _mark(sheet, at, f'AND({begun},TRIM({cell})="")', _RED_FILL)
-            label = at.replace("B", "A")
             wrong = wrong_name(place.section, entry.name)
-            _mark(sheet, label, f'AND(TRIM({cell})<>"",NOT({wrong}))', _GREEN_FONT)
-        needed = condition(place.section.key, entry, place.cell)
-        if needed:
-            starts = f"{begun}," if begun else ""
-            _mark(sheet, at, f'AND({starts}{needed},TRIM({cell})="")', _RED_FILL)
-        _mark_values(sheet, at, cell, entry, place.section)
+            done = f'AND(TRIM({cell})<>"",NOT({wrong}))'
+            _mark(sheet, at.replace("B", "A"), done, _GREEN_FONT)
 
 
 def mark_lost(book: Workbook, layout: Layout) -> None:
@@ -125,13 +113,15 @@ def mark_count(sheet: Worksheet, cell: str, count: str, sections: Iterable[Sheet
     _mark(sheet, cell, f"{count}<>0", _RED_FONT)
 
 
-def _mark_values(
-    sheet: Worksheet, cells: str, cell: str, entry: Entry, section: SheetSection
+def _mark_cells(
+    sheet: Worksheet, cells: str, place: BlockPlace | TablePlace, entry: Entry, begun: str
 ) -> None:
-    """Mark what is refused, and a number that is not usual."""
-    _mark(sheet, cells, wrong_name(section, entry.name), _RED_FILL)
+    """Mark what is missing, what is refused, and a number that is not usual."""
+    if missing := lacks(place.section, entry, place.cell):
+        _mark(sheet, cells, f"AND({begun},{missing})", _RED_FILL)
+    _mark(sheet, cells, wrong_name(place.section, entry.name), _RED_FILL)
     if entry.kind in (int, float) and not entry.choices:
-        unit = f"unit_{section.cell_name(entry.name)}"
+        cell, unit = place.cell(entry.name), f"unit_{place.section.cell_name(entry.name)}"
         value = f"{cell}*{unit}" if entry.quantity else cell
         _mark(sheet, cells, f"AND(ISNUMBER({cell}),{_outside(value, entry)})", _AMBER_FILL)
 

@@ -32,10 +32,13 @@ def undecided_names(sections: Iterable[SheetSection]) -> list[str]:
     return [f"undecided_{s.key}" for s in sections if s in SECTIONS and s.key in UNDECIDED]
 
 
-def condition(section: str, entry: Entry, refer: Callable[[str], str]) -> str:
-    """Return when an optional cell is required, with references to cells; empty for never."""
-    required = conditions.REQUIRED.get((section, entry.name))
-    return required.when.formula(refer) if required else ""
+def lacks(section: SheetSection, entry: Entry, refer: Callable[[str], str]) -> str:
+    """Return whether a cell is required and blank; empty if it is never required."""
+    blank = f'TRIM({refer(entry.name)})=""'
+    if entry.is_required:
+        return blank
+    required = conditions.REQUIRED.get((section.key, entry.name))
+    return f"AND({required.when.formula(refer)},{blank})" if required else ""
 
 
 def status_name(section: SheetSection) -> str:
@@ -90,12 +93,8 @@ def wrong_names(section: SheetSection) -> list[str]:
 
 def _lacking(section: SheetSection, refer: Callable[[str], str]) -> str:
     """Return the number of cells that are required and blank; empty if none may be."""
-    counts = []
-    for entry in entries(section.model):
-        needed = "TRUE" if entry.is_required else condition(section.key, entry, refer)
-        if needed:
-            counts.append(f'IF(AND({needed},TRIM({refer(entry.name)})=""),1,0)')
-    return "+".join(counts)
+    tests = (lacks(section, entry, refer) for entry in entries(section.model))
+    return "+".join(f"IF({test},1,0)" for test in tests if test)
 
 
 def is_wrong(cell: str, entry: Entry, unit: str) -> str:
