@@ -53,18 +53,7 @@ def mark_table(sheet: Worksheet, place: TablePlace) -> None:
         if "source" in place.letters:
             drawn = f'TRIM({place.cell("source")})="{DRAWING}"'
             _mark(sheet, place.cells(entry.name), drawn, _DRAWN_FILL)
-    done = f"AND(ISNUMBER({status}),{status}=0)"
-    _mark_undecided(sheet, place.cells(STATUS), done, [place.section])
-    _mark(sheet, place.cells(STATUS), done, _GREEN_FONT)
-    _mark(sheet, place.cells(STATUS), f"AND(ISNUMBER({status}),{status}<>0)", _RED_FONT)
-
-
-def _mark_undecided(
-    sheet: Worksheet, cells: str, done: str, sections: Iterable[SheetSection]
-) -> None:
-    """Mark what lacks nothing and may yet be refused, because no formula tells."""
-    if names := undecided_names(sections):
-        _mark(sheet, cells, f"AND({done},OR({','.join(names)}))", _UNDECIDED)
+    mark_count(sheet, place.cells(STATUS), status, [place.section])
 
 
 def mark_block(sheet: Worksheet, place: BlockPlace) -> None:
@@ -106,11 +95,16 @@ def mark_ratio(sheet: Worksheet, place: TablePlace, name: str) -> None:
     _mark(sheet, cells, green, _GREEN_FONT)
 
 
-def mark_count(sheet: Worksheet, cell: str, count: str, sections: Iterable[SheetSection]) -> None:
-    """Mark the line at the top of a sheet by the number of cells that its sections lack."""
-    _mark_undecided(sheet, cell, f"{count}=0", sections)
-    _mark(sheet, cell, f"{count}=0", _GREEN_FONT)
-    _mark(sheet, cell, f"{count}<>0", _RED_FONT)
+def mark_count(sheet: Worksheet, cells: str, count: str, sections: Iterable[SheetSection]) -> None:
+    """Mark a row, or the line at the top of a sheet, by the number of cells that it lacks.
+
+    What lacks none has another look where no formula tells whether its sections are accepted.
+    """
+    done = f"AND(ISNUMBER({count}),{count}=0)"
+    if names := undecided_names(sections):
+        _mark(sheet, cells, f"AND({done},OR({','.join(names)}))", _UNDECIDED)
+    _mark(sheet, cells, done, _GREEN_FONT)
+    _mark(sheet, cells, f"AND(ISNUMBER({count}),{count}<>0)", _RED_FONT)
 
 
 def _mark_cells(
