@@ -128,30 +128,32 @@ async def _example(request: Request) -> Response:
 
 async def _upload(request: Request) -> Response:
     """Open what was sent."""
-    folder = session_of(request).new_folder()
-    return await _open_new(request, folder, await received(request, folder))
+    return await _open_new(request, received)
 
 
 async def _clearances(request: Request) -> Response:
     """Open a copy of what is open, with a clearance for each pair of the plan that lacks one."""
     await receive_json(request)
-    session = session_of(request)
-    folder, given = session.new_folder(), session.workbook
+    return await _open_new(request, _with_clearances)
+
+
+async def _with_clearances(request: Request, folder: Path) -> Path:
+    given = session_of(request).workbook
     workbook = folder / "project" / given.name
-    try:
-        await run_in_threadpool(copied, given, workbook.parent)
-        job = {"do": "add_clearances", "workbook": str(given), "to": str(workbook)}
-        await desk_of(request).ask(session, job, Rank.AT_REST)
-    except BaseException:
-        await run_in_threadpool(remove, folder)
-        raise
-    return await _open_new(request, folder, workbook)
+    await run_in_threadpool(copied, given, workbook.parent)
+    job = {"do": "add_clearances", "workbook": str(given), "to": str(workbook)}
+    await desk_of(request).ask(session_of(request), job, Rank.AT_REST)
+    return workbook
 
 
-async def _open_new(request: Request, folder: Path, workbook: Path) -> Response:
-    """Open a workbook of a new folder, unless it has errors or another was opened meanwhile."""
+async def _open_new(
+    request: Request, store: Callable[[Request, Path], Awaitable[Path]]
+) -> Response:
+    """Open a workbook stored in a new folder, unless it has errors or another was opened."""
     session = session_of(request)
+    folder = session.new_folder()
     try:
+        workbook = await store(request, folder)
         found = await _whole_state(request, workbook)
         if not session.is_newest(folder):
             raise InputError("Another project was opened meanwhile; open this one again.")

@@ -12,20 +12,17 @@ export function mountMotions(element, api, { open, fail }) {
   async function make(files) {
     turn += 1;
     const mine = turn;
+    const begun = await api.startMotions(files);
+    const cancel = () => api.cancelPackage(begun.ticket).catch(fail);
+    const show = (told) => isOver(told) || showProgress(element, api, told, cancel);
     const isWanted = () => mine === turn;
-    let told = await api.startMotions(files);
-    const cancel = () => api.cancelPackage(told.ticket).catch(fail);
-    const show = (latest) => {
-      told = latest;
-      if (!isOver(told)) showProgress(element, api, told, cancel);
-    };
-    await follow(api, told, { isWanted, show });
+    const made = await follow(api, begun, { isWanted, show }).catch((error) => ({ words: error.message }));
     if (!isWanted()) return;
-    if (told.state === "done") await goOn(`/api/package/${told.ticket}/project.zip`);
+    if (made.state === "done") await goOn(`/api/package/${begun.ticket}/project.zip`);
     else {
       offer(files);
-      element.append(note(told.words));
-      api.announce(told.words);
+      element.append(note(made.words));
+      api.announce(made.words);
     }
   }
 

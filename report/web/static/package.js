@@ -76,17 +76,18 @@ export function say(status, api, sentence) {
   api.announce(sentence);
 }
 
-/** Show a package, from what the server told of it, until it is over or no longer wanted. */
+/** Show a package, from what the server told of it, until it is over, which is returned, or no longer wanted. */
 export async function follow(api, told, { isWanted, show }) {
   let latest = told;
   while (isWanted()) {
     show(latest);
-    if (isOver(latest)) return;
+    if (isOver(latest)) break;
     await new Promise((done) => {
       setTimeout(done, POLL_MS);
     });
     if (isWanted()) latest = await api.packageState(told.ticket);
   }
+  return latest;
 }
 
 // How far a package is, its files, or what became of it.
