@@ -123,10 +123,10 @@ def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float)
 @click.argument("more", metavar="", nargs=-1)
 @click.option("--sds", "s_ds_g", type=Number("g"), help="S_DS.")
 @click.option("--zh", "z_over_h", type=Number(),
-              help="Height ratio z/h of the array; 1 unless --into has another.")  # fmt: skip
+              help="Height ratio z/h of the array; 1 by default.")  # fmt: skip
 @click.option("--code", help="Edition for the AC156 target spectrum, e.g. asce7-16 or pv1.")
 @click.option("--tail", type=click.Choice(["ac156", "1/T"]), help="Target below 1.3 Hz: the AC156 "
-              "line, or 1/T; the line unless --into has another.")  # fmt: skip
+              "line, the default, or 1/T.")  # fmt: skip
 @click.option("--target", metavar="BOOK.xlsx!SHEET|CSV", help="Your own target spectrum, with "
               "columns frequency [Hz] or period [s], horizontal [g], vertical [g].")  # fmt: skip
 @click.option("--count", type=click.IntRange(1, 99), default=7, show_default=True,
@@ -136,8 +136,8 @@ def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float)
 @click.option("--records", metavar="FILES", multiple=True, help="Use records as seeds, not "
               "noise: one motion per file, or per files joined by commas. After DIR.")  # fmt: skip
 @click.option("--into", metavar="DIR|WORKBOOK", type=SOURCE, help="Add the motions to the sheet "
-              "Motions; DIR must be in its folder. S_DS, z/h, code and tail that are not given are "
-              "those of the workbook.")  # fmt: skip
+              "Motions; DIR must be in its folder. Without any of --sds, --zh, --code, --tail and "
+              "--target, the target is that of its site.")  # fmt: skip
 @_reading
 def suite(
     folder: Path,
@@ -290,20 +290,18 @@ def _targets(
 ) -> tuple[SuiteTargets, list[str]]:
     """Return the target of a suite, and what of it is from which cells of a workbook."""
     from report.suite.inputs import ac156_targets, table_targets
-    from report.suite.site import suite_basis
+    from report.suite.site import site_targets
     from report.suite.target_table import read_target
     from solver.model import InputError
     from solver.rules.spectra import Tail
 
-    if "tail" in given:
-        given["tail"] = Tail.RECIPROCAL if given["tail"] == "1/T" else Tail.AC156
-    whole: dict[str, Any] = {"s_ds_g": math.nan, "z_over_h": 1.0, "tail": Tail.AC156} | given
+    if sheet and not given and not target:
+        return site_targets(sheet)
+    whole: dict[str, Any] = {"s_ds_g": math.nan, "z_over_h": 1.0} | given
+    whole["tail"] = Tail.RECIPROCAL if given.get("tail") == "1/T" else Tail.AC156
     if target:
         table = read_target(target)
         return table_targets(table, s_ds_g=whole["s_ds_g"], tail=whole["tail"]), []
-    if sheet:
-        basis, taken = suite_basis(sheet, given | ({"edition": ""} if "code" in given else {}))
-        return ac156_targets(**basis), taken
     if not {"s_ds_g", "code"} <= given.keys():
         raise InputError("no target; give --sds and --code, or --target")
     return ac156_targets(**whole), []

@@ -67,7 +67,7 @@ def ac156_targets(
     """
     problems = _s_ds_problems(s_ds_g)
     if not 0.0 <= z_over_h <= 1.0:
-        problems.append(f"--zh is {z_over_h:g}; give a number from 0 (ground) to 1 (roof)")
+        problems.append(f"z/h is {z_over_h:g}; give a number from 0 (ground) to 1 (roof)")
     if problems:
         raise InputError(problems)
     if code not in CODES:
@@ -137,7 +137,7 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
 def _s_ds_problems(s_ds_g: float) -> list[str]:
     if _LEAST_S_DS_G <= s_ds_g <= _MOST_S_DS_G:
         return []
-    return [f"--sds is {s_ds_g:g} g; give {_LEAST_S_DS_G:g} to {_MOST_S_DS_G:g} g"]
+    return [f"S_DS is {s_ds_g:g} g; give {_LEAST_S_DS_G:g} to {_MOST_S_DS_G:g} g"]
 
 
 def _check_level(name: str, target: Target) -> None:

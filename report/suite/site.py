@@ -1,32 +1,29 @@
-"""The site of a workbook as the basis of a suite, and the rows of its motions.
+"""The site of a workbook as the target of a suite, and the rows of its motions.
 
-Read `suite_basis`.
+Read `site_targets`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import PurePosixPath
-from typing import Any
 
 from report.sheet.checking.site_checks import site_parameters
 from report.sheet.reading.read import Sheet
 from report.sheet.schema.fields import Place
-from report.suite.inputs import CODES, SuiteTargets
+from report.suite.inputs import CODES, SuiteTargets, ac156_targets
 from solver.model import InputError
 
 _CODE_OF = {name: code for code, name in CODES.items()}
 
 
-def suite_basis(sheet: Sheet, given: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
-    """Return the arguments of `ac156_targets`, and which of them are from which cells.
-
-    Those given are not taken from the workbook.
+def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
+    """Return the AC156 spectra of the site of a workbook, and what of them is from which cells.
 
     Raises
     ------
     InputError
-        With the cells of each value that the workbook does not give.
+        With the cells of each value that the workbook does not give, or is out of range.
     """
     site, target = ([*sheet.draft[key], {}][0] for key in ("site", "target"))
     parameters = site_parameters(site)
@@ -40,23 +37,22 @@ def suite_basis(sheet: Sheet, given: Mapping[str, Any]) -> tuple[dict[str, Any],
         ("edition", "edition", site.get("edition_name") or "", ("edition_name",)),
         ("tail", "tail", target.get("tail"), ("tail",)),
     )  # fmt: skip
-    values, lines, lacking = dict(given), [], []
+    lines, lacking = [], []
     for name, label, value, fields in found:
         key = "target" if name == "tail" else "site"
         cells = " and ".join(sheet.where(Place(key, 0, field)) for field in fields)
-        if name not in given and value is None:
+        if value is None:
             lacking.append(f"{cells}: {label} is missing or cannot be read; fill it in")
-        elif name not in given and value != "":
+        elif value != "":
             shown = f"{value:.4g}" if isinstance(value, float) else value
             lines.append(f"{label} {shown}{' g' if label == 'S_DS' else ''} from {cells}")
-        values.setdefault(name, value)
     if sheet.draft["spectrum"]:
         at = sheet.where(Place("spectrum"))
         lacking.append(f"{at}: a target spectrum is given, not that of AC156; add --target to the"
                        " command motion suite, with that spectrum as CSV")  # fmt: skip
     if lacking:
         raise InputError(lacking)
-    return values, lines
+    return ac156_targets(**{name: value for name, _, value, _ in found}), lines
 
 
 def suite_rows(

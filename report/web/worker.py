@@ -97,11 +97,10 @@ def motions_made(workbook: Path, out: Path) -> str:
         from report.results.motions import add_motions
         from report.sheet.reading.read import read
         from report.suite.files import suite_files
-        from report.suite.inputs import ac156_targets
-        from report.suite.site import suite_basis, suite_rows
+        from report.suite.site import site_targets, suite_rows
         from solver.synthesis import make_suite
 
-        targets = ac156_targets(**suite_basis(read(workbook), {})[0])
+        targets, _ = site_targets(read(workbook))
         tell("Preparing the motions")
         suite = make_suite(
             targets.horizontal,

@@ -10,40 +10,59 @@ import waves
 from report.results.publish import STAMP
 from report.sheet.reading.read import read
 from report.suite.inputs import ac156_targets
-from report.suite.site import suite_basis
+from report.suite.site import site_targets
 from sheets import at, edit, make, type_into
 from solver.model import InputError
 from solver.rules.spectra import Tail
 
 
-def test_the_basis_of_a_suite_is_the_site_of_the_workbook_with_its_cells(tmp_path):
+def test_the_target_of_a_suite_is_the_site_of_the_workbook_with_its_cells(tmp_path):
     sheet = read(make(tmp_path))
-    basis, lines = suite_basis(sheet, {})
+    targets, lines = site_targets(sheet)
     site = sheet.project.site
-    assert basis["s_ds_g"] == site.s_ds
-    assert basis["z_over_h"] == pytest.approx(site.z_over_h, rel=1e-11)
-    assert (basis["tail"], basis["code"]) == (Tail.AC156, "pv1")
+    assert targets.facts["s_ds_g"] == site.s_ds
+    assert targets.facts["z_over_h"] == pytest.approx(site.z_over_h, rel=1e-11)
+    assert (targets.facts["tail"], targets.facts["code"]) == (Tail.AC156, site.rule_set)
     given = at("Site/S_DS") if site.s_ds_g else f"{at('Site/S_S')} and {at('Site/F_a')}"
     assert lines[0] == f"S_DS {site.s_ds:.4g} g from {given}"
     assert f"code pv1 from {at('Site/Rule set')}" in lines
-    asked = {"s_ds_g": 0.5, "z_over_h": 0.5, "code": "asce7-22"}
-    asked |= {"tail": Tail.RECIPROCAL, "edition": ""}
-    assert suite_basis(sheet, asked) == (asked, [])
 
 
 def test_the_edition_of_the_workbook_has_its_spectrum(tmp_path):
     path = type_into(make(tmp_path), {"Site/Edition of ASCE 7": "ASCE 7-22", "Site/S_DS": 1.2})
-    basis, lines = suite_basis(read(path), {})
+    targets, lines = site_targets(read(path))
     assert f"edition ASCE 7-22 from {at('Site/Edition of ASCE 7')}" in lines
-    alike = ac156_targets("asce7-22", **{k: basis[k] for k in ("s_ds_g", "z_over_h", "tail")})
-    assert ac156_targets(**basis).horizontal[1].tolist() == alike.horizontal[1].tolist()
+    alike = {name: targets.facts[name] for name in ("s_ds_g", "z_over_h")}
+    alike = ac156_targets("asce7-22", **alike, tail=Tail(targets.facts["tail"]))
+    assert targets.horizontal[1].tolist() == alike.horizontal[1].tolist()
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--zh", 0.5), "no target; give --sds and --code, or --target"),
+        (("--sds", 0.5, "--code", "asce7-22"), "AC156 with ASCE 7-22, S_DS 0.5 g, z/h 1"),
+    ],
+)
+def test_a_target_is_that_of_the_options_or_of_the_workbook(tmp_path, quick, options, said):
+    path, made = make(tmp_path), tmp_path / "made"
+    words = (*suite(made, "--into", path), *options)
+    refused = said.startswith("no target")
+    assert said in (commands.refused(*words) if refused else commands.printed(*words))
+    assert made.exists() != refused
+
+
+def test_a_site_out_of_range_is_told_without_an_option(tmp_path):
+    path = type_into(make(tmp_path), {"Site/S_DS": 0.005})
+    with pytest.raises(InputError, match=r"^S_DS is 0\.005 g; give"):
+        site_targets(read(path))
 
 
 def test_each_value_that_the_workbook_lacks_is_an_error_at_its_cells(tmp_path):
     cells = ("S_S", "F_a", "S_DS", "S_MS", "Rule set", "Structure height h")
     path = type_into(make(tmp_path), {f"Site/{label}": None for label in cells})
     with pytest.raises(InputError) as caught:
-        suite_basis(read(path), {})
+        site_targets(read(path))
     assert [text.partition(": ")[2].split()[0] for text in caught.value.problems] == [
         "S_DS",
         "z/h",
@@ -55,7 +74,7 @@ def test_each_value_that_the_workbook_lacks_is_an_error_at_its_cells(tmp_path):
 def test_a_workbook_without_the_sheet_lacks_all_its_values(tmp_path):
     path = edit(make(tmp_path), lambda book: book.remove(book["Site"]))
     with pytest.raises(InputError) as caught:
-        suite_basis(read(path), {})
+        site_targets(read(path))
     assert len(caught.value.problems) == 3
 
 
@@ -63,7 +82,7 @@ def test_a_target_spectrum_of_the_workbook_is_not_passed_over(tmp_path):
     points = [{"period_s": t, "horizontal_g": a} for t, a in ((0.02, 0.5), (5.0, 0.1))]
     sheet = read(make(tmp_path, spectrum=points))
     with pytest.raises(InputError, match="a target spectrum is given, not that of AC156; add --ta"):
-        suite_basis(sheet, {})
+        site_targets(sheet)
 
 
 @pytest.fixture

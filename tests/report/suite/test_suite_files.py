@@ -249,9 +249,9 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
     [
         ((), "no target; give --sds and --code, or --target"),
         (("--sds", 1.0), "no target"),
-        (("--sds", 0.0, "--code", "pv1"), "--sds is 0 g; give 0.01 to 5 g"),
+        (("--sds", 0.0, "--code", "pv1"), "S_DS is 0 g; give 0.01 to 5 g"),
         (("--sds", "inf", "--code", "pv1"), "'--sds': it is inf g; give a finite number."),
-        (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "--zh is 1.5; give a number from 0"),
+        (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; give a number from 0"),
         (
             ("--sds", 1.0, "--code", "pv1", "--zh", "nan"),
             "'--zh': it is nan; give a finite number.",
