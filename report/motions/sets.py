@@ -115,13 +115,14 @@ def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets
     plain = Counter(name for name, _, _ in clear)
     named = [(name if plain[name] == 1 else longer, group) for name, longer, group in clear]
     times = Counter(name for name, _ in named)
+    sets = {}
     for name, group in named:
-        if times[name] > 1 or len(name) > MOST_NAME:
+        if times[name] == 1 and len(name) <= MOST_NAME:
+            sets[name] = group
+        else:
             wanted = f"give them one of at most {MOST_NAME} letters that no other set has"
             left.append((_listed(group), f"their name is {name}; {wanted}"))
-    return {
-        name: group for name, group in named if times[name] == 1 and len(name) <= MOST_NAME
-    }, left
+    return sets, left
 
 
 def table(sets: Sets) -> Iterator[str]:
