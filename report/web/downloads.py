@@ -16,10 +16,10 @@ from starlette.routing import Route
 
 from report.making import OUTPUTS
 from report.web.desk import RefusedError, desk_of, session_of
-from report.web.packages import SUITE, Package, State, copied
+from report.web.packages import Package, State, copied
 from report.web.receiving import receive_json, received
 from report.web.uploads import remove
-from report.web.worker import PROJECT
+from report.web.worker import PROJECT, motions_made
 from report.web.workers import Rank
 from solver.model import InputError
 
@@ -79,8 +79,8 @@ async def _motions(request: Request) -> Response:
     folder = session.folder / f"package-{secrets.token_hex(8)}"
     folder.mkdir()
     workbook = await received(request, folder)
-    await packages.cancel_unfinished(session, SUITE)
-    return JSONResponse(packages.about(packages.begin(session, workbook, {}, SUITE)))
+    await packages.cancel_unfinished(session, motions_made)
+    return JSONResponse(packages.about(packages.begin(session, workbook, {}, motions_made)))
 
 
 def _writing(values: Any, to: str) -> dict[str, Any]:

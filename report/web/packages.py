@@ -29,15 +29,10 @@ KEPT = 5
 """Packages that a session keeps; older ones are removed."""
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
-    """What a process makes of a workbook, `report.web.worker`, and the steps that it tells."""
+Task = Callable[[Path, Path], str]
+"""What a process makes of a workbook: a package, `made`, or a suite, `motions_made`."""
 
-    do: Callable[[Path, Path], str]
-    steps: int
-
-
-PACKAGE, SUITE = Task(made, len(STEPS)), Task(motions_made, MOTIONS + 1)
+_STEPS: Mapping[Task, int] = {made: len(STEPS), motions_made: MOTIONS + 1}
 
 
 class State(StrEnum):
@@ -107,9 +102,7 @@ class Packages:
         """The sessions that have a package."""
         return {each.owner for each in self._all.values()}
 
-    def begin(
-        self, session: Session, workbook: Path, values: Values, task: Task = PACKAGE
-    ) -> Package:
+    def begin(self, session: Session, workbook: Path, values: Values, task: Task = made) -> Package:
         """Queue the package of a workbook that has a folder of its own, with its records.
 
         While another one of the session waits or is made, that one is returned.
@@ -136,14 +129,14 @@ class Packages:
         running.add_done_callback(self._tasks.discard)
         return package
 
-    def unfinished(self, session: Session, task: Task = PACKAGE) -> Package | None:
+    def unfinished(self, session: Session, task: Task = made) -> Package | None:
         """Return the package of a session that waits or is made."""
         own = (each for each in self._of(session) if each.task is task)
         return next((each for each in own if not each.state.is_over), None)
 
     def last(self, session: Session) -> Package | None:
         """Return the last package of what a session has open, unless it was canceled."""
-        own = (each for each in self._of(session) if each.task is PACKAGE)
+        own = (each for each in self._of(session) if each.task is made)
         found = [each for each in own if each.opened == session.opened]
         return found[-1] if found and found[-1].state is not State.CANCELED else None
 
@@ -161,7 +154,7 @@ class Packages:
             "values": package.values,
             "state": package.state.value,
             "words": f"In line, place {queued.index(package) + 1}" if is_queued else package.words,
-            "part": None if is_queued else package.step / (package.task.steps + 1),
+            "part": None if is_queued else package.step / (_STEPS[package.task] + 1),
         }
 
     async def cancel(self, package: Package) -> None:
@@ -172,7 +165,7 @@ class Packages:
         if package.worker is not None:
             package.worker.shutdown()
 
-    async def cancel_unfinished(self, session: Session, task: Task = PACKAGE) -> None:
+    async def cancel_unfinished(self, session: Session, task: Task = made) -> None:
         """Cancel the package of a session that waits or is made."""
         if (package := self.unfinished(session, task)) is not None:
             await self.cancel(package)
@@ -206,7 +199,7 @@ class Packages:
         """Have a process make a package; return why there is none, empty if there is."""
         with self._start(package) as worker:
             package.worker = worker
-            asked = worker.submit(package.task.do, package.workbook, package.out)
+            asked = worker.submit(package.task, package.workbook, package.out)
             try:
                 async with asyncio.timeout(LONGEST_S):
                     return await asyncio.wrap_future(asked)

@@ -41,7 +41,6 @@ ANSWER_HEAD_FILL = PatternFill("solid", start_color="9DB4C4")
 HAIR = Side(style="thin", color="C9CDD1")
 BOX = Border(left=HAIR, right=HAIR, top=HAIR, bottom=HAIR)
 LINE = Border(bottom=HAIR)
-WRAPPED = Alignment(vertical="center", horizontal="left", wrap_text=True)
 NUMBER_LIMIT = 1e8
 _INPUT_FONT = Font(name="Calibri", size=11, color="000000")
 _ANSWER_FONT = Font(name="Calibri", size=11, color=INK)
