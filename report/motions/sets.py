@@ -115,7 +115,7 @@ def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets
     plain = Counter(name for name, _, _ in clear)
     named = [(name if plain[name] == 1 else longer, group) for name, longer, group in clear]
     times = Counter(name for name, _ in named)
-    sets = {}
+    sets: Sets = {}
     for name, group in named:
         if times[name] == 1 and len(name) <= MOST_NAME:
             sets[name] = group

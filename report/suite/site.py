@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import PurePosixPath
+from typing import Any
 
 from report.sheet.checking.site_checks import site_parameters
 from report.sheet.reading.read import Sheet
@@ -52,7 +53,8 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
                        " command motion suite, with that spectrum as CSV")  # fmt: skip
     if lacking:
         raise InputError(lacking)
-    return ac156_targets(**{name: value for name, _, value, _ in found}), lines
+    arguments: dict[str, Any] = {name: value for name, _, value, _ in found}
+    return ac156_targets(**arguments), lines
 
 
 def suite_rows(

@@ -94,6 +94,19 @@ def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(cli
 
 
 @pytest.mark.nightly("report/web/")
+def test_motions_are_offered_again_where_the_server_no_longer_tells_of_them(browser, tmp_path):
+    path = without_motions(tmp_path)
+    with served() as (address, _), quiet_page(browser) as page:
+        opened(page, address)
+        page.set_input_files("#files", [str(path)])
+        page.route("**/api/package/*", lambda route: route.fulfill(status=503))
+        page.click("#no-motions button")
+        page.wait_for_selector("#no-motions progress")
+        page.wait_for_selector("#no-motions progress", state="detached", timeout=20_000)
+        assert page.locator("#no-motions button").inner_text().startswith("No motions?")
+
+
+@pytest.mark.nightly("report/web/")
 def test_the_page_makes_motions_and_goes_on_with_them(browser, tmp_path):
     path = without_motions(tmp_path)
     with served() as (address, _), quiet_page(browser) as page:
