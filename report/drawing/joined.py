@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter, defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from report.sheet.schema.shapes import Point
@@ -15,40 +15,29 @@ from report.sheet.schema.shapes import Point
 OPEN = "an open line that closes no outline"
 BRANCHED = "open lines of which three or more meet at a point"
 
-_End = tuple[float, float, float]
+Line = Sequence[Point]
 
 
 class Joined(NamedTuple):
-    """A closed line, which open ones it consists of, and the largest gap between their ends."""
+    """A closed line, and which open ones it consists of."""
 
     points: list[Point]
     lines: list[int]
-    gap: float
 
 
-def join(
-    lines: Sequence[tuple[Hashable, Sequence[Point]]], tolerance: float
-) -> tuple[list[Joined], Mapping[int, str]]:
+def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Joined], Mapping[int, str]]:
     """Return the closed lines that open ones form, and why the rest of these does not.
 
-    Parameters
-    ----------
-    lines : sequence of tuple
-        Of each the group, within which lines are joined, and the points.
-    tolerance : float
-        Largest distance of ends that meet.
+    The tolerance is the largest distance of ends that meet.
     """
     from ezdxf import edgeminer
 
-    levels: dict[Hashable, float] = {}
-    cells: dict[_End, list[_End]] = defaultdict(list)
-    ends: dict[int, tuple[_End, _End]] = {}
-    drawn: dict[tuple[object, ...], int] = {}
+    cells: dict[Point, list[Point]] = defaultdict(list)
+    ends: dict[int, tuple[Point, Point]] = {}
+    drawn: dict[tuple[Point, ...], int] = {}
     loops: list[list[tuple[int, bool]]] = []
-    for k, (group, points) in enumerate(lines):
-        # Each group has a height of its own, so that the lines of two never meet.
-        z = levels.setdefault(group, 10.0 * tolerance * len(levels))
-        start, end = (_snapped((*at, z), cells, tolerance) for at in (points[0], points[-1]))
+    for k, points in enumerate(lines):
+        start, end = (_snapped(at, cells, tolerance) for at in (points[0], points[-1]))
         if start != end:
             ends[k] = (start, end)
             middle = points[1:-1] if start < end else points[-2:0:-1]
@@ -77,30 +66,26 @@ def join(
     }
 
 
-def _snapped(at: _End, cells: dict[_End, list[_End]], tolerance: float) -> _End:
+def _snapped(at: Point, cells: dict[Point, list[Point]], tolerance: float) -> Point:
     """Return the end that stands for another within the tolerance.
 
     Two that stand for others are farther apart: so ends that meet one meet each other, and a chain
     cannot lead around without end.
     """
-    column, row = (math.floor(value / tolerance) for value in at[:2])
+    column, row = (math.floor(value / tolerance) for value in at)
     for i, j in ((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)):
-        for other in cells.get((column + i, row + j, at[2]), ()):
+        for other in cells.get((column + i, row + j), ()):
             if math.dist(at, other) <= tolerance:
                 return other
-    cells[column, row, at[2]].append(at)
+    cells[column, row].append(at)
     return at
 
 
-def _closed(
-    lines: Sequence[tuple[Hashable, Sequence[Point]]], loop: Sequence[tuple[int, bool]]
-) -> Joined:
+def _closed(lines: Sequence[Line], loop: Sequence[tuple[int, bool]]) -> Joined:
     """Return a chain as a closed line; its corners are midway between the ends that meet."""
-    parts = [lines[k][1][::-1] if is_reversed else lines[k][1] for k, is_reversed in loop]
+    parts = [lines[k][::-1] if is_reversed else lines[k] for k, is_reversed in loop]
     points: list[Point] = []
-    gap = 0.0
     for before, part in zip((parts[-1], *parts), parts, strict=False):
         (x0, y0), (x1, y1) = before[-1], part[0]
-        gap = max(gap, math.dist(before[-1], part[0]))
         points += [(0.5 * (x0 + x1), 0.5 * (y0 + y1)), *part[1:-1]]
-    return Joined(points, [k for k, _ in loop], gap)
+    return Joined(points, [k for k, _ in loop])

@@ -219,7 +219,7 @@ def _named(
     repeated = Counter(name.casefold() for name in written)
     given = set(repeated)
     for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
-        notes = [_as_joined(line, unit_m)] if line.pieces else []
+        notes = [f"joined from {line.pieces} lines"] if line.pieces else []
         modules = line if isinstance(line, ModuleArray) else None
         if modules and name and repeated[name.casefold()] > 1:
             name = ""  # as of a product
@@ -242,12 +242,6 @@ def _named(
                          height_m=height_m, note="; ".join(notes), modules=modules)
         )  # fmt: skip
     return places
-
-
-def _as_joined(line: Drawn, unit_m: float) -> str:
-    lines = f"joined from {line.pieces} lines" if line.pieces > 1 else "closed"
-    gap = line.gap * unit_m
-    return f"{lines}, gaps up to {pair(gap, Quantity.SIZE)}" if gap > ROUNDED_M else lines
 
 
 def _free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> str:

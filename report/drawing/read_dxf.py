@@ -9,7 +9,7 @@ from __future__ import annotations
 import logging
 import math
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -65,8 +65,6 @@ class Drawn:
         Attributes of its block that give a height, each as `HT 42`.
     pieces : int
         How many open lines it is joined from; 0 for a line that is drawn closed.
-    gap : float
-        Largest distance between the ends of those, in the unit of the drawing.
     """
 
     handle: str
@@ -76,7 +74,6 @@ class Drawn:
     is_ours: bool
     heights: tuple[str, ...] = ()
     pieces: int = 0
-    gap: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -254,7 +251,8 @@ class _Reader:
 
     drawing: RoofDrawing
     unit_m: float
-    opened: list[tuple[int, Drawn]] = field(default_factory=list)  # with their blocks
+    # by their blocks and layers
+    opened: dict[tuple[int, str], list[Drawn]] = field(default_factory=lambda: defaultdict(list))
     blocks: int = 0
     points: int = 0
     north_deg: float = math.nan
@@ -305,7 +303,7 @@ class _Reader:
             (x0, y0), (x1, y1) = points
             self.face_north(x1 - x0, y1 - y0)
         if points:
-            self.opened.append((block.number, line))
+            self.opened[block.number, layer.casefold()].append(line)
         return "" if points else f"a {entity.dxftype()} without an area"
 
     def _close(self, line: Drawn, kind: str) -> str:
@@ -320,15 +318,15 @@ class _Reader:
 
     def take_joined(self) -> None:
         """Add the closed lines that the open ones form."""
-        groups = [((block, line.layer.casefold()), line.points) for block, line in self.opened]
-        closed, rest = join(groups, JOIN_M / self.unit_m)
-        for points, parts, gap in closed:
-            pieces = len(parts) if len(parts) > 1 or gap else 0
-            line = replace(self.opened[parts[0]][1], points=tuple(points), pieces=pieces, gap=gap)
-            if reason := self._close(line, "closed line"):
-                self._leave(line.handle, line.layer, reason)
-        for k, reason in rest.items():
-            self._leave(self.opened[k][1].handle, self.opened[k][1].layer, reason)
+        for lines in self.opened.values():
+            closed, rest = join([line.points for line in lines], JOIN_M / self.unit_m)
+            for points, parts in closed:
+                pieces = len(parts) if len(parts) > 1 else 0
+                line = replace(lines[parts[0]], points=tuple(points), pieces=pieces)
+                if reason := self._close(line, "closed line"):
+                    self._leave(line.handle, line.layer, reason)
+            for k, reason in rest.items():
+                self._leave(lines[k].handle, lines[k].layer, reason)
 
     def _leave(self, handle: str, layer: str, reason: str) -> None:
         """Note what is not read; after a colon, what of it."""

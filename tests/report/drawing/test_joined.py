@@ -15,8 +15,8 @@ BOX = ((0.0, 0.0), (8.0, 0.0), (8.0, 5.0), (0.0, 5.0))
 SIDES = [(BOX[k], BOX[(k + 1) % 4]) for k in range(4)]
 
 
-def found(*lines, groups=""):
-    rings, rest = join(list(zip(groups or "L" * len(lines), lines, strict=True)), 0.005)
+def found(*lines):
+    rings, rest = join(lines, 0.005)
     areas = [round(Polygon(ring(line.points)).area_m2, 2) for line in rings]
     return areas, rest
 
@@ -26,8 +26,8 @@ def test_sides_in_any_order_and_direction_are_joined(seed):
     dice = random.Random(seed)
     lines = [side if dice.random() < 0.5 else side[::-1] for side in SIDES]
     dice.shuffle(lines)
-    (line,), rest = join([(0, side) for side in lines], 0.005)
-    assert (line.lines[0], line.gap, rest) == (0, 0.0, {})
+    (line,), rest = join(lines, 0.005)
+    assert (line.lines[0], rest) == (0, {})
     assert sorted(line.points) == sorted(BOX)
     assert Polygon(ring(line.points)).area_m2 == pytest.approx(40.0)
 
@@ -62,9 +62,12 @@ def test_a_grid_is_not_joined_at_all():
     assert rest == dict.fromkeys(range(180), BRANCHED)
 
 
-def test_lines_of_two_groups_are_not_joined():
-    assert found(*SIDES, groups="AABB") == ([], dict.fromkeys(range(4), OPEN))
-    assert found(*SIDES, *SIDES, groups="AAAABBBB") == ([40.0, 40.0], {})
+def test_lines_of_two_layers_are_not_joined(tmp_path):
+    sketch = Sketch()
+    for k, side in enumerate(SIDES):
+        sketch.space.add_line(*side, dxfattribs={"layer": "AB"[k % 2]})
+    read = read_dxf(sketch.saved(tmp_path))
+    assert (read.lines, [item.reason for item in read.unread]) == ([], [OPEN] * 4)
 
 
 def test_ends_in_a_row_of_near_ones_do_not_lead_around_without_end():
@@ -96,12 +99,3 @@ def test_lines_of_a_block_are_joined_with_its_name_at_each_place(tmp_path):
     found = read_dxf(sketch.saved(tmp_path))
     assert [(line.name, line.pieces) for line in found.lines] == [("RTU-1", 4), ("RTU-2", 4)]
     assert found.unread == []
-
-
-def test_the_largest_gap_of_a_joined_outline_is_noted(tmp_path):
-    sketch = Sketch(unit="mm")
-    for start, end in (*SIDES[:3], ((0.0, 5.0), (0.0, 0.004))):
-        at = [(1000.0 * x, 1000.0 * y) for x, y in (start, end)]
-        sketch.space.add_line(*at, dxfattribs={"layer": "ARRAY"})
-    (array,) = plan(sketch.saved(tmp_path)).arrays
-    assert array.note == "joined from 4 lines, gaps up to 0.2 in (4 mm); no text inside"
