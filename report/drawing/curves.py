@@ -5,10 +5,13 @@ Points are in world coordinates and the unit of the drawing; heights are dropped
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Iterator, Sequence
-from itertools import islice, pairwise
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 from typing import Any
+
+import numpy as np
 
 from report.sheet.schema.shapes import Point
 
@@ -19,7 +22,7 @@ MAX_DEGREE = 10
 CURVES = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
 
 _FLAT = 1e-6
-_SPAN_PARTS = 4  # of a spline between two knots, at the least
+_SPAN_PARTS = 4  # chords of a spline between two knots, at the least
 _SPLINE_FRAME = 16  # of a vertex that controls a curve and is not on it
 
 
@@ -37,25 +40,27 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
         return "a mesh"
     vertices = _vertices(entity, kind)
     # Of a spline without control points the library finds them, in a time that grows faster.
-    if (
-        len(vertices) * (10 if kind == "SPLINE" and not len(entity.control_points) else 1)
-        > MAX_POINTS
-    ):
+    has_fit_points = kind == "SPLINE" and not len(entity.control_points)
+    if len(vertices) * (10 if has_fit_points else 1) > MAX_POINTS:
         return f"a {kind} of more than {MAX_POINTS} points"
     if kind == "SPLINE" and entity.dxf.degree > MAX_DEGREE:
         return f"a {kind} of a degree of more than {MAX_DEGREE}"
-    if not all(math.isfinite(value) for vertex in vertices for value in vertex):
-        return f"a {kind} with a coordinate that is not a number"
-    if not all(abs(value) <= MAX_COORDINATE for vertex in vertices for value in vertex):
-        return f"a {kind} with a coordinate or bulge of more than {MAX_COORDINATE:g}"
+    no_number = f"a {kind} with a value that is no number up to {MAX_COORDINATE:g}"
+    if not _are_numbers((*vertices, entity.knots if kind == "SPLINE" else ())):
+        return no_number
     is_closed = kind == "CIRCLE" or (kind.endswith("POLYLINE") and bool(entity.is_closed))
-    if kind not in ("ELLIPSE", "SPLINE"):
-        return list(_chords(vertices, is_closed, sagitta)), is_closed
-    exact = entity.flattening(sagitta) if kind == "ELLIPSE" else _spline(entity, sagitta)
-    points = [(float(p.x), float(p.y)) for p in islice(exact, MAX_POINTS + 1)]
-    if not all(math.isfinite(value) for point in points for value in point):
-        return f"a {kind} with a coordinate that is not a number"
-    return points, False
+    if kind == "ELLIPSE":
+        exact = entity.flattening(sagitta)
+    else:
+        exact = (
+            _spline(entity, sagitta) if kind == "SPLINE" else _chords(vertices, is_closed, sagitta)
+        )
+    points = [(float(p[0]), float(p[1])) for p in islice(exact, MAX_POINTS + 1)]
+    return (points, is_closed) if _are_numbers(points) else no_number
+
+
+def _are_numbers(rows: Iterable[Sequence[float]]) -> bool:
+    return all(abs(value) <= MAX_COORDINATE for row in rows for value in row)
 
 
 def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
@@ -91,82 +96,51 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
     return [(way * float(x), float(y), way * float(bulge)) for x, y, bulge in found]
 
 
-def _spline(entity: Any, sagitta: float) -> Iterator[Any]:
-    """Yield points of a spline whose chords are within the sagitta of it.
+def _spline(entity: Any, sagitta: float) -> Iterable[Any]:
+    """Return points of a spline whose chords are within the sagitta of it.
 
     As the library would, which goes beyond the ends of a spline that is not clamped, such as a
     closed one of AutoCAD.
     """
+    import shapely
+
     tool = entity.construction_tool()
-    point = tool.evaluator.point
-    knots = sorted(set(tool.knots()[tool.order - 1 : tool.count + 1]))
-    yield point(knots[0])
-    for low, high in pairwise(knots):
-        marks = [low + (high - low) * k / _SPAN_PARTS for k in range(_SPAN_PARTS)] + [high]
-        todo = [(t, point(t), u, point(u)) for t, u in pairwise(marks)][::-1]
-        while todo:
-            t, start, u, end = todo.pop()
-            half, step = 0.5 * (t + u), end - start
-            middle = point(half)
-            off = middle - start
-            aside = abs(step.x * off.y - step.y * off.x)
-            far = aside / step.magnitude if step.magnitude else off.magnitude
-            if t < half < u and not far < sagitta:
-                todo += [(half, middle, u, end), (t, start, half, middle)]
-            else:
-                yield end
+    knots = np.unique(tool.knots()[tool.order - 1 : tool.count + 1])
+    spans, parts = len(knots) - 1, _SPAN_PARTS
+    while True:
+        marks = np.linspace(0, spans, 2 * parts * spans + 1)  # each second one is a middle
+        found = tool.points(np.interp(marks, range(spans + 1), knots).tolist())
+        points = np.array([(p.x, p.y) for p in found])
+        chords = shapely.linestrings(np.stack((points[:-1:2], points[2::2]), axis=1))
+        off = shapely.distance(shapely.points(points[1::2]), chords)
+        if len(points) > 2 * MAX_POINTS or (off <= sagitta).all():
+            return points[::2]
+        parts *= 2
 
 
 def _chords(
     vertices: Sequence[tuple[float, float, float]], is_closed: bool, sagitta: float
 ) -> Iterator[Point]:
-    """Yield points with arcs as chords, up to one more than are allowed.
+    """Yield points with arcs as chords.
 
     A bulge is the tangent of a quarter of the angle of an arc, positive counterclockwise.
     """
-    count = 0
+    from ezdxf.math import arc_segment_count, bulge_to_arc
+
     following = (*vertices[1:], *(vertices[:1] if is_closed else ()))
     for (x0, y0, bulge), (x1, y1, _) in zip(vertices, following, strict=False):
-        for share in _shares(math.dist((x0, y0), (x1, y1)), bulge, sagitta):
-            count += 1
-            if count > MAX_POINTS + 1:
-                return
-            turn = 4.0 * math.atan(bulge)
-            along, aside = _on_arc(turn, share) if turn else (0.0, 0.0)
-            dx, dy = x1 - x0, y1 - y0
-            yield x0 + along * dx + aside * dy, y0 + along * dy - aside * dx
+        yield x0, y0
+        if 0.5 * abs(bulge) * math.dist((x0, y0), (x1, y1)) > sagitta:
+            center, _, _, radius = bulge_to_arc((x0, y0), (x1, y1), bulge)
+            turn, middle = 4.0 * math.atan(bulge), complex(*center)
+            count = arc_segment_count(radius, abs(turn), sagitta)
+            for k in range(1, count):
+                at = middle + (complex(x0, y0) - middle) * cmath.rect(1.0, turn * k / count)
+                yield at.real, at.imag
     if vertices and not is_closed:
         yield vertices[-1][:2]
-
-
-def _on_arc(turn: float, share: float) -> tuple[float, float]:
-    """Return how far along its chord and to the right of it a point of an arc is, in chords."""
-    sin, cos = math.sin(0.5 * turn), math.cos(0.5 * turn)
-    rest = turn * (0.5 - share)
-    return 0.5 * (1.0 - math.sin(rest) / sin), 0.5 * (math.cos(rest) - cos) / sin
-
-
-def _shares(chord: float, bulge: float, sagitta: float) -> list[float]:
-    """Return the shares of an arc at which its chords start; 0 alone for a line."""
-    if 0.5 * abs(bulge) * chord <= sagitta:
-        return [0.0]
-    radius = chord * (1.0 + bulge**2) / (4.0 * abs(bulge))
-    step = 4.0 * math.asin(math.sqrt(0.5 * min(sagitta / radius, 0.5)))
-    count = min(math.ceil(4.0 * math.atan(abs(bulge)) / step), MAX_POINTS + 1)
-    return [k / count for k in range(count)]
 
 
 def _is_flat(entity: Any) -> bool:
     x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
     return bool(abs(x) <= _FLAT and abs(y) <= _FLAT and z != 0.0)
-
-
-def without_doubles(points: Sequence[Point]) -> list[Point]:
-    """Return points without those at the place of the one before."""
-    kept = list(points[:1])
-    for point in points[1:]:
-        if math.dist(point, kept[-1]) > _FLAT * max(1.0, *map(abs, point)):
-            kept.append(point)
-    if len(kept) > 1 and math.dist(kept[0], kept[-1]) <= _FLAT * max(1.0, *map(abs, kept[0])):
-        kept.pop()
-    return kept

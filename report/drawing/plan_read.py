@@ -164,7 +164,11 @@ def _unread(line: Drawn, reason: str, detail: str = "") -> Unread:
 
 def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
     """Return the shape of a line [m], or why it is none."""
-    points = _straightened(ring([(x * unit_m, y * unit_m) for x, y in line.points]))
+    import shapely
+
+    drawn = shapely.LinearRing([(x * unit_m, y * unit_m) for x, y in line.points])
+    straight = drawn.simplify(ROUNDED_M, preserve_topology=False)
+    points = ring([(x, y) for x, y in straight.coords])
     if len(points) < LEAST_VERTICES:
         return _unread(line, "a closed line without an area")
     at = crossing(points)
@@ -176,21 +180,6 @@ def _shape(line: Drawn, unit_m: float) -> Shape | Unread:
     if shape.area_m2 < LEAST_AREA_M2:
         return _unread(line, "a closed line without an area")
     return _box(shape) or shape
-
-
-def _straightened(points: tuple[Point, ...]) -> tuple[Point, ...]:
-    """Return a ring without vertices that lie on the line between their neighbors."""
-    kept = list(points)
-    k = 0
-    while len(kept) > LEAST_VERTICES - 1 and k < len(kept):
-        (x0, y0), (x, y), (x1, y1) = kept[k - 1], kept[k], kept[(k + 1) % len(kept)]
-        long = math.hypot(x1 - x0, y1 - y0)
-        off = abs((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0))
-        if long > 0.0 and off <= ROUNDED_M * long:
-            kept.pop(k)
-        else:
-            k += 1
-    return tuple(kept)
 
 
 def _box(shape: Polygon) -> Rectangle | None:

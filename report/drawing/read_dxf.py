@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from report.drawing.curves import CURVES, MAX_POINTS, curve, without_doubles
+from report.drawing.curves import CURVES, MAX_POINTS, curve
 from report.drawing.dxf import APPLICATION
 from report.drawing.joined import join
 from report.drawing.layers import NORTH_ARROW, Layer
@@ -308,12 +308,11 @@ class _Reader:
 
     def _close(self, line: Drawn, kind: str) -> str:
         """Add a line as closed, or return why it is none."""
-        points = without_doubles(line.points)
-        if len(points) < 3:
+        if len(line.points) < 3:
             return f"a {kind} without an area"
-        if len(points) > MAX_POINTS:
+        if len(line.points) > MAX_POINTS:
             return f"a {kind} of more than {MAX_POINTS} points"
-        self.drawing.lines.append(replace(line, points=ring(points)))
+        self.drawing.lines.append(replace(line, points=ring(line.points)))
         return ""
 
     def take_joined(self) -> None:
