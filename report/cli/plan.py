@@ -224,8 +224,7 @@ def _line(place: DrawnOutline) -> str:
             f"{numbered(of, 'module')} {pair(long, Quantity.SIZE)} by {pair(short, Quantity.SIZE)}"
             for of, long, short in array.sizes
         )
-        made += f" of {sizes}, gaps up to {pair(array.gap_m, Quantity.SIZE)}"
-        made += f", around {array.opening_m2:.1f} m2 without modules" if array.opening_m2 else ""
+        made += f" of {sizes}"
     return f"{place.name}: {made}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
 
 

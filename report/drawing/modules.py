@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from report.drawing.read_dxf import Drawn
 from report.sheet.reading.locate_tables import MAX_ROWS
 from report.sheet.schema import LayerKind
-from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring
+from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, solid
 from solver.model import INCH_M, InputError
 
 GAP_M = 20.0 * INCH_M
@@ -40,6 +40,8 @@ _MOST_PER_M2 = 16  # drawn twice, and with inner lines
 _COMPLEX = np.array((1.0, 1.0j))
 _OUTWARD = np.array((-1.0, -1.0, 1.0, 1.0))
 
+_KINDS = (LayerKind.ARRAY, LayerKind.UNLIKE_ARRAY)
+
 Known = tuple[Drawn, LayerKind, Shape]
 """A closed line, what it is, and its shape [m]."""
 
@@ -52,15 +54,9 @@ class ModuleArray(Drawn):
     ----------
     sizes : tuple of (int, float, float)
         Number, long side [m] and short side [m] of each size, the most frequent first.
-    gap_m : float
-        Largest gap between neighbors; 0 for one module.
-    opening_m2 : float
-        Area without modules that the outline encloses.
     """
 
     sizes: tuple[tuple[int, float, float], ...]
-    gap_m: float
-    opening_m2: float
 
     @property
     def count(self) -> int:
@@ -72,7 +68,7 @@ _Placed = tuple[ModuleArray, LayerKind]
 
 
 def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Placed], list[Drawn]]:
-    """Return lines without modules, the arrays of modules in reading order, and lines within those.
+    """Return lines without modules, the arrays of modules in reading order, and lines they overlap.
 
     Modules are equal rectangles of one layer, at least `LEAST_ALIKE`, with sides within `SIDES_M`.
     Parallel ones are an array where the gaps along their sides are at most `gap_m` [m].
@@ -84,7 +80,7 @@ def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Pla
     """
     layers: dict[tuple[LayerKind, str], list[int]] = defaultdict(list)
     for index, (line, kind, _) in enumerate(known):
-        if kind in (LayerKind.ARRAY, LayerKind.UNLIKE_ARRAY) and not line.is_ours:
+        if kind in _KINDS and not line.is_ours:
             layers[kind, line.layer.casefold()].append(index)
     arrays: list[_Placed] = []
     gone: dict[int, bool] = {}  # whether a line is a module that counts
@@ -96,8 +92,23 @@ def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Pla
                     f"modules make up more than {MAX_ROWS} arrays; give a larger --gap"
                 )
             gone |= {indices[k]: counts for k, counts in inside.items()}
+    for kind in _KINDS:
+        # Those of layouts that draw the outline of an array around its modules.
+        others = [k for k, (_, of, _) in enumerate(known) if of is kind and k not in gone]
+        across = _overlap([known[k][2] for k in others], [a for a, of in arrays if of is kind])
+        gone |= {k: False for k, overlaps in zip(others, across, strict=True) if overlaps}
     rest = [item for index, item in enumerate(known) if index not in gone]
     return rest, _in_reading_order(arrays), [known[k][0] for k in gone if not gone[k]]
+
+
+def _overlap(shapes: Sequence[Shape], arrays: Sequence[ModuleArray]) -> Any:
+    """Return which shapes have more in common with arrays than their borders."""
+    import shapely
+
+    inner = [solid(Polygon(array.points)).buffer(-ALIKE_M) for array in arrays]
+    area = shapely.union_all(inner)
+    shapely.prepare(area)
+    return shapely.intersects(area, [solid(shape) for shape in shapes])
 
 
 def _in_reading_order(arrays: Sequence[_Placed]) -> list[_Placed]:
@@ -120,7 +131,7 @@ def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[ModuleArray,
     found = list(_parallel(lines))
     modules = {k for at, *_ in found for k in at}
     for at, sizes, boxes, turn in found:
-        gaps, row = _gaps(boxes, gap_m + ALIKE_M), {k: n for n, k in enumerate(at)}
+        row = {k: n for n, k in enumerate(at)}
         parts = _closed(boxes, gap_m + ALIKE_M)
         own = middles / turn
         inside: list[dict[int, bool]] = [{} for _ in parts]
@@ -144,8 +155,6 @@ def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[ModuleArray,
                     points=ring([(float(z.real), float(z.imag)) for z in points]),
                     is_ours=False,
                     sizes=tuple((count, long, short) for (long, short), count in kinds),
-                    gap_m=float(gaps[its].max()),
-                    opening_m2=math.fsum(shapely.Polygon(hole).area for hole in outline.interiors),
                 ),
                 within,
             )
@@ -207,22 +216,6 @@ def _once(boxes: Any, layer: str) -> Any:
     areas = np.round(np.prod(boxes[:, 2:] - boxes[:, :2], axis=1), 2)
     rank = np.argsort(np.argsort(-areas, kind="stable"))
     return ~np.isin(np.arange(len(boxes)), inner[rank[outer] < rank[inner]])
-
-
-def _gaps(boxes: Any, most_m: float) -> Any:
-    """Return the gap [m] of each box to the next one beside it or above it, the larger one."""
-    import shapely
-
-    shapes, gaps = shapely.box(*boxes.T), np.zeros(len(boxes))
-    a, b = shapely.STRtree(shapes).query(shapes, predicate="dwithin", distance=most_m)
-    after, before = boxes[b, :2] - boxes[a, 2:], boxes[a, :2] - boxes[b, 2:]
-    for axis in (0, 1):
-        aside = np.maximum(after[:, 1 - axis], before[:, 1 - axis])
-        faces = (after[:, axis] >= -ALIKE_M) & (aside < -ALIKE_M)
-        nearest = np.full(len(boxes), np.inf)
-        np.minimum.at(nearest, a[faces], after[faces, axis])
-        gaps = np.maximum(gaps, np.where(np.isfinite(nearest), nearest, 0.0))
-    return gaps
 
 
 def _closed(boxes: Any, width_m: float) -> list[Any]:

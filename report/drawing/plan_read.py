@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.layers import Layer
-from report.drawing.modules import GAP_M, MOST_TEXTS, ModuleArray, joined
+from report.drawing.modules import GAP_M, MOST_TEXTS, Known, ModuleArray, joined
 from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
 from report.drawing.written import first_height, read_line
 from report.sheet.checking.plan_checks import LEAST_VERTICES
@@ -112,26 +112,26 @@ def plan_of(
     """
     kinds = known_layers(layers)
     unread = [item for item in drawing.unread if _is_of_interest(item.layer, kinds)]
-    known: list[tuple[Drawn, LayerKind, Shape]] = []
-    for line in drawing.lines:
-        kind = kinds.get(line.layer.casefold())
+    known: list[Known] = []
+
+    def take(line: Drawn, kind: LayerKind, unit_m: float) -> None:
         found = _shape(line, unit_m)
-        if kind is None:
-            unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
-        elif kind is LayerKind.NOT_READ:
-            continue
-        elif isinstance(found, Unread):
+        if isinstance(found, Unread):
             unread.append(found)
         else:
             known.append((line, kind, found))
-    known, arrays, within = joined(known, gap_m)
-    unread += [_unread(line, "a closed line within an array of modules") for line in within]
+
+    for line in drawing.lines:
+        kind = kinds.get(line.layer.casefold())
+        if kind is None:
+            unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
+        elif kind is not LayerKind.NOT_READ:
+            take(line, kind, unit_m)
+    known, arrays, others = joined(known, gap_m)
+    reason = "a closed line within or around an array of modules"
+    unread += [_unread(line, reason) for line in others]
     for array, kind in arrays:
-        shape = _shape(array, 1.0)
-        if isinstance(shape, Unread):
-            unread.append(shape)
-        else:
-            known.append((array, kind, shape))
+        take(array, kind, 1.0)
     places = _named(known, drawing.texts, unit_m, unread)
     roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
     for extra in roofs[1:]:
@@ -191,7 +191,7 @@ def _box(shape: Polygon) -> Rectangle | None:
 
 
 def _named(
-    known: Sequence[tuple[Drawn, LayerKind, Shape]],
+    known: Sequence[Known],
     texts: Sequence[Words],
     unit_m: float,
     unread: list[Unread],
@@ -276,7 +276,7 @@ def _height_m(
 
 
 def _texts_inside(
-    known: Sequence[tuple[Drawn, LayerKind, Shape]], texts: Sequence[Words], unit_m: float
+    known: Sequence[Known], texts: Sequence[Words], unit_m: float
 ) -> list[list[Words]]:
     """Return the texts inside of each line; a text belongs to the smallest line around it."""
     import shapely
