@@ -146,9 +146,7 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, float]:
 
     degrees = 90.0 - drawn.north_deg if math.isnan(rotate) else rotate
     if math.isnan(degrees):
-        raise InputError(
-            "states no north, by an arrow as in plan.dxf or by GEODATA; give --rotate in degrees"
-        )
+        raise InputError("states no north (GEODATA); give --rotate in degrees")
     return (turned(drawn, degrees) if degrees else drawn), degrees
 
 
@@ -249,11 +247,9 @@ def _unread(found: RoofPlan) -> Iterator[str]:
     from report.words.counts import grouped_by
 
     for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
-        layers = list(dict.fromkeys(item.layer for item in items if item.layer))
+        layers = list(dict.fromkeys(item.layer for item in items))
         handles = [f"{item.handle} {item.detail}".strip() for item in items]
-        # What the drawing says as a whole is on no layer.
-        where = f": {len(items)} on {_some(layers)} ({_some(handles)})" if layers else ""
-        yield f"not read: {reason}{where}"
+        yield f"not read: {reason}: {len(items)} on {_some(layers)} ({_some(handles)})"
 
 
 def _some(names: Sequence[str]) -> str:

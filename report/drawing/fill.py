@@ -125,10 +125,9 @@ def _fill_north(fill: _Fill, north_deg: float) -> None:
     position = find_cell(fill.book, section, section.entry("north_deg"))
     found = found_at(fill.book, position)
     given = round(north_deg, DIGITS)
-    if found.value != given and found.value not in (None, Roof().north_deg):
+    if found.value not in (None, given, Roof().north_deg):
         fill.refuse(position, "the direction of north")
-    if found.value != given:
-        fill.cells[position] = given
+    fill.cells[position] = given
 
 
 def _fill_layers(fill: _Fill, layers: Mapping[str, LayerKind]) -> None:

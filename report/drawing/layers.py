@@ -10,9 +10,6 @@ from enum import Enum
 
 Point = tuple[float, float]
 
-NORTH_ARROW = "north"
-"""Name of the lines that are the arrow to north."""
-
 
 class Layer(Enum):
     """A layer: its name, its color by AutoCAD's index, and whether its lines are dashed."""

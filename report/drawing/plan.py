@@ -22,7 +22,7 @@ from report.assessment.neighbors import bare_edges
 from report.assessment.plan_gaps import parapet_note, plan_gaps
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.drawing.layers import NORTH_ARROW, Layer, PlanDrawing, PlanLine, PlanText
+from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema import ROOF, ObjectKind, RoofObject
 from report.sheet.schema.shapes import Point, label_point, mean
 from report.words.units import Quantity, Unit, compared_pairs, number, pair
@@ -186,7 +186,7 @@ def _north(assessment: Assessment, points: Sequence[Point], height: float) -> tu
     tip = (x + dx, y + dy)
     barbs = [(x + 0.7 * dx - side * 0.15 * dy, y + 0.7 * dy + side * 0.15 * dx) for side in (1, -1)]
     return tuple(
-        PlanLine(layer=Layer.NORTH, name=NORTH_ARROW, points=ends, is_closed=False)
+        PlanLine(layer=Layer.NORTH, name="north", points=ends, is_closed=False)
         for ends in (((x, y), tip), (barbs[0], tip, barbs[1]))
     )
 

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from report.drawing.curves import CURVES, MAX_POINTS, curve
 from report.drawing.dxf import APPLICATION
 from report.drawing.joined import join
-from report.drawing.layers import NORTH_ARROW, Layer
 from report.sheet.schema.shapes import Point, ring
 from report.words.letters import UNPRINTABLE, trimmed
 from solver.meant import meant
@@ -107,9 +106,9 @@ class RoofDrawing:
     counts : Counter of tuple of str
         How many of each layer and kind of entity there are.
     north_deg : float
-        Direction of north, counterclockwise from +x, by the arrow of a plan that `report` wrote or
-        by GEODATA; NaN for none. Not by `$NORTHDIRECTION`, which is "the angle between the Y axis
-        of WCS and the grid north" (AutoCAD help) in a sense that is not documented.
+        Direction of north by GEODATA, counterclockwise from +x; NaN for none. Not by
+        `$NORTHDIRECTION`, "the angle between the Y axis of WCS and the grid north" (AutoCAD help)
+        in a sense that is not documented.
     """
 
     unit: str
@@ -139,17 +138,16 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     document = _loaded(path)
     _check_blocks(document)
     unit = UNITS.get(document.header.get("$INSUNITS", 0), "")
-    reader = _Reader(RoofDrawing(unit), unit_m or LENGTHS.get(unit, 1.0))
     geodata = document.modelspace().get_geodata()
-    if geodata is not None:
-        reader.face_north(*geodata.dxf.north_direction.vec2)
+    north_deg = math.nan
+    if geodata and not (north := geodata.dxf.north_direction.vec2).is_null:
+        north_deg = north.angle_deg % 360.0
+    drawing = RoofDrawing(unit, north_deg=north_deg)
+    reader = _Reader(drawing, unit_m or LENGTHS.get(unit, 1.0))
     for entity in document.modelspace():
         reader.take(entity, _Block())
     reader.take_joined()
-    if document.header.get("$NORTHDIRECTION", 0.0) != 0.0:
-        reason = "$NORTHDIRECTION, as which way it turns is not documented"
-        reader.drawing.unread.append(Unread(handle="", layer="", reason=reason))
-    return replace(reader.drawing, north_deg=reader.north_deg)
+    return drawing
 
 
 def _check(path: Path) -> None:
@@ -255,7 +253,6 @@ class _Reader:
     opened: dict[tuple[int, str], list[Drawn]] = field(default_factory=lambda: defaultdict(list))
     blocks: int = 0
     points: int = 0
-    north_deg: float = math.nan
 
     def take(self, entity: Any, block: _Block) -> None:
         """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
@@ -298,10 +295,6 @@ class _Reader:
             return self._close(line, entity.dxftype())
         if len(points) > MAX_POINTS:
             return f"a {entity.dxftype()} of more than {MAX_POINTS} points"
-        # The arrow of a plan that `report` wrote, from foot to tip.
-        if layer == Layer.NORTH.title and own == NORTH_ARROW and len(points) == 2:
-            (x0, y0), (x1, y1) = points
-            self.face_north(x1 - x0, y1 - y0)
         if points:
             self.opened[block.number, layer.casefold()].append(line)
         return "" if points else f"a {entity.dxftype()} without an area"
@@ -332,11 +325,6 @@ class _Reader:
         cause, _, detail = re.sub("^a (?=[AEIO])", "an ", reason).partition(": ")
         unread = Unread(handle=handle, layer=layer, reason=cause, detail=detail)
         self.drawing.unread.append(unread)
-
-    def face_north(self, dx: float, dy: float) -> None:
-        """Take a direction as north, if it is one."""
-        if math.isfinite(dx + dy) and (dx or dy):
-            self.north_deg = math.degrees(math.atan2(dy, dx)) % 360.0
 
     def _take_insert(self, insert: Any, layer: str, handle: str) -> str:
         """Add what a block shows, or return why it shows nothing."""

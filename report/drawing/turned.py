@@ -7,7 +7,7 @@ import math
 from dataclasses import replace
 
 from report.drawing.read_dxf import RoofDrawing
-from report.sheet.schema.shapes import Point, Rectangle, Shape, sides, solid
+from report.sheet.schema.shapes import Point, Shape, sides
 
 
 def turned(drawing: RoofDrawing, degrees: float) -> RoofDrawing:
@@ -29,26 +29,14 @@ def turned(drawing: RoofDrawing, degrees: float) -> RoofDrawing:
 def own_axes(shape: Shape) -> tuple[float, float, float]:
     """Return the sizes [m] of a shape along its own axes, and their angle to x and y [deg].
 
-    The axes are those of the smallest rectangle around it if half of its perimeter is parallel to
-    them, otherwise x and y. The first is the one within 45 deg of x.
+    One is parallel to its longest side, the first the one within 45 deg of x.
     """
-    import shapely
-
-    box = shape.bounds
-    plain = (box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m, 0.0)
-    if isinstance(shape, Rectangle):
-        return plain
-    a, b, c = (
-        complex(*at) for at in shapely.minimum_rotated_rectangle(solid(shape)).exterior.coords[:3]
+    (x0, y0), (x1, y1) = max(sides(shape.points), key=lambda side: math.dist(*side))
+    direction = math.degrees(math.atan2(y1 - y0, x1 - x0))
+    angle = direction - 90.0 * round(direction / 90.0)
+    turn = cmath.rect(1.0, math.radians(-angle))
+    own = [complex(*point) * turn for point in shape.points]
+    wide, tall = (
+        max(axis) - min(axis) for axis in zip(*((z.real, z.imag) for z in own), strict=True)
     )
-    steps = [complex(*end) - complex(*start) for start, end in sides(shape.points)]
-    # The square of a direction is real along either axis.
-    along = [
-        abs(z) for z in steps if abs(((z / (b - a)) ** 2).imag) <= 2e-3 * abs(z / (b - a)) ** 2
-    ]
-    if sum(along) < 0.5 * sum(map(abs, steps)):
-        return plain
-    angle = math.degrees(cmath.phase(b - a))
-    quarter = round(angle / 90.0)
-    wide, tall = (abs(b - a), abs(c - b))[:: -1 if quarter % 2 else 1]
-    return wide, tall, angle - 90.0 * quarter
+    return wide, tall, angle

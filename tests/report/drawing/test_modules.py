@@ -201,7 +201,9 @@ def test_modules_are_counted_once_in_blocks_with_inner_lines(tmp_path):
     grid(sketch, 3, 1, x=60.001)  # drawn twice
     found = plan(sketch.saved(tmp_path))
     assert counts(found) == {"EAST": 8, "A1": 3, "A2": 3, "A3": 3}
-    assert {item.reason for item in found.unread} == {"a closed line within or around an array of modules"}
+    assert {item.reason for item in found.unread} == {
+        "a closed line within or around an array of modules"
+    }
     assert len(found.unread) == 14 + 3
     assert found.arrays[1].shape.area_m2 == pytest.approx(LONG * (3 * SHORT + 2 * COLUMN))
 
