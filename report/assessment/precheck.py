@@ -20,6 +20,7 @@ from report.motions.plausible import record_findings
 from report.motions.prepare import Shaking
 from report.motions.targets import targets
 from report.sheet.checking.findings import acknowledged, limit, note
+from report.sheet.checking.grouped import listed
 from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import Sheet
 from report.sheet.reading.unseen import warnings
@@ -140,14 +141,12 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
     missing = sorted((each for each in near if not each.given), key=lambda each: each.gap_m)
     if not missing:
         return
-    named = ", ".join(
-        f"{each.names} {pair(each.gap_m, Quantity.SIZE, us_first)}" for each in missing[:MOST_NAMED]
-    )
-    more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
+    sizes = (f"{each.names} {pair(each.gap_m, Quantity.SIZE, us_first)}" for each in missing)
+    named = listed(sizes, MOST_NAMED)
     reach = pair(REACH_FACTOR * design_before_runs_m(data), Quantity.SIZE, us_first)
     is_bare = any(each.kind is NearbyKind.BARE_EDGE for each in missing)
     text = (
-        f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}{more}."
+        f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}."
         f" Reach before any run: twice the prescriptive displacement, {reach}, or what it requires."
         f" {'Add the roof edges as objects, then run' if is_bare else 'Run'} roofslip plan"
         " clearances, or add the rows"

@@ -6,7 +6,7 @@ Read `read` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,8 +14,8 @@ import click
 
 from report.cli.groups import SectionedGroup
 from report.cli.plan_layers import choose, given_kinds
-from report.cli.terminal import SOURCE, input_errors, plain, say_next
-from report.cli.values import Measured, Number
+from report.cli.terminal import SOURCE, input_errors, plain
+from report.cli.values import Number
 from report.words.command import called
 
 if TYPE_CHECKING:
@@ -26,7 +26,12 @@ if TYPE_CHECKING:
     from report.sheet.schema.fields import DraftRow
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
-MOST_NAMES = 5
+WEIGHT_CHOICES = ("lb", "kip", "N", "kN", "kg")
+
+Measured = tuple[float, str]
+"""A number with its unit."""
+
+_POSITIVE = Number(low=0.0, is_open=True)
 
 
 def _rotation(context: click.Context, parameter: click.Parameter, value: str) -> float:
@@ -46,8 +51,9 @@ def plan() -> None:
 @click.argument("project", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--units", type=click.Choice(UNIT_CHOICES),
               help="Unit of the drawing; required if it states none.")  # fmt: skip
-@click.option("--gap", "gap_m", type=Measured("SIZE", "2 m"), default="20 in", show_default=True,
-              help="Largest gap between modules of one array; at most 2 m.")  # fmt: skip
+@click.option("--gap", type=(_POSITIVE, click.Choice(UNIT_CHOICES)), default=(20.0, "in"),
+              show_default="20 in", metavar="NUMBER UNIT",
+              help="Largest gap between modules of one array.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite the places of rows that are filled.")
 @click.option("--accept", is_flag=True, help="Take what is proposed for layers that are not known.")
 @click.option("--layer", "given", metavar="NAME=KIND", multiple=True, callback=given_kinds,
@@ -58,7 +64,7 @@ def read(
     drawing: Path,
     project: Path,
     units: str | None,
-    gap_m: float,
+    gap: Measured,
     replace: bool,
     accept: bool,
     given: dict[str, LayerKind],
@@ -71,8 +77,10 @@ def read(
     blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
+    from report.words.units import LENGTHS
     from solver.model import InputError
 
+    gap_m = gap[0] * LENGTHS[gap[1]]
     with input_errors(drawing):
         drawn, unit_m = _read(drawing, units)
         drawn, degrees = _turned(drawn, rotate)
@@ -194,16 +202,11 @@ def _filled(
 def _turn(degrees: float, found: RoofPlan) -> Iterator[str]:
     """Yield what the drawing is turned by, and where its north is then."""
     if degrees:
-        way = "counterclockwise" if degrees > 0.0 else "clockwise"
-        yield f"turned by {_angle(abs(degrees))} {way} about the origin of the drawing"
+        yield f"turned counterclockwise by {degrees:.6g}° about the origin of the drawing"
     if not math.isnan(found.north_deg):
-        yield f"north, by the drawing: {_angle(found.north_deg)} counterclockwise from +x"
+        yield f"north, by the drawing: {found.north_deg:.6g}° counterclockwise from +x"
     elif degrees:
         yield "the drawing states no north: check its direction on the sheet Site"
-
-
-def _angle(degrees: float) -> str:
-    return f"{round(degrees, 6) + 0.0:.6f}".rstrip("0").rstrip(".") + "°"
 
 
 def _line(place: DrawnOutline) -> str:
@@ -213,7 +216,7 @@ def _line(place: DrawnOutline) -> str:
 
     *sides, angle = own_axes(place.shape)
     wide, tall = (pair(side, Quantity.PLAN, True) for side in sides)
-    askew = f" at {_angle(angle)} to the axes" if round(angle, 6) else ""
+    askew = f" at {angle:.6g}° to the axes" if round(angle, 6) else ""
     source = f" from {place.handle} on {place.layer}" if place.handle else ""
     note = f" ({place.note})" if place.note else ""
     count, made = len(place.shape.points), place.kind.value
@@ -244,18 +247,13 @@ def _modules(found: RoofPlan, gap_m: float) -> Iterator[str]:
 
 def _unread(found: RoofPlan) -> Iterator[str]:
     """Yield what was not understood, once for each cause, with its layers and some handles."""
+    from report.sheet.checking.grouped import listed
     from report.words.counts import grouped_by
 
     for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
-        layers = list(dict.fromkeys(item.layer for item in items))
-        handles = [f"{item.handle} {item.detail}".strip() for item in items]
-        yield f"not read: {reason}: {len(items)} on {_some(layers)} ({_some(handles)})"
-
-
-def _some(names: Sequence[str]) -> str:
-    """Return names, or some and how many more there are."""
-    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-    return ", ".join(names[:MOST_NAMES]) + more
+        layers = listed(item.layer for item in items)
+        handles = listed(f"{item.handle} {item.detail}".strip() for item in items)
+        yield f"not read: {reason}: {len(items)} on {layers} ({handles})"
 
 
 def _kept(layers: dict[str, LayerKind], has_layers: bool) -> Iterator[str]:
@@ -270,23 +268,27 @@ def _kept(layers: dict[str, LayerKind], has_layers: bool) -> Iterator[str]:
 @click.argument("ballast_map", metavar="MAP.csv", type=SOURCE)
 @click.argument("project", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--units", type=click.Choice(UNIT_CHOICES), required=True, help="Unit of x and y.")
-@click.option("--block-weight", "block_n", type=Measured("WEIGHT"), required=True,
-              help="Of one block, such as '32 lb'.")  # fmt: skip
+@click.option("--block-weight", type=(_POSITIVE, click.Choice(WEIGHT_CHOICES)), required=True,
+              metavar="NUMBER UNIT", help="Of one block, such as 32 lb.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite ballast weights that are given.")
-def ballast(ballast_map: Path, project: Path, units: str, block_n: float, replace: bool) -> None:
+def ballast(
+    ballast_map: Path, project: Path, units: str, block_weight: Measured, replace: bool
+) -> None:
     """Fill in the ballast weight of arrays from a CSV with the columns x, y, blocks.
 
     Coordinates are those of the plan. Prints the center of gravity of each array in plan.
     """
     from report.drawing.ballast import changes, loads, read_map
+    from report.sheet.checking.grouped import listed
     from report.sheet.checking.plan_checks import shapes_of
     from report.sheet.reading.archive import open_book
     from report.sheet.reading.read import read as read_sheet
     from report.sheet.writing.filled import fill_cells
     from report.words.counts import numbered
-    from report.words.units import LENGTHS
+    from report.words.units import LENGTHS, WEIGHTS
     from solver.model import InputError
 
+    block_n = block_weight[0] * WEIGHTS[block_weight[1]]
     with input_errors(ballast_map):
         rows = read_map(ballast_map, LENGTHS[units])
     with input_errors(project):
@@ -302,8 +304,8 @@ def ballast(ballast_map: Path, project: Path, units: str, block_n: float, replac
         text = _balance(row, found[name], weights[name]) if name in found else "no blocks"
         click.echo(plain(f"{name}: {text}"))
     if outside:
-        lines = _some([str(line) for line in outside])
-        click.echo(f"outside of every array: {numbered(len(outside), 'line')} of the map: {lines}")
+        lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
+        click.echo(f"outside of every array: {lines}")
     click.echo(
         "The model has no rotation in plan and one friction coefficient under an array; it uses no"
         " eccentricity."

@@ -86,5 +86,3 @@ def _table(
         drawn = ", ".join(f"{count} {of}" for of, count in counts)
         rows.append((layer[:_MOST_LETTERS], str(outlines[layer]), drawn, kind or "none"))
     yield from aligned(rows, "<><<")
-    if len(kinds) > _MOST_ROWS:
-        yield f"and {len(kinds) - _MOST_ROWS} more"

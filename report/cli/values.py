@@ -6,8 +6,6 @@ An error names the option as it was given, the value with its unit, and what is 
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -55,34 +53,6 @@ class Number(click.ParamType[float]):
         if math.isinf(high):
             return f"more than {low:g}{unit}" if self._is_open else f"{low:g}{unit} or more"
         return f"more than {low:g}{unit} and less than {high:g}{unit}"
-
-
-class Measured(click.ParamType[float]):
-    """A positive number with its unit, such as `18 in`, up to another such; its value is in SI."""
-
-    name = "number unit"
-
-    def __init__(self, quantity: str, most: str = "") -> None:
-        self._quantity, self._most = quantity, most
-
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float:
-        """Return the value in SI."""
-        from report.words.units import Quantity
-
-        units = Quantity[self._quantity].accepted
-        found, most = (_in_si(text, units) for text in (value, self._most))
-        if math.isnan(found) or found == 0.0 or found > most:
-            most_said = f" up to {self._most}" if self._most else ""
-            wanted = f"give a positive number{most_said} and its unit: {', '.join(units)}"
-            self.fail(f"it is '{value}'; {wanted}.", param, ctx)
-        return found
-
-
-def _in_si(text: str, units: Mapping[str, float]) -> float:
-    match = re.fullmatch(r"\s*(\d+\.?\d*|\.\d+)\s*([A-Za-z]+)\s*", text)
-    return float(match[1]) * units.get(match[2], math.nan) if match else math.nan
 
 
 TIME_STEP = Number("s", 0.0, is_open=True)

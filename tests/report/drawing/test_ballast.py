@@ -87,7 +87,7 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     )
     path = tmp_path / "map.csv"
     path.write_text("x,y,blocks\n40,30,300\n80,60,200\n500,0,1\n")  # A1 is 20 to 100, 15 to 75 ft
-    words = (path, book, "--units", "ft", "--block-weight", "32 lb")
+    words = (path, book, "--units", "ft", "--block-weight", 32, "lb")
     output = ran(*words)
     # 16,000 lb at 56, 42 ft and 24,000 lb at 60, 45 ft.
     assert "A1: 500 blocks, 16000 lb (71.17 kN); center of gravity of ballast and 320 mod" in output
@@ -110,7 +110,7 @@ def test_a_workbook_without_the_column_is_refused_with_what_to_do(tmp_path):
     path = tmp_path / "map.csv"
     path.write_text("x,y,blocks\n40,30,300\n")
     edit(book, lambda found: retitled(found, "Ballast weight [lb]"))
-    output = ran(path, book, "--units", "ft", "--block-weight", "32 lb", exit_code=2)
+    output = ran(path, book, "--units", "ft", "--block-weight", 32, "lb", exit_code=2)
     assert "heading 'Ballast weight' is missing" in output
 
 
