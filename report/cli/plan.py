@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from report.drawing.ballast import Load
     from report.drawing.plan_read import DrawnOutline, RoofPlan
     from report.drawing.read_dxf import RoofDrawing
+    from report.sheet.reading.archive import OpenBook
     from report.sheet.schema import LayerKind
     from report.sheet.schema.fields import DraftRow
 
@@ -77,22 +78,34 @@ def read(
     blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
+    from report.drawing.fill import changes
+    from report.drawing.plan_read import plan_of
+    from report.sheet.reading.read import read as read_sheet
+    from report.sheet.writing.filled import fill_cells
     from report.words.units import LENGTHS
     from solver.model import InputError
 
     gap_m = gap[0] * LENGTHS[gap[1]]
+    with input_errors(project):
+        sheet = read_sheet(project)
+    rows = (row for row in sheet.draft["layers"] if {"layer", "kind"} <= row.keys())
+    named = {row["layer"]: row["kind"] for row in rows}
     with input_errors(drawing):
         drawn, unit_m = _read(drawing, units)
         drawn, degrees = _turned(drawn, rotate)
-        found, layers = _planned(drawn, unit_m, project, given, accept, gap_m)
+        layers = choose(drawn, named, given, accept)
+        found = plan_of(drawn, unit_m, {**named, **layers}, gap_m)
     with input_errors(project):
-        path, has_formulas, has_layers = _filled(project, found, layers, replace)
+        if not (found.roof or found.arrays or found.objects):
+            unread = list(_unread(found)) or ["the drawing has no closed lines"]
+            raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
+        has_formulas = fill_cells(sheet.book, changes(sheet.book, found, layers, replace=replace))
     lines = (
         *_turn(degrees, found),
         *map(_line, (*found.roof, *found.arrays, *found.objects)),
         *_modules(found, gap_m),
         *_unread(found),
-        *_kept(layers, has_layers),
+        *_kept(layers, sheet.book),
     )
     for text in lines:
         click.echo(plain(text))
@@ -101,8 +114,7 @@ def read(
     except InputError as error:
         click.echo(plain(f"Clearances are not added yet: {error.problems[0]}."))
         click.echo(f"Once the workbook has no errors, run: {called()} plan clearances {project}")
-    click.echo(f"{path}: the plan is filled in.")
-    say_next(project, has_formulas)
+    _say_filled(sheet.book.path, project, "the plan is", has_formulas)
 
 
 @plan.command()
@@ -156,47 +168,6 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, float]:
     if math.isnan(degrees):
         raise InputError("states no north (GEODATA); give --rotate in degrees")
     return (turned(drawn, degrees) if degrees else drawn), degrees
-
-
-def _planned(
-    drawn: RoofDrawing,
-    unit_m: float,
-    project: Path,
-    given: dict[str, LayerKind],
-    accept: bool,
-    gap_m: float,
-) -> tuple[RoofPlan, dict[str, LayerKind]]:
-    """Return the plan, and what is said of layers that the workbook does not name."""
-    from report.drawing.plan_read import plan_of
-    from report.sheet.reading.read import read as read_sheet
-
-    sheet = read_sheet(project)
-    named = {
-        row["layer"]: row["kind"]
-        for row in sheet.draft["layers"]
-        if {"layer", "kind"} <= row.keys()
-    }
-    layers = choose(drawn, named, given, accept)
-    return plan_of(drawn, unit_m, {**named, **layers}, gap_m), layers
-
-
-def _filled(
-    project: Path, found: RoofPlan, layers: dict[str, LayerKind], replace: bool
-) -> tuple[Path, bool, bool]:
-    """Fill the plan in; return the workbook, whether it has formulas, and the sheet Layers."""
-    from report.drawing.fill import changes
-    from report.sheet.reading.archive import open_book
-    from report.sheet.reading.locate import is_absent
-    from report.sheet.schema import SECTION
-    from report.sheet.writing.filled import fill_cells
-    from solver.model import InputError
-
-    if not (found.roof or found.arrays or found.objects):
-        lines = list(_unread(found)) or ["the drawing has no closed lines"]
-        raise InputError(["nothing to fill in: give the layers on the sheet Layers", *lines])
-    book = open_book(project)
-    has_formulas = fill_cells(book, changes(book, found, layers, replace=replace))
-    return book.path, has_formulas, not is_absent(book, SECTION["layers"])
 
 
 def _turn(degrees: float, found: RoofPlan) -> Iterator[str]:
@@ -256,11 +227,15 @@ def _unread(found: RoofPlan) -> Iterator[str]:
         yield f"not read: {reason}: {len(items)} on {layers} ({handles})"
 
 
-def _kept(layers: dict[str, LayerKind], has_layers: bool) -> Iterator[str]:
+def _kept(layers: dict[str, LayerKind], book: OpenBook) -> Iterator[str]:
     """Yield what is said of layers, and whether the workbook keeps it."""
+    from report.sheet.reading.locate import is_absent
+    from report.sheet.schema import SECTION
+
     if layers:
         said = ", ".join(f"{name} = {kind.value}" for name, kind in layers.items())
-        where = "kept on the sheet Layers" if has_layers else "not kept: there is no sheet Layers"
+        is_lost = is_absent(book, SECTION["layers"])
+        where = "not kept: there is no sheet Layers" if is_lost else "kept on the sheet Layers"
         yield f"layers, {where}: {said}"
 
 
@@ -278,10 +253,10 @@ def ballast(
 
     Coordinates are those of the plan. Prints the center of gravity of each array in plan.
     """
-    from report.drawing.ballast import changes, loads, read_map
+    from report.drawing.ballast import loads, read_map
+    from report.drawing.fill import ballast_changes
     from report.sheet.checking.grouped import listed
     from report.sheet.checking.plan_checks import shapes_of
-    from report.sheet.reading.archive import open_book
     from report.sheet.reading.read import read as read_sheet
     from report.sheet.writing.filled import fill_cells
     from report.words.counts import numbered
@@ -292,26 +267,22 @@ def ballast(
     with input_errors(ballast_map):
         rows = read_map(ballast_map, LENGTHS[units])
     with input_errors(project):
-        draft, book = read_sheet(project).draft, open_book(project)
+        sheet = read_sheet(project)
+        draft, book = sheet.draft, sheet.book
         shapes = shapes_of(draft)
         arrays = {row["id"]: row for row in draft["arrays"] if row.get("id") in shapes}
         found, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not found:
             raise InputError("no block of the map is within an array of the plan")
         weights = {name: load.blocks * block_n for name, load in found.items()}
-        has_formulas = fill_cells(book, changes(book, weights, replace=replace))
+        has_formulas = fill_cells(book, ballast_changes(book, weights, replace=replace))
     for name, row in arrays.items():
         text = _balance(row, found[name], weights[name]) if name in found else "no blocks"
         click.echo(plain(f"{name}: {text}"))
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
         click.echo(f"outside of every array: {lines}")
-    click.echo(
-        "The model has no rotation in plan and one friction coefficient under an array; it uses no"
-        " eccentricity."
-    )
-    click.echo(f"{book.path}: the ballast weights are filled in.")
-    say_next(project, has_formulas)
+    _say_filled(book.path, project, "the ballast weights are", has_formulas)
 
 
 def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:

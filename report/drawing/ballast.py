@@ -1,6 +1,6 @@
 """A ballast map: how many blocks lie where, and what each array carries by it.
 
-Writes no file. Read `read_map`, then `loads`.
+Knows no workbook (`report.drawing.fill`). Read `read_map`, then `loads`.
 """
 
 from __future__ import annotations
@@ -15,10 +15,6 @@ from typing import Any
 import numpy as np
 
 from report.drawing.read_dxf import MB
-from report.sheet.reading.archive import OpenBook
-from report.sheet.reading.growing import GrowingTable
-from report.sheet.reading.parts import Value
-from report.sheet.reading.positions import CellPosition
 from report.sheet.schema.shapes import Point, Shape, solid
 from report.words.letters import cut
 from solver.model import InputError
@@ -106,26 +102,3 @@ def center_of_gravity(load: Load, ballast_n: float, modules_n: float) -> Point:
     share = ballast_n / (ballast_n + modules_n)
     (x, y), (x0, y0) = load.center, load.centroid
     return x0 + share * (x - x0), y0 + share * (y - y0)
-
-
-def changes(
-    book: OpenBook, weights_n: Mapping[str, float], *, replace: bool
-) -> dict[CellPosition, Value]:
-    """Return the cells to change so that arrays have a ballast weight [N].
-
-    Raises
-    ------
-    InputError
-        For each array that has one already, unless it may be replaced.
-    """
-    table = GrowingTable.of(book, "arrays")
-    cells: dict[CellPosition, Value] = {}
-    for name, weight_n in weights_n.items():
-        at = table.position(table.rows("id", name)[0], "ballast_n")
-        cells[at] = table.number("ballast_n", weight_n)
-    if not replace:
-        filled = [at.address for at in cells if not table.cell(at.row, "ballast_n").is_blank]
-        text = "the ballast weight is given already; add --replace to overwrite it"
-        if filled:
-            raise InputError([f"{address}: {text}" for address in filled])
-    return cells

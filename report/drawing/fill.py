@@ -39,6 +39,18 @@ class _Fill:
             text = f"{name} is filled already; add --replace to overwrite it"
             self.filled.append(f"{position.address}: {text}")
 
+    def put(self, position: CellPosition, value: Value, name: str) -> None:
+        """Fill a cell, which is refused if it is filled already."""
+        if not found_at(self.book, position).is_blank:
+            self.refuse(position, name)
+        self.cells[position] = value
+
+    def done(self) -> dict[CellPosition, Value]:
+        """Return the changes, if none was refused."""
+        if self.filled:
+            raise InputError(self.filled)
+        return self.cells
+
 
 def changes(
     book: OpenBook, plan: RoofPlan, layers: Mapping[str, LayerKind], *, replace: bool
@@ -62,9 +74,19 @@ def changes(
     _fill_north(fill, plan.north_deg)
     _fill_layers(fill, layers)
     _fill_outlines(fill, outlines)
-    if fill.filled:
-        raise InputError(fill.filled)
-    return fill.cells
+    return fill.done()
+
+
+def ballast_changes(
+    book: OpenBook, weights_n: Mapping[str, float], *, replace: bool
+) -> dict[CellPosition, Value]:
+    """Return the cells to change so that arrays have a ballast weight [N]; raises as `changes`."""
+    fill, table = _Fill(book, replace), GrowingTable.of(book, "arrays")
+    for name, weight_n in weights_n.items():
+        position = table.position(table.rows("id", name)[0], "ballast_n")
+        weight = table.number("ballast_n", weight_n)
+        fill.put(position, weight, f"the ballast weight of {name}")
+    return fill.done()
 
 
 def _fill_rows(
@@ -83,9 +105,8 @@ def _fill_rows(
         if not rows:
             fill.cells[table.position(row, "id")] = place.name
         if key == "arrays" and place.modules and "modules" in table.found.columns:
-            if not table.cell(row, "modules").is_blank:
-                fill.refuse(table.position(row, "modules"), place.name)
-            fill.cells[table.position(row, "modules")] = place.modules.count
+            count = f"the number of modules of {place.name}"
+            fill.put(table.position(row, "modules"), place.modules.count, count)
         if key == "objects" and (not rows or fill.replace):
             fill.cells[table.position(row, "kind")] = place.kind.value
         if key == "objects" and math.isfinite(place.height_m) and (not rows or fill.replace):

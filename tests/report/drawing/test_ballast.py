@@ -99,7 +99,9 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     assert sheet.project.arrays[0].weight_n == pytest.approx(40000 * LB)
     (echoed,) = (row for row in sheet.echo if row.cell == "K8" and row.label == "Weight")
     assert (echoed.typed, echoed.value) == ("", "177929 N (computed)")
-    assert "is given already; add --replace to overwrite it" in ran(*words, exit_code=2)
+    assert "the ballast weight of A1 is filled already; add --replace to overwrite it" in ran(
+        *words, exit_code=2
+    )
     ran(*words, "--replace")
     path.write_text("x,y,blocks\n-1,30,3\n")
     assert "no block of the map is within an array" in ran(*words, "--replace", exit_code=2)
