@@ -19,14 +19,13 @@ from report.sheet.reading.read import Sheet
 from report.sheet.schema import SECTION, Array, ClearanceSource, Direction, ProjectInput, RoofObject
 from report.sheet.schema.fields import Place, entries
 from report.words.counts import numbered
-from report.words.units import Quantity, pair
+from report.words.units import Quantity, pair, round_down
 from solver.model import INCH_M
 from solver.rules import provisions
 
 US_STEP_M, SI_STEP_M = 0.1 * INCH_M, 0.001
 """Distances are rounded down to a multiple of this [m]."""
 
-_PER_UNIT = 10.0**DIGITS  # smallest parts of a cell
 _NOISE_M = 1e-9  # coordinates in feet are no round numbers of meters
 _WAYS = (Direction.DOWN, Direction.ACROSS, Direction.UP, Direction.ACROSS)  # by quarter turns
 
@@ -90,7 +89,7 @@ def missing_rows(
     reach = _size(REACH_FACTOR * design_before_runs_m(data), us_first)
     lines = [
         *written,
-        *_differing(sheet, data, pairs),
+        *_differing(pairs, us_first),
         *(f"not added: {near.names}, {_size(near.gap_m, us_first)}; correct the plan, or give the "
           "roof edge as an object" for near in missing if not _has_row(near)),
         f"{numbered(len(new), 'clearance')} added, {len(data.clearances)} kept; reach {reach}, "
@@ -156,13 +155,13 @@ def _written(
     for near in new:
         row, direction = table.added(), direction_of(near, downslope[near.array])
         si = table.found.columns["provided_m"].si
-        rounded_m = math.floor((max(near.gap_m, 0.0) + _NOISE_M) / step_m) * step_m
+        rounded_m = round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
         content: dict[str, Value] = {
             "array": near.array,
             "object": near.other,
             "direction": direction.value,
             # Down once more: 0.1 in is no round number of feet.
-            "provided_m": math.floor(rounded_m / si * _PER_UNIT + 0.001) / _PER_UNIT,
+            "provided_m": round_down(rounded_m / si, DIGITS),
             "source": ClearanceSource.DRAWING.value,
         }
         cells |= {table.position(row, name): value for name, value in content.items()}
@@ -171,19 +170,11 @@ def _written(
     return cells, lines
 
 
-def _differing(sheet: Sheet, data: ProjectInput, pairs: Sequence[PlanNeighbor]) -> Iterator[str]:
-    """Yield the rows whose distance is not that of the plan, or whose array or object is gone."""
-    us_first = data.project.units_first.is_us
+def _differing(pairs: Sequence[PlanNeighbor], us_first: bool) -> Iterator[str]:
+    """Yield the rows whose distance is not that of the plan."""
     for near in pairs:
         for given in near.given:
             if abs(given.clearance.provided_m - near.gap_m) > US_STEP_M + _NOISE_M:
                 values = (given.clearance.provided_m, near.gap_m)
                 entered, drawn = (_size(value, us_first) for value in values)
                 yield f"{given.cell}: {near.names}: {entered} entered, {drawn} in plan"
-    arrays = {array.id for array in data.arrays}
-    known = {"array": arrays, "object": arrays | {item.id for item in data.objects}}
-    for index, row in enumerate(data.clearances):
-        for field, ids in known.items():
-            if (name := getattr(row, field)) not in ids:
-                at = sheet.addresses[Place("clearances", index, field)]
-                yield f"{at}: '{name}' is no longer in Arrays or Objects; correct or delete the row"
