@@ -17,6 +17,7 @@ from report.cli.plan_layers import choose, given_kinds
 from report.cli.terminal import SOURCE, input_errors, plain
 from report.cli.values import Number
 from report.words.command import called
+from report.words.counts import grouped_by, numbered
 
 if TYPE_CHECKING:
     from report.drawing.ballast import Load
@@ -114,7 +115,7 @@ def read(
     except InputError as error:
         click.echo(plain(f"Clearances are not added yet: {error.problems[0]}."))
         click.echo(f"Once the workbook has no errors, run: {called()} plan clearances {project}")
-    _say_filled(sheet.book.path, project, "the plan is", has_formulas)
+    _say_next(project, has_formulas)
 
 
 @plan.command()
@@ -128,7 +129,7 @@ def clearances(project: Path) -> None:
     """
     with input_errors(project):
         has_formulas = _with_clearances(project)
-    say_next(project, has_formulas)
+    _say_next(project, has_formulas)
 
 
 def _with_clearances(project: Path) -> bool:
@@ -143,6 +144,12 @@ def _with_clearances(project: Path) -> bool:
     for line in lines:
         click.echo(plain(line))
     return has_formulas
+
+
+def _say_next(project: Path, has_formulas: bool) -> None:
+    click.echo(f"Next: {called()} check {project}")
+    if has_formulas:
+        click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 
 
 def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
@@ -182,7 +189,6 @@ def _turn(degrees: float, found: RoofPlan) -> Iterator[str]:
 
 def _line(place: DrawnOutline) -> str:
     from report.drawing.turned import own_axes
-    from report.words.counts import numbered
     from report.words.units import Quantity, pair
 
     *sides, angle = own_axes(place.shape)
@@ -203,7 +209,6 @@ def _line(place: DrawnOutline) -> str:
 def _modules(found: RoofPlan, gap_m: float) -> Iterator[str]:
     """Yield the rule by which modules were joined, where there are any."""
     from report.drawing.modules import ALIKE_M, LEAST_ALIKE, SIDES_M
-    from report.words.counts import numbered
     from report.words.units import Quantity, pair
 
     arrays = [place.modules for place in (*found.arrays, *found.objects) if place.modules]
@@ -219,7 +224,6 @@ def _modules(found: RoofPlan, gap_m: float) -> Iterator[str]:
 def _unread(found: RoofPlan) -> Iterator[str]:
     """Yield what was not understood, once for each cause, with its layers and some handles."""
     from report.sheet.checking.grouped import listed
-    from report.words.counts import grouped_by
 
     for reason, items in grouped_by(found.unread, lambda item: item.reason).items():
         layers = listed(item.layer for item in items)
@@ -259,7 +263,6 @@ def ballast(
     from report.sheet.checking.plan_checks import shapes_of
     from report.sheet.reading.read import read as read_sheet
     from report.sheet.writing.filled import fill_cells
-    from report.words.counts import numbered
     from report.words.units import LENGTHS, WEIGHTS
     from solver.model import InputError
 
@@ -268,27 +271,26 @@ def ballast(
         rows = read_map(ballast_map, LENGTHS[units])
     with input_errors(project):
         sheet = read_sheet(project)
-        draft, book = sheet.draft, sheet.book
-        shapes = shapes_of(draft)
-        arrays = {row["id"]: row for row in draft["arrays"] if row.get("id") in shapes}
+        shapes = shapes_of(sheet.draft)
+        arrays = {row["id"]: row for row in sheet.draft["arrays"] if row.get("id") in shapes}
         found, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not found:
             raise InputError("no block of the map is within an array of the plan")
         weights = {name: load.blocks * block_n for name, load in found.items()}
-        has_formulas = fill_cells(book, ballast_changes(book, weights, replace=replace))
+        cells = ballast_changes(sheet.book, weights, replace=replace)
+        has_formulas = fill_cells(sheet.book, cells)
     for name, row in arrays.items():
         text = _balance(row, found[name], weights[name]) if name in found else "no blocks"
         click.echo(plain(f"{name}: {text}"))
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
         click.echo(f"outside of every array: {lines}")
-    _say_filled(book.path, project, "the ballast weights are", has_formulas)
+    _say_next(project, has_formulas)
 
 
 def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:
     """Return the ballast of an array and its center of gravity, as far as weights are known."""
     from report.drawing.ballast import center_of_gravity
-    from report.words.counts import numbered
     from report.words.units import Quantity, pair
 
     modules, each_n = row.get("modules"), row.get("module_weight_n")

@@ -28,10 +28,10 @@ class _Fill:
 
     book: OpenBook
     replace: bool
+    outlines: GrowingTable | None = None
+    lacking: list[str] = field(default_factory=list)  # outlines without the sheet for them
     cells: dict[CellPosition, Value] = field(default_factory=dict)
     filled: list[str] = field(default_factory=list)
-    outlines: list[tuple[str, Polygon]] = field(default_factory=list)
-    outlined: list[str] = field(default_factory=list)
 
     def refuse(self, position: CellPosition, name: str) -> None:
         """Note a place that is filled already."""
@@ -65,15 +65,18 @@ def changes(
     InputError
         For each place that is filled already, unless it may be replaced.
     """
-    fill = _Fill(book, replace)
     outlines = None if is_absent(book, SECTION["outlines"]) else GrowingTable.of(book, "outlines")
-    _fill_rows(fill, "arrays", plan.arrays, outlines)
-    _fill_rows(fill, "objects", plan.objects, outlines)
+    fill = _Fill(book, replace, outlines)
+    _fill_rows(fill, "arrays", plan.arrays)
+    _fill_rows(fill, "objects", plan.objects)
     for place in plan.roof:
-        _fill_roof(fill, place, outlines)
+        _fill_roof(fill, place)
     _fill_north(fill, plan.north_deg)
     _fill_layers(fill, layers)
-    _fill_outlines(fill, outlines)
+    if fill.lacking:
+        names = ", ".join(fill.lacking)
+        missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
+        raise InputError(f"{missing}. {MOVE}, then read the drawing into that")
     return fill.done()
 
 
@@ -89,9 +92,7 @@ def ballast_changes(
     return fill.done()
 
 
-def _fill_rows(
-    fill: _Fill, key: str, places: Sequence[DrawnOutline], outlines: GrowingTable | None
-) -> None:
+def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
     if not places:
         return
     table = GrowingTable.of(fill.book, key)
@@ -101,7 +102,7 @@ def _fill_rows(
         taken = [side for side in SIDES if not table.cell(row, side).is_blank]
         if rows and taken:
             fill.refuse(table.position(row, taken[0]), f"the place of {place.name}")
-        _note_outline(fill, place, outlines)
+        _fill_outline(fill, place)
         if not rows:
             fill.cells[table.position(row, "id")] = place.name
         if key == "arrays" and place.modules and "modules" in table.found.columns:
@@ -124,9 +125,9 @@ def _sides(shape: Shape) -> tuple[float | None, ...]:
     return (None,) * len(SIDES)
 
 
-def _fill_roof(fill: _Fill, place: DrawnOutline, outlines: GrowingTable | None) -> None:
+def _fill_roof(fill: _Fill, place: DrawnOutline) -> None:
     section = SECTION["roof"]
-    _note_outline(fill, place, outlines)
+    _fill_outline(fill, place)
     if isinstance(place.shape, Polygon) and is_absent(fill.book, section):
         return
     for side, value in zip(SIDES, _sides(place.shape), strict=True):
@@ -161,32 +162,22 @@ def _fill_layers(fill: _Fill, layers: Mapping[str, LayerKind]) -> None:
             fill.cells[table.position(row, "kind")] = kind.value
 
 
-def _note_outline(fill: _Fill, place: DrawnOutline, outlines: GrowingTable | None) -> None:
-    """Note the outline of a place, and the rows of a former one."""
+def _fill_outline(fill: _Fill, place: DrawnOutline) -> None:
+    """Fill in the outline of a place below the others, and clear a former one."""
     name = ROOF if place.kind.value == ROOF else place.name
-    rows = outlines.rows("name", name) if outlines is not None else []
-    if rows and outlines is not None:
-        fill.refuse(outlines.position(rows[0], "name"), f"the place of {name}")
-        fill.outlined.append(name)
-    if isinstance(place.shape, Polygon):
-        fill.outlines.append((name, place.shape))
-
-
-def _fill_outlines(fill: _Fill, outlines: GrowingTable | None) -> None:
-    if outlines is None:
-        if fill.outlines:
-            names = ", ".join(name for name, _ in fill.outlines)
-            missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
-            raise InputError(f"{missing}. {MOVE}, then read the drawing into that")
+    points = place.shape.points if isinstance(place.shape, Polygon) else ()
+    table = fill.outlines
+    if table is None:
+        fill.lacking += [name] if points else []
         return
-    for name in fill.outlined:
-        for row in outlines.rows("name", name):
-            fill.cells |= {outlines.position(row, field): None for field in outlines.found.columns}
-    for name, shape in fill.outlines:
-        for x, y in shape.points:
-            row = outlines.added()
-            fill.cells[outlines.position(row, "name")] = name
-            fill.cells[outlines.position(row, "x_m")] = outlines.number("x_m", x)
-            fill.cells[outlines.position(row, "y_m")] = outlines.number("y_m", y)
-            if "source" in outlines.found.columns:  # not in earlier workbooks
-                fill.cells[outlines.position(row, "source")] = DRAWING
+    rows = table.rows("name", name)
+    if rows:
+        fill.refuse(table.position(rows[0], "name"), f"the place of {name}")
+    fill.cells |= {table.position(row, head): None for row in rows for head in table.found.columns}
+    for x, y in points:
+        row = table.added()
+        fill.cells[table.position(row, "name")] = name
+        fill.cells[table.position(row, "x_m")] = table.number("x_m", x)
+        fill.cells[table.position(row, "y_m")] = table.number("y_m", y)
+        if "source" in table.found.columns:  # not in earlier workbooks
+            fill.cells[table.position(row, "source")] = DRAWING
