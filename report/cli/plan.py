@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
 WEIGHT_CHOICES = ("lb", "kip", "N", "kN", "kg")
 
-Measured = tuple[float, str]
-"""A number with its unit."""
-
 _POSITIVE = Number(low=0.0, is_open=True)
 
 
@@ -66,7 +63,7 @@ def read(
     drawing: Path,
     project: Path,
     units: str | None,
-    gap: Measured,
+    gap: tuple[float, str],
     replace: bool,
     accept: bool,
     given: dict[str, LayerKind],
@@ -208,17 +205,13 @@ def _line(place: DrawnOutline) -> str:
 
 def _modules(found: RoofPlan, gap_m: float) -> Iterator[str]:
     """Yield the rule by which modules were joined, where there are any."""
-    from report.drawing.modules import ALIKE_M, LEAST_ALIKE, SIDES_M
     from report.words.units import Quantity, pair
 
     arrays = [place.modules for place in (*found.arrays, *found.objects) if place.modules]
     if arrays:
-        low, high, alike, gap = (pair(m, Quantity.SIZE) for m in (*SIDES_M, ALIKE_M, gap_m))
-        yield (
-            f"modules: {sum(array.count for array in arrays)} rectangles with sides of {low} to"
-            f" {high}, {LEAST_ALIKE} or more of a size within {alike} on a layer; joined to"
-            f" {numbered(len(arrays), 'array')} where gaps are at most {gap} (--gap)"
-        )
+        modules = numbered(sum(array.count for array in arrays), "module")
+        rule = f"joined where gaps are at most {pair(gap_m, Quantity.SIZE)} (--gap)"
+        yield f"{modules} in {numbered(len(arrays), 'array')}, {rule}"
 
 
 def _unread(found: RoofPlan) -> Iterator[str]:
@@ -251,7 +244,7 @@ def _kept(layers: dict[str, LayerKind], book: OpenBook) -> Iterator[str]:
               metavar="NUMBER UNIT", help="Of one block, such as 32 lb.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite ballast weights that are given.")
 def ballast(
-    ballast_map: Path, project: Path, units: str, block_weight: Measured, replace: bool
+    ballast_map: Path, project: Path, units: str, block_weight: tuple[float, str], replace: bool
 ) -> None:
     """Fill in the ballast weight of arrays from a CSV with the columns x, y, blocks.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from report.sheet.schema.shapes import Point
 
@@ -18,14 +17,11 @@ BRANCHED = "open lines of which three or more meet at a point"
 Line = Sequence[Point]
 
 
-class Joined(NamedTuple):
-    """A closed line, and which open ones it consists of."""
-
-    points: list[Point]
-    lines: list[int]
+Closed = tuple[list[Point], list[int]]
+"""A closed line, and which open ones it consists of."""
 
 
-def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Joined], Mapping[int, str]]:
+def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping[int, str]]:
     """Return the closed lines that open ones form, and why the rest of these does not.
 
     The tolerance is the largest distance of ends that meet.
@@ -51,9 +47,10 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Joined], Mapping
         for k in drawn.values()
         if all(meeting[end] == 2 for end in ends[k])
     ]
-    deposit = edgeminer.Deposit(edges, gap_tol=0.5 * tolerance) if edges else None
+    gap = 0.5 * tolerance
+    deposit = edgeminer.Deposit(edges, gap_tol=gap) if edges else None
     for chain in edgeminer.find_all_simple_chains(deposit) if deposit else ():
-        if len(chain) > 1 and edgeminer.is_loop(chain, gap_tol=0.5 * tolerance):
+        if len(chain) > 1 and edgeminer.is_loop(chain, gap_tol=gap):
             loop = [(edge.payload, edge.is_reverse) for edge in chain]
             first = loop.index(min(loop))
             loops.append([*loop[first:], *loop[:first]])
@@ -81,11 +78,7 @@ def _snapped(at: Point, cells: dict[Point, list[Point]], tolerance: float) -> Po
     return at
 
 
-def _closed(lines: Sequence[Line], loop: Sequence[tuple[int, bool]]) -> Joined:
-    """Return a chain as a closed line; its corners are midway between the ends that meet."""
+def _closed(lines: Sequence[Line], loop: Sequence[tuple[int, bool]]) -> Closed:
+    """Return a chain as a closed line; of the two ends at a corner, the one that begins a line."""
     parts = [lines[k][::-1] if is_reversed else lines[k] for k, is_reversed in loop]
-    points: list[Point] = []
-    for before, part in zip((parts[-1], *parts), parts, strict=False):
-        (x0, y0), (x1, y1) = before[-1], part[0]
-        points += [(0.5 * (x0 + x1), 0.5 * (y0 + y1)), *part[1:-1]]
-    return Joined(points, [k for k, _ in loop])
+    return [point for part in parts for point in part[:-1]], [k for k, _ in loop]

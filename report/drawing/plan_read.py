@@ -208,7 +208,7 @@ def _named(
     repeated = Counter(name.casefold() for name in written)
     given = set(repeated)
     for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
-        notes = [f"joined from {line.pieces} lines"] if line.pieces else []
+        notes: list[str] = []
         modules = line if isinstance(line, ModuleArray) else None
         if modules and name and repeated[name.casefold()] > 1:
             name = ""  # as of a product

@@ -62,8 +62,6 @@ class Drawn:
         Whether `report` wrote it.
     heights : tuple of str
         Attributes of its block that give a height, each as `HT 42`.
-    pieces : int
-        How many open lines it is joined from; 0 for a line that is drawn closed.
     """
 
     handle: str
@@ -72,7 +70,6 @@ class Drawn:
     points: tuple[Point, ...]
     is_ours: bool
     heights: tuple[str, ...] = ()
-    pieces: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -313,8 +310,7 @@ class _Reader:
         for lines in self.opened.values():
             closed, rest = join([line.points for line in lines], JOIN_M / self.unit_m)
             for points, parts in closed:
-                pieces = len(parts) if len(parts) > 1 else 0
-                line = replace(lines[parts[0]], points=tuple(points), pieces=pieces)
+                line = replace(lines[parts[0]], points=tuple(points))
                 if reason := self._close(line, "closed line"):
                     self._leave(line.handle, line.layer, reason)
             for k, reason in rest.items():

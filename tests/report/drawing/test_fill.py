@@ -204,7 +204,7 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     for said in ("turned counterclockwise by -17°", "the drawing states no north: check",
                  "layers, kept on the sheet Layers: a-roof-tank = fixed object, A-ANNO-NOTE = ",
                  "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) from ",
-                 "(joined from 2 lines; ELEV 60.0 in (1524 mm); taken as above the roof)",
+                 "(ELEV 60.0 in (1524 mm); taken as above the roof)",
                  "(HT 48.0 in (1219 mm); no unit given, so in that of the drawing)"):  # fmt: skip
         assert said in output
     # They are known from now on; one that is given again is changed in its row.
