@@ -16,7 +16,7 @@ from report.sheet.reading.growing import DIGITS, GrowingTable
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import Sheet
-from report.sheet.schema import SECTION, Array, ClearanceSource, Direction, ProjectInput, RoofObject
+from report.sheet.schema import SECTION, ClearanceSource, Direction, ProjectInput
 from report.sheet.schema.fields import Place, entries
 from report.words.counts import numbered
 from report.words.units import Quantity, pair, round_down
@@ -45,9 +45,8 @@ def pairs_before_runs(
     rules, least_m, known = rule_set_of(data), design_before_runs_m(data), designs_m or {}
     # NaN is no larger one.
     slides = {array.id: max(least_m, known.get(array.id, 0.0)) for array in data.arrays}
-    rows: dict[str, Array | RoofObject] = {item.id: item for item in data.objects}
     arrays = {array.id: array for array in data.arrays}
-    rows |= arrays
+    rows = {item.id: item for item in data.objects} | arrays
 
     def required(near: PlanNeighbor) -> tuple[float, str]:
         design_m = max(slides[near.array], slides.get(near.other, 0.0))
@@ -95,11 +94,6 @@ def missing_rows(
         f"{numbered(len(new), 'clearance')} added, {len(data.clearances)} kept; reach {reach}, "
         "twice the prescriptive displacement, as nothing is run",
     ]  # fmt: skip
-    if new:
-        lines.append(
-            "Distances from the drawing are a condition of the package until the column Distance"
-            " from says measured, or the sheet Project says who confirmed them and when"
-        )
     return cells, tuple(lines)
 
 

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from report.drawing.ballast import Load
     from report.drawing.plan_read import DrawnOutline, RoofPlan
     from report.drawing.read_dxf import RoofDrawing
-    from report.sheet.reading.archive import OpenBook
     from report.sheet.schema import LayerKind
     from report.sheet.schema.fields import DraftRow
 
@@ -99,11 +98,11 @@ def read(
             raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
         has_formulas = fill_cells(sheet.book, changes(sheet.book, found, layers, replace=replace))
     lines = (
-        *_turn(degrees, found),
+        *_turn(degrees, drawn.north_deg),
         *map(_line, (*found.roof, *found.arrays, *found.objects)),
         *_modules(found, gap_m),
         *_unread(found),
-        *_kept(layers, sheet.book),
+        *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
     )
     for text in lines:
         click.echo(plain(text))
@@ -155,11 +154,10 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     from report.words.units import LENGTHS
     from solver.model import InputError
 
-    found = read_dxf(drawing, LENGTHS[units] if units else None)
+    found = read_dxf(drawing, LENGTHS.get(units or ""))
     unit = units or found.unit
     if not unit:
-        choices = ", ".join(UNIT_CHOICES)
-        raise InputError(f"states no unit; add --units with one of {choices}")
+        raise InputError(f"states no unit; add --units with one of {', '.join(UNIT_CHOICES)}")
     return found, LENGTHS[unit]
 
 
@@ -174,12 +172,12 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, float]:
     return (turned(drawn, degrees) if degrees else drawn), degrees
 
 
-def _turn(degrees: float, found: RoofPlan) -> Iterator[str]:
+def _turn(degrees: float, north_deg: float) -> Iterator[str]:
     """Yield what the drawing is turned by, and where its north is then."""
     if degrees:
         yield f"turned counterclockwise by {degrees:.6g}° about the origin of the drawing"
-    if not math.isnan(found.north_deg):
-        yield f"north, by the drawing: {found.north_deg:.6g}° counterclockwise from +x"
+    if not math.isnan(north_deg):
+        yield f"north is {north_deg:.6g}° counterclockwise from +x: check it on the sheet Site"
     elif degrees:
         yield "the drawing states no north: check its direction on the sheet Site"
 
@@ -222,18 +220,6 @@ def _unread(found: RoofPlan) -> Iterator[str]:
         layers = listed(item.layer for item in items)
         handles = listed(f"{item.handle} {item.detail}".strip() for item in items)
         yield f"not read: {reason}: {len(items)} on {layers} ({handles})"
-
-
-def _kept(layers: dict[str, LayerKind], book: OpenBook) -> Iterator[str]:
-    """Yield what is said of layers, and whether the workbook keeps it."""
-    from report.sheet.reading.locate import is_absent
-    from report.sheet.schema import SECTION
-
-    if layers:
-        said = ", ".join(f"{name} = {kind.value}" for name, kind in layers.items())
-        is_lost = is_absent(book, SECTION["layers"])
-        where = "not kept: there is no sheet Layers" if is_lost else "kept on the sheet Layers"
-        yield f"layers, {where}: {said}"
 
 
 @plan.command()

@@ -16,7 +16,7 @@ from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.schema import ROOF, SECTION, SIDES, LayerKind, Polygon, Rectangle
-from report.sheet.schema.scene import DRAWING, Roof
+from report.sheet.schema.scene import DRAWING
 from report.sheet.schema.shapes import Shape
 from report.sheet.writing.legacy_notes import MOVE
 from solver.model import InputError
@@ -71,7 +71,6 @@ def changes(
     _fill_rows(fill, "objects", plan.objects)
     for place in plan.roof:
         _fill_roof(fill, place)
-    _fill_north(fill, plan.north_deg)
     _fill_layers(fill, layers)
     if fill.lacking:
         names = ", ".join(fill.lacking)
@@ -138,18 +137,6 @@ def _fill_roof(fill: _Fill, place: DrawnOutline) -> None:
             fill.refuse(position, "the place of the roof")
         if value is not None or not is_blank:
             fill.cells[position] = None if value is None else round(value / si, DIGITS)
-
-
-def _fill_north(fill: _Fill, north_deg: float) -> None:
-    section = SECTION["roof"]
-    if math.isnan(north_deg) or is_absent(fill.book, section):
-        return
-    position = find_cell(fill.book, section, section.entry("north_deg"))
-    found = found_at(fill.book, position)
-    given = round(north_deg, DIGITS)
-    if found.value not in (None, given, Roof().north_deg):
-        fill.refuse(position, "the direction of north")
-    fill.cells[position] = given
 
 
 def _fill_layers(fill: _Fill, layers: Mapping[str, LayerKind]) -> None:

@@ -85,15 +85,12 @@ class RoofPlan:
     ----------
     roof : tuple of DrawnOutline
         One or none.
-    north_deg : float
-        Direction of north, counterclockwise from +x; NaN if the drawing does not state it.
     """
 
     roof: tuple[DrawnOutline, ...]
     arrays: tuple[DrawnOutline, ...]
     objects: tuple[DrawnOutline, ...]
     unread: tuple[Unread, ...]
-    north_deg: float = math.nan
 
 
 def plan_of(
@@ -145,7 +142,6 @@ def plan_of(
         arrays=tuple(p for p in places if p.kind is LayerKind.ARRAY),
         objects=tuple(objects),
         unread=tuple(unread),
-        north_deg=drawing.north_deg,
     )
 
 

@@ -205,7 +205,7 @@ def test_motions_may_be_missing_and_nothing_else(tmp_path):
     type_into(path, dict.fromkeys(("Motions/M1/ID", "Motions/M2/Horizontal record")))
     assert problems(path)
     _, lines = missing_rows(read(path))
-    assert lines[-2].startswith("2 clearances added, 0 kept; reach 163.1 in (4144 mm)")
+    assert lines[-1].startswith("2 clearances added, 0 kept; reach 163.1 in (4144 mm)")
     heading = "Clearances/heading/Provided clearance"
     edit(path, lambda book: put(book, {heading: "Provided clearance [stone]"}))
     assert at(f"<{heading}>: ") in run("plan", "clearances", tmp_path, exit_code=2)

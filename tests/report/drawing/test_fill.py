@@ -202,7 +202,7 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     assert heights["RTU-2"] == pytest.approx(4.0 * FT)
     assert heights["TANK"] == pytest.approx(5.0 * FT)
     for said in ("turned counterclockwise by -17°", "the drawing states no north: check",
-                 "layers, kept on the sheet Layers: a-roof-tank = fixed object, A-ANNO-NOTE = ",
+                 "layer a-roof-tank: fixed object\nlayer A-ANNO-NOTE: ",
                  "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) from ",
                  "(ELEV 60.0 in (1524 mm); taken as above the roof)",
                  "(HT 48.0 in (1219 mm); no unit given, so in that of the drawing)"):  # fmt: skip
@@ -220,7 +220,7 @@ def test_without_the_sheet_layers_the_plan_is_filled_in_and_the_layers_are_not_k
     sketch = Sketch()
     sketch.ring("PV_Modules", BOX_FT, "A9")
     output = run(sketch.saved(tmp_path), tmp_path, "--accept")
-    assert "layers, not kept: there is no sheet Layers: PV_Modules = array" in output
+    assert "layer PV_Modules: array" in output
     assert [row.get("id") for row in read(path).draft["arrays"]] == ["A1", "A2", "A9"]
 
 
@@ -249,16 +249,14 @@ def facing(tmp_path, east, north):
     return sketch.saved(tmp_path)
 
 
-def test_the_north_of_the_drawing_is_filled_in_as_it_is_turned(tmp_path):
+def test_the_north_of_the_drawing_turns_it(tmp_path):
     path = new(tmp_path)
     output = run(facing(tmp_path, -1, 1), path)
-    assert "north, by the drawing: 135° counterclockwise from +x" in output
-    assert read(path).draft["roof"][0]["north_deg"] == pytest.approx(135.0)
-    output = run(facing(tmp_path, -1, 1), path, "--rotate", "north", exit_code=2)
-    assert "the direction of north is filled already; add --replace to overwrite it" in output
+    assert "north is 135° counterclockwise from +x" in output
     output = run(facing(tmp_path, -1, 1), path, "--rotate", "north", "--replace")
     assert "turned counterclockwise by -45° about the origin of the drawing" in output
-    assert read(path).draft["roof"][0]["north_deg"] == pytest.approx(90.0)
+    assert "north is 90° counterclockwise from +x" in output
+    assert "at -45° to the axes" in output
 
 
 def test_what_is_not_read_is_said_once_for_each_cause(tmp_path):
