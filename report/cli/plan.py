@@ -99,8 +99,7 @@ def read(
         has_formulas = fill_cells(sheet.book, changes(sheet.book, found, layers, replace=replace))
     lines = (
         *_turn(degrees, drawn.north_deg),
-        *map(_line, (*found.roof, *found.arrays, *found.objects)),
-        *_modules(found, gap_m),
+        *(_line(place, gap_m) for place in (*found.roof, *found.arrays, *found.objects)),
         *_unread(found),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
     )
@@ -163,13 +162,12 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
 
 def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, float]:
     """Return the drawing as turned, and by how many degrees; NaN turns its north to +y."""
-    from report.drawing.turned import turned
     from solver.model import InputError
 
     degrees = 90.0 - drawn.north_deg if math.isnan(rotate) else rotate
     if math.isnan(degrees):
         raise InputError("states no north (GEODATA); give --rotate in degrees")
-    return (turned(drawn, degrees) if degrees else drawn), degrees
+    return (drawn.turned(degrees) if degrees else drawn), degrees
 
 
 def _turn(degrees: float, north_deg: float) -> Iterator[str]:
@@ -182,8 +180,8 @@ def _turn(degrees: float, north_deg: float) -> Iterator[str]:
         yield "the drawing states no north: check its direction on the sheet Site"
 
 
-def _line(place: DrawnOutline) -> str:
-    from report.drawing.turned import own_axes
+def _line(place: DrawnOutline, gap_m: float) -> str:
+    from report.drawing.plan_read import own_axes
     from report.words.units import Quantity, pair
 
     *sides, angle = own_axes(place.shape)
@@ -197,19 +195,8 @@ def _line(place: DrawnOutline) -> str:
             f"{numbered(of, 'module')} {pair(long, Quantity.SIZE)} by {pair(short, Quantity.SIZE)}"
             for of, long, short in array.sizes
         )
-        made += f" of {sizes}"
+        made += f" of {sizes} with gaps of at most {pair(gap_m, Quantity.SIZE)}"
     return f"{place.name}: {made}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
-
-
-def _modules(found: RoofPlan, gap_m: float) -> Iterator[str]:
-    """Yield the rule by which modules were joined, where there are any."""
-    from report.words.units import Quantity, pair
-
-    arrays = [place.modules for place in (*found.arrays, *found.objects) if place.modules]
-    if arrays:
-        modules = numbered(sum(array.count for array in arrays), "module")
-        rule = f"joined where gaps are at most {pair(gap_m, Quantity.SIZE)} (--gap)"
-        yield f"{modules} in {numbered(len(arrays), 'array')}, {rule}"
 
 
 def _unread(found: RoofPlan) -> Iterator[str]:

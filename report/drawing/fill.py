@@ -109,9 +109,9 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
             fill.put(table.position(row, "modules"), place.modules.count, count)
         if key == "objects" and (not rows or fill.replace):
             fill.cells[table.position(row, "kind")] = place.kind.value
-        if key == "objects" and math.isfinite(place.height_m) and (not rows or fill.replace):
-            height = table.number("height_m", place.height_m)
-            fill.cells[table.position(row, "height_m")] = height
+            if math.isfinite(place.height_m):
+                height = table.number("height_m", place.height_m)
+                fill.cells[table.position(row, "height_m")] = height
         for side, value in zip(SIDES, _sides(place.shape), strict=True):
             shown = None if value is None else table.number(side, value)
             if shown is not None or side in taken:

@@ -5,6 +5,7 @@ Knows no file and no cells (`report.drawing.read_dxf`, `report.drawing.fill`). R
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -310,3 +311,19 @@ def _strip(start: Point, end: Point) -> Shape:
     (x0, y0), (x1, y1) = start, end
     shape = Polygon(ring([start, end, (x1 + dx, y1 + dy), (x0 + dx, y0 + dy)]))
     return _box(shape) or shape
+
+
+def own_axes(shape: Shape) -> tuple[float, float, float]:
+    """Return the sizes [m] of a shape along its own axes, and their angle to x and y [deg].
+
+    One is parallel to its longest side, the first the one within 45 deg of x.
+    """
+    (x0, y0), (x1, y1) = max(sides(shape.points), key=lambda side: math.dist(*side))
+    direction = math.degrees(math.atan2(y1 - y0, x1 - x0))
+    angle = direction - 90.0 * round(direction / 90.0)
+    turn = cmath.rect(1.0, math.radians(-angle))
+    own = [complex(*point) * turn for point in shape.points]
+    wide, tall = (
+        max(axis) - min(axis) for axis in zip(*((z.real, z.imag) for z in own), strict=True)
+    )
+    return wide, tall, angle

@@ -6,6 +6,7 @@ coordinates and unit. Hostile files are refused by size before the library loads
 
 from __future__ import annotations
 
+import cmath
 import logging
 import math
 import re
@@ -114,6 +115,21 @@ class RoofDrawing:
     unread: list[Unread] = field(default_factory=list)
     counts: Counter[tuple[str, str]] = field(default_factory=Counter)
     north_deg: float = math.nan
+
+    def turned(self, degrees: float) -> RoofDrawing:
+        """Return the drawing turned counterclockwise about its origin, with its north."""
+        turn = cmath.rect(1.0, math.radians(degrees))
+
+        def at(point: Point) -> Point:
+            found = complex(*point) * turn
+            return found.real, found.imag
+
+        return replace(
+            self,
+            lines=[replace(line, points=tuple(map(at, line.points))) for line in self.lines],
+            texts=[replace(text, at=at(text.at)) for text in self.texts],
+            north_deg=(self.north_deg + degrees) % 360.0,
+        )
 
 
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:

@@ -6,8 +6,8 @@ import scenes
 from architect import at
 from report.drawing.dxf import write_dxf
 from report.drawing.plan import plan_drawing
+from report.drawing.plan_read import own_axes
 from report.drawing.read_dxf import read_dxf
-from report.drawing.turned import own_axes, turned
 from report.sheet.schema import Polygon, Rectangle
 from sketch import L_FT
 
@@ -31,7 +31,7 @@ def test_sizes_are_along_the_longest_side_of_an_outline(shape, sizes, angle):
 @pytest.mark.parametrize("degrees", [17.0, -90.0, 200.0])
 def test_a_plan_of_ours_is_turned_with_its_texts(file, degrees):
     drawing = read_dxf(file(write_dxf(plan_drawing(scenes.package().assessment)), "plan.dxf"))
-    found = turned(drawing, degrees)
+    found = drawing.turned(degrees)
     for line, was in zip(found.lines, drawing.lines, strict=True):
         for point, before in zip(line.points, was.points, strict=True):
             assert point == pytest.approx(at(before, degrees))
