@@ -190,10 +190,10 @@ def _line(place: DrawnOutline, gap_m: float) -> str:
     source = f" from {place.handle} on {place.layer}" if place.handle else ""
     note = f" ({place.note})" if place.note else ""
     count, made = len(place.shape.points), place.kind.value
-    if array := place.modules:
+    if place.sizes:
         sizes = ", ".join(
             f"{numbered(of, 'module')} {pair(long, Quantity.SIZE)} by {pair(short, Quantity.SIZE)}"
-            for of, long, short in array.sizes
+            for of, long, short in place.sizes
         )
         made += f" of {sizes} with gaps of at most {pair(gap_m, Quantity.SIZE)}"
     return f"{place.name}: {made}, {count} vertices, {wide} by {tall}{askew}{source}{note}"

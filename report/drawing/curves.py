@@ -34,7 +34,9 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
     """
     kind = entity.dxftype()
     # The other two are in world coordinates, whatever their direction of extrusion is.
-    if kind not in ("LINE", "SPLINE") and not _is_flat(entity):
+    x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
+    is_flat = abs(x) <= _FLAT and abs(y) <= _FLAT and z != 0.0
+    if kind not in ("LINE", "SPLINE") and not is_flat:
         return f"a {kind} that is not parallel to the plan"
     if kind == "POLYLINE" and not (entity.is_2d_polyline or entity.is_3d_polyline):
         return "a mesh"
@@ -139,8 +141,3 @@ def _chords(
                 yield at.real, at.imag
     if vertices and not is_closed:
         yield vertices[-1][:2]
-
-
-def _is_flat(entity: Any) -> bool:
-    x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
-    return bool(abs(x) <= _FLAT and abs(y) <= _FLAT and z != 0.0)

@@ -106,7 +106,7 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
             fill.cells[table.position(row, "id")] = place.name
         if key == "arrays" and place.modules and "modules" in table.found.columns:
             count = f"the number of modules of {place.name}"
-            fill.put(table.position(row, "modules"), place.modules.count, count)
+            fill.put(table.position(row, "modules"), place.modules, count)
         if key == "objects" and (not rows or fill.replace):
             fill.cells[table.position(row, "kind")] = place.kind.value
             if math.isfinite(place.height_m):

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -46,25 +45,7 @@ Known = tuple[Drawn, LayerKind, Shape]
 """A closed line, what it is, and its shape [m]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ModuleArray(Drawn):
-    """The outline of modules, its points in m; its handle is that of the first of them.
-
-    Attributes
-    ----------
-    sizes : tuple of (int, float, float)
-        Number, long side [m] and short side [m] of each size, the most frequent first.
-    """
-
-    sizes: tuple[tuple[int, float, float], ...]
-
-    @property
-    def count(self) -> int:
-        """Number of modules."""
-        return sum(count for count, *_ in self.sizes)
-
-
-_Placed = tuple[ModuleArray, LayerKind]
+_Placed = tuple[Drawn, LayerKind]
 
 
 def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Placed], list[Drawn]]:
@@ -101,7 +82,7 @@ def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Pla
     return rest, _in_reading_order(arrays), [known[k][0] for k in gone if not gone[k]]
 
 
-def _overlap(shapes: Sequence[Shape], arrays: Sequence[ModuleArray]) -> Any:
+def _overlap(shapes: Sequence[Shape], arrays: Sequence[Drawn]) -> Any:
     """Return which shapes have more in common with arrays than their borders."""
     import shapely
 
@@ -122,7 +103,7 @@ def _in_reading_order(arrays: Sequence[_Placed]) -> list[_Placed]:
     return [item for row in rows for _, item in sorted(row, key=lambda one: one[0].x_from_m)]
 
 
-def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[ModuleArray, dict[int, bool]]]:
+def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[Drawn, dict[int, bool]]]:
     """Yield the arrays of a layer, with the lines within each and whether they are its modules."""
     import shapely
 
@@ -148,7 +129,7 @@ def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[ModuleArray,
             first = lines[at[its[0]]][0]
             is_block = all(lines[at[n]][0].handle == first.handle for n in its)
             yield (
-                ModuleArray(
+                Drawn(
                     handle=first.handle,
                     layer=first.layer,
                     name=first.name if is_block else "",  # of each block, it is that of a product

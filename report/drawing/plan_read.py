@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.layers import Layer
-from report.drawing.modules import GAP_M, MOST_TEXTS, Known, ModuleArray, joined
+from report.drawing.modules import GAP_M, MOST_TEXTS, Known, joined
 from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
 from report.drawing.written import first_height, read_line
 from report.sheet.checking.plan_checks import LEAST_VERTICES
@@ -64,8 +64,8 @@ class DrawnOutline:
         As written inside of it; NaN if it is not.
     note : str
         What was assumed; empty for nothing.
-    modules : ModuleArray, optional
-        What it is the outline of, where the drawing has its modules.
+    sizes : tuple of (int, float, float)
+        Of its modules, as of `Drawn`.
     """
 
     name: str
@@ -75,7 +75,12 @@ class DrawnOutline:
     layer: str
     height_m: float
     note: str
-    modules: ModuleArray | None = None
+    sizes: tuple[tuple[int, float, float], ...] = ()
+
+    @property
+    def modules(self) -> int:
+        """Number of its modules; 0 where the drawing does not have them."""
+        return sum(count for count, *_ in self.sizes)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -206,14 +211,13 @@ def _named(
     given = set(repeated)
     for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
         notes: list[str] = []
-        modules = line if isinstance(line, ModuleArray) else None
-        if modules and name and repeated[name.casefold()] > 1:
+        if line.sizes and name and repeated[name.casefold()] > 1:
             name = ""  # as of a product
         if kind is LayerKind.ROOF:
             name = "roof"
         elif not name:
             name = _free_name(kind, counts, given)
-            notes.append("named in reading order" if modules else "no text inside")
+            notes.append("named in reading order" if line.sizes else "no text inside")
         elif name.casefold() in taken:
             detail = f"'{name}' of {taken[name.casefold()]}"
             unread.append(_unread(line, "a second outline of the same name", detail))
@@ -225,7 +229,7 @@ def _named(
             height_m = _height_m(line, words, unit_m, notes, unread)
         places.append(
             DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
-                         height_m=height_m, note="; ".join(notes), modules=modules)
+                         height_m=height_m, note="; ".join(notes), sizes=line.sizes)
         )  # fmt: skip
     return places
 
@@ -246,7 +250,7 @@ def _by_layer(line: Drawn, words: Sequence[Words]) -> list[Words]:
 def _name(line: Drawn, words: Sequence[Words], unit_m: float) -> str:
     """Return the name of a line: its own, or the first text inside of it, without a height."""
     if (
-        isinstance(line, ModuleArray)
+        line.sizes
         and len([text for text in words if text.layer == line.layer] or words) > MOST_TEXTS
     ):
         words = []  # they are those of its modules

@@ -63,6 +63,9 @@ class Drawn:
         Whether `report` wrote it.
     heights : tuple of str
         Attributes of its block that give a height, each as `HT 42`.
+    sizes : tuple of (int, float, float)
+        Number, long side [m] and short side [m] of each size of the modules that it is the outline
+        of, the most frequent first; then its points are in m.
     """
 
     handle: str
@@ -71,6 +74,7 @@ class Drawn:
     points: tuple[Point, ...]
     is_ours: bool
     heights: tuple[str, ...] = ()
+    sizes: tuple[tuple[int, float, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
