@@ -184,15 +184,14 @@ def _check(path: Path) -> None:
     if data.startswith(b"AutoCAD Binary DXF"):
         raise InputError("a binary DXF; save it as DXF in text")
     values = data.count(b"\n") // 2  # each after a line with its code
-    if values > MAX_VALUES:
+    _limit(values, MAX_VALUES, "values")
+    _limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
+
+
+def _limit(count: int, most: int, what: str) -> None:
+    if count > most:
         raise InputError(
-            f"{values:,} values, more than {MAX_VALUES:,}; save the layers of the roof plan alone"
-        )
-    count = sum(1 for _ in _ENTITY.finditer(data))
-    if count > MAX_ENTITIES:
-        raise InputError(
-            f"{count:,} entities, more than {MAX_ENTITIES:,}; save the layers of the roof plan"
-            " alone"
+            f"{count:,} {what}, more than {most:,}; save the layers of the roof plan alone"
         )
 
 
@@ -300,11 +299,7 @@ class _Reader:
             return found
         points, is_closed = found
         self.points += len(points)
-        if self.points > MAX_CURVE_POINTS:
-            raise InputError(
-                f"its curves expand to more than {MAX_CURVE_POINTS:,} points; save the layers of"
-                " the roof plan alone"
-            )
+        _limit(self.points, MAX_CURVE_POINTS, "points of curves")
         own = _own_name(entity)
         line = Drawn(handle=handle, layer=layer, name=own or block.name, points=tuple(points),
                      is_ours=bool(own), heights=block.heights)  # fmt: skip

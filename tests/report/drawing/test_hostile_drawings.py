@@ -234,7 +234,7 @@ def test_curves_of_too_many_chords_in_all_are_refused(tmp_path):
     sketch = Sketch(unit="m")
     for _ in range(300):
         sketch.space.add_circle((0, 0), 3500)
-    with pytest.raises(InputError, match=r"its curves expand to more than 500,000 points; save"):
+    with pytest.raises(InputError, match=r"points of curves, more than 500,000; save"):
         read_dxf(sketch.saved(tmp_path))
 
 
