@@ -14,7 +14,7 @@ import click
 
 from report.cli.groups import SectionedGroup
 from report.cli.plan_layers import choose, given_kinds
-from report.cli.terminal import SOURCE, input_errors, plain
+from report.cli.terminal import SOURCE, input_errors, plain, say_next
 from report.cli.values import Number
 from report.words.command import called
 from report.words.counts import grouped_by, numbered
@@ -110,7 +110,7 @@ def read(
     except InputError as error:
         click.echo(plain(f"Clearances are not added yet: {error.problems[0]}."))
         click.echo(f"Once the workbook has no errors, run: {called()} plan clearances {project}")
-    _say_next(project, has_formulas)
+    say_next(project, has_formulas)
 
 
 @plan.command()
@@ -124,7 +124,7 @@ def clearances(project: Path) -> None:
     """
     with input_errors(project):
         has_formulas = _with_clearances(project)
-    _say_next(project, has_formulas)
+    say_next(project, has_formulas)
 
 
 def _with_clearances(project: Path) -> bool:
@@ -139,12 +139,6 @@ def _with_clearances(project: Path) -> bool:
     for line in lines:
         click.echo(plain(line))
     return has_formulas
-
-
-def _say_next(project: Path, has_formulas: bool) -> None:
-    click.echo(f"Next: {called()} check {project}")
-    if has_formulas:
-        click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 
 
 def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
@@ -251,7 +245,7 @@ def ballast(
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
         click.echo(f"outside of every array: {lines}")
-    _say_next(project, has_formulas)
+    say_next(project, has_formulas)
 
 
 def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:
