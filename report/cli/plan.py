@@ -50,8 +50,8 @@ def plan() -> None:
 @click.option("--units", type=click.Choice(UNIT_CHOICES),
               help="Unit of the drawing; required if it states none.")  # fmt: skip
 @click.option("--gap", type=(_POSITIVE, click.Choice(UNIT_CHOICES)), default=(20.0, "in"),
-              show_default="20 in", metavar="NUMBER UNIT",
-              help="Largest gap between modules of one array.")  # fmt: skip
+              metavar="NUMBER UNIT",
+              help="Largest gap between modules of one array; 20 in unless given.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite the places of rows that are filled.")
 @click.option("--accept", is_flag=True, help="Take what is proposed for layers that are not known.")
 @click.option("--layer", "given", metavar="NAME=KIND", multiple=True, callback=given_kinds,
@@ -105,6 +105,7 @@ def read(
     )
     for text in lines:
         click.echo(plain(text))
+    click.echo(f"{sheet.path}: the plan is filled in.")
     try:
         has_formulas |= _with_clearances(project)
     except InputError as error:
@@ -245,6 +246,7 @@ def ballast(
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
         click.echo(f"outside of every array: {lines}")
+    click.echo(f"{sheet.path}: the ballast weights are filled in.")
     say_next(project, has_formulas)
 
 
