@@ -95,8 +95,13 @@ import sys
 from importlib.metadata import Distribution
 import report.workers
 others = dict(pair.split("=") for pair in sys.argv.pop().split())
-true = Distribution.version.fget
-Distribution.version = property(lambda one: others.get(one.name) or true(one))
+true = Distribution.metadata.fget
+def about(one):
+    found = true(one)
+    if found["Name"] in others:
+        found.replace_header("Version", others[found["Name"]])
+    return found
+Distribution.metadata = property(about)
 # Another process has the true versions.
 report.workers.WorkerProcess = lambda _: report.workers.SameProcess()
 from report.cli.main import main
