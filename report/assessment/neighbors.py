@@ -13,6 +13,7 @@ from enum import StrEnum
 from itertools import combinations
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.verdict import Verdict
 from report.sheet.schema import (
     Array,
     Clearance,
@@ -141,6 +142,11 @@ class PlanNeighbor:
     def is_missing(self) -> bool:
         """Whether it is near and no clearance is given."""
         return not self.given and self.is_near
+
+    @property
+    def verdict(self) -> Verdict:
+        """Of a pair whose clearance is missing."""
+        return Verdict.NG if self.is_short else Verdict.CONDITIONS
 
     @property
     def is_short(self) -> bool:

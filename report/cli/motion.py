@@ -240,7 +240,9 @@ def rows(
         from solver.model import InputError
 
         if project and not at:
-            raise InputError("where were they recorded; add --at roof or --at ground")
+            raise InputError(
+                "--at is missing; give --at roof or --at ground, where the motions were recorded"
+            )
         folder = _in_library(source)
         if folder.is_file():
             zipped, folder = folder, Path(temporary, folder.stem)
@@ -280,8 +282,9 @@ def _in_library(source: Path) -> Path:
     except (OSError, ValueError, RuntimeError) as error:  # the last of an unknown ~user
         raise InputError(f"{config}: cannot be read ({error}); {wanted}") from error
     if not library or not found.exists():
-        place = f"here or in {library}" if library else f"here; {meant(source) or wanted}"
-        raise InputError(f"no such folder or zip, {place}")
+        hint = meant(source) or f"for a library of motions, {wanted}"
+        place = f"here or in {library}" if library else f"here; {hint}"
+        raise InputError(f"no such folder or zip {place}")
     return found
 
 

@@ -20,7 +20,7 @@ from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, so
 from solver.model import INCH_M, InputError
 
 GAP_M = 20.0 * INCH_M
-"""Largest gap within an array [m] by default: rows are 8 to 18 in apart, fire setbacks 36 in."""
+"""Largest gap between modules of one array [m] by default."""
 
 SIDES_M = (0.5, 2.6)
 """Shortest and longest side of a module in plan [m]."""

@@ -137,7 +137,7 @@ def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[
         for value_m, show, mark in lengths
     )
     names, none = _between(near.array, near.other, "not given; in plan"), {"text": ""}
-    return [none, names, *found, none, verdict(Verdict.NG if near.is_short else Verdict.CONDITIONS)]
+    return [none, names, *found, none, verdict(near.verdict)]
 
 
 def _between(one: str, other: str, note: str) -> Cell:

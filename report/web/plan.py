@@ -77,7 +77,7 @@ def plan(
                 {
                     "text": f"{near.array} to {near.other}: no clearance given, "
                     f"{fmt.both(near.gap_m)} in plan, required {fmt.both(near.required_m)}",
-                    "verdict": verdict(Verdict.NG if near.is_short else Verdict.CONDITIONS),
+                    "verdict": verdict(near.verdict),
                 }
                 for near in missing
             ),

@@ -121,7 +121,7 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
 
 def test_where_they_were_recorded_is_asked(library, tmp_path):
     path = make(tmp_path / "p")
-    assert "add --at roof or --at ground" in commands.refused(*rows(library, path))
+    assert "give --at roof or --at ground" in commands.refused(*rows(library, path))
     assert not (tmp_path / "p" / "records" / "kobe").exists()
     told = commands.refused(*rows(library, path, "--at", "roof", "--only", "nothing"))
     assert "no set of two horizontal records and a vertical one to take" in told
@@ -133,7 +133,7 @@ def test_the_library_of_the_user_is_searched(library, tmp_path, monkeypatch):
     assert f"write motions = '/folder/of/motions' in {config}" in commands.refused(*rows("kobe"))
     config.parent.mkdir()
     for text, why in (
-        ("motions = 3", "no such folder or zip, here or in"),
+        ("motions = 3", "no such folder or zip here or in"),
         ("motions", "cannot be read"),
         ("motions = '~nobody-here/m'", "cannot be read"),
     ):
