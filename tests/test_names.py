@@ -1,10 +1,10 @@
-"""A name stands for one thing: no two classes of the product have one name."""
+"""A name stands for one thing: no two classes of the product, and no two files of tests."""
 
 import ast
-from collections import defaultdict
+from collections import Counter, defaultdict
 from pathlib import Path
 
-from places import ROOT
+from places import ROOT, TESTS
 
 
 def doubled(texts):
@@ -27,3 +27,10 @@ def test_no_two_classes_have_one_name():
     files = [path for folder in ("solver", "report") for path in Path(ROOT, folder).rglob("*.py")]
     assert len(files) > 100
     assert doubled({path.relative_to(ROOT): path.read_text() for path in files}) == {}
+
+
+def test_no_two_files_of_tests_have_one_name():
+    """Pytest stops at the second one."""
+    names = Counter(path.name for path in TESTS.rglob("test_*.py"))
+    assert len(names) > 100
+    assert [name for name, count in names.items() if count > 1] == []
