@@ -26,17 +26,21 @@ _LARGEST = 1e120
 
 
 def checked_scene(
-    given: Mapping[str, Given | None],
+    ax_mps2: Given,
+    ay_mps2: ArrayLike | Record | None,
+    az_mps2: ArrayLike | Record | None,
     dt_s: float | None,
     slope_rad: float,
     mu: float | Friction,
     scale: float,
     g_mps2: float,
-    method: str | Method,
-    parameters: Parameters,
+    method: str | Method = "exact",
+    /,
+    **parameters: float,
 ) -> Scene:
     """Return the scene with read-only contiguous records, or raise with every error found."""
     problems: list[str] = []
+    given = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
     records, dt_s, factor = unpacked(given, dt_s, problems)
     ax, ay, az = _checked_records(records, problems)
     friction = checked_friction("mu", mu, problems)

@@ -90,11 +90,11 @@ def slide(
     >>> slide(pulse, 0.1, slope_rad=0.0, mu=0.2)
     SlideResult: PRD 4.9 mm at 0.17 s, +1.6 mm at the end, 2 stops, ok
     """
-    records = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
-    run = checked_scene(records, dt_s, slope_rad, mu, scale, g_mps2, method, parameters)
+    components = ax_mps2, ay_mps2, az_mps2
+    run = checked_scene(*components, dt_s, slope_rad, mu, scale, g_mps2, method, **parameters)
     if _is_followed_in_plane(run):
         return two_axes.run(run, **parameters)
-    return one_axis.run_method(method_of(method), parameters, run)
+    return one_axis.run(run, method_of(method), **parameters)
 
 
 def slide_history(
@@ -142,11 +142,11 @@ def slide_history(
     0.4  0.0016  0.0000
     0.5  0.0016  0.0000
     """
-    records = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
-    run = checked_scene(records, dt_s, slope_rad, mu, scale, g_mps2, method, parameters)
+    components = ax_mps2, ay_mps2, az_mps2
+    run = checked_scene(*components, dt_s, slope_rad, mu, scale, g_mps2, method, **parameters)
     if _is_followed_in_plane(run):
         return two_axes.run_history(run, **parameters)
-    return one_axis.method_history(method_of(method), parameters, run)
+    return one_axis.run_history(run, method_of(method), **parameters)
 
 
 def scene(
@@ -181,8 +181,7 @@ def scene(
     >>> scene([0.0, 4.0, -4.0, 0.0], 0.1, slope_rad=0.0, mu=0.2)
     Scene(1 component of 4 samples at 0.1 s, slope 0 deg, mu 0.2, scale 1)
     """
-    records = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
-    return checked_scene(records, dt_s, slope_rad, mu, scale, g_mps2, "exact", {})
+    return checked_scene(ax_mps2, ay_mps2, az_mps2, dt_s, slope_rad, mu, scale, g_mps2)
 
 
 def motion(
@@ -228,16 +227,7 @@ def motion(
     >>> motion([0.0, 4.0, -4.0, 0.0], z=[0.0, 1.0, -1.0, 0.0], dt_s=0.1, id="pulse", scale=1.5)
     Motion: pulse, x and z, 4 samples of 0.1 s, scale 1.5
     """
-    checked = checked_scene(
-        {"ax_mps2": x, "ay_mps2": y, "az_mps2": z},
-        dt_s,
-        0.0,
-        0.0,
-        scale,
-        STANDARD_GRAVITY_MPS2,
-        "exact",
-        {},
-    )
+    checked = checked_scene(x, y, z, dt_s, 0.0, 0.0, scale, STANDARD_GRAVITY_MPS2)
     if signs is None:
         signs = x.signs if isinstance(x, Motion) else (1, -1)
     if not signs or not {*signs} <= {1, -1}:
@@ -322,21 +312,9 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
 
 
 def _rechecked(scene: Scene) -> Scene:
-    records = {
-        "ax_mps2": scene.ax_mps2,
-        "ay_mps2": scene.ay_mps2 if np.size(scene.ay_mps2) else None,
-        "az_mps2": scene.az_mps2 if np.size(scene.az_mps2) else None,
-    }
-    return checked_scene(
-        records,
-        scene.dt_s,
-        scene.slope_rad,
-        scene.friction,
-        scene.scale,
-        scene.g_mps2,
-        "exact",
-        {},
-    )
+    ay, az = (a if np.size(a) else None for a in (scene.ay_mps2, scene.az_mps2))
+    numbers = scene.dt_s, scene.slope_rad, scene.friction, scene.scale, scene.g_mps2
+    return checked_scene(scene.ax_mps2, ay, az, *numbers)
 
 
 def _is_followed_in_plane(scene: Scene) -> bool:

@@ -24,17 +24,30 @@ from solver.rivals.methods import (
     minimum_normal,
 )
 
+EXACT = METHODS["exact"]
+
 _NO_HISTORY = np.empty((2, 0))
 
 
-def run(scene: Scene) -> SlideResult:
-    """Slide a checked scene along the slope, exactly; cross-slope shaking is neglected."""
-    return run_method(METHODS["exact"], {}, scene)
+def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideResult:
+    """Slide a checked scene along the slope by a method; cross-slope shaking is neglected."""
+    return _run(method, parameters, prepared(scene), _NO_HISTORY)
 
 
-def run_history(scene: Scene) -> SlideHistory:
-    """Return the displacement history of `run`."""
-    return method_history(METHODS["exact"], {}, scene)
+def run_history(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideHistory:
+    """Return the displacement history of `run`; only the exact method gives events."""
+    samples = np.full((2, scene.ax_mps2.size), np.nan)
+    made = prepared(scene)
+    result = _run(method, parameters, made, samples)
+    return SlideHistory(
+        t_s=sample_times(scene),
+        u_m=samples[0],
+        v_mps=samples[1],
+        across_m=NO_RECORD,
+        across_mps=NO_RECORD,
+        events=_events(made, result) if method is EXACT else (),
+        result=result,
+    )
 
 
 def rounding(scene: Scene) -> float:
@@ -56,11 +69,6 @@ def _rounding(scene: AxisScene) -> float:
     return 4.0 * sys.float_info.epsilon * terms * lasts * lasts
 
 
-def run_method(method: Method, parameters: Parameters, scene: Scene) -> SlideResult:
-    """Slide a checked scene along the slope by a method."""
-    return _run(method, parameters, prepared(scene), _NO_HISTORY)
-
-
 def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:
     """Run a scene; `samples` of shape (2, n) is filled with u and u'; of shape (2, 0) it is not."""
     n_min_g, t_uplift = minimum_normal(scene)
@@ -71,7 +79,7 @@ def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floa
         samples[:] = np.nan
         return without_displacement(Status.DIVERGED, n_min_g, math.nan)
     samples *= scene.cs
-    error_m = _rounding(scene) if method is METHODS["exact"] else math.nan
+    error_m = _rounding(scene) if method is EXACT else math.nan
     return _result(outcome, scene.cs, n_min_g, error_m)
 
 
@@ -125,22 +133,6 @@ def without_displacement(status: Status, n_min_g: float, t_uplift: float) -> Sli
         end_speed_mps=math.nan,
         peak_speed_mps=math.nan,
         error_m=math.nan,
-    )
-
-
-def method_history(method: Method, parameters: Parameters, scene: Scene) -> SlideHistory:
-    """Return the motion by a method at the samples; only the exact method gives events."""
-    samples = np.full((2, scene.ax_mps2.size), np.nan)
-    made = prepared(scene)
-    result = _run(method, parameters, made, samples)
-    return SlideHistory(
-        t_s=sample_times(scene),
-        u_m=samples[0],
-        v_mps=samples[1],
-        across_m=NO_RECORD,
-        across_mps=NO_RECORD,
-        events=_events(made, result) if method is METHODS["exact"] else (),
-        result=result,
     )
 
 
