@@ -200,7 +200,7 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
         f"neglecting the second horizontal component changes a displacement by {_mm(less)}, "
         f"more than {_mm(bound)}"
     )
-    return _followed(scene, Model.TWO_AXES, both, why, demand)
+    return _without_next(Model.TWO_AXES, why, both, demand)
 
 
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
@@ -238,69 +238,52 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
     return _along(scene, model, result, _left_out(result, *fuller), why, demand)
 
 
-def _lifted(scene: Scene) -> Solution:
-    model = Model.ONE_AXIS_VERTICAL if scene.az_mps2.size else Model.ONE_AXIS
+def _without_next(
+    model: Model, why: str, result: SlideResult, demand: float, effect_m: float = math.nan
+) -> Solution:
+    """Return a solution by the most complete model that applies."""
     return Solution(
         model=model,
-        reason="the normal force falls below zero, which no model covers",
-        result=one_axis.run(scene),
+        reason=why,
+        result=result,
         next_model=model,
-        next_effect_m=math.nan,
-        friction_demand=math.inf,
+        next_effect_m=effect_m,
+        friction_demand=demand,
     )
+
+
+def _lifted(scene: Scene) -> Solution:
+    model = Model.ONE_AXIS_VERTICAL if scene.az_mps2.size else Model.ONE_AXIS
+    why = "the normal force falls below zero, which no model covers"
+    return _without_next(model, why, one_axis.run(scene), math.inf)
 
 
 def _still(scene: Scene, demand: float) -> Solution:
     hold = scene.friction.mu_static
-    return Solution(
-        model=Model.NO_SLIP,
-        reason=f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}",
-        result=one_axis.run(as_run(scene, Model.NO_SLIP)),
-        next_model=Model.NO_SLIP,
-        next_effect_m=0.0,
-        friction_demand=demand,
-    )
+    why = f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}"
+    result = one_axis.run(as_run(scene, Model.NO_SLIP))
+    return _without_next(Model.NO_SLIP, why, result, demand, effect_m=0.0)
 
 
 def _along(
     scene: Scene, model: Model, result: SlideResult, effect: float, why: str, demand: float
 ) -> Solution:
     """Return a solution in one axis, with the effect of the components neglected."""
-    following = model
+    alone = _without_next(model, why, result, demand)
     if model is Model.ONE_AXIS and scene.az_mps2.size:
-        following = Model.ONE_AXIS_VERTICAL
-    elif scene.ay_mps2.size:
-        following = Model.TWO_AXES
-    return Solution(
-        model=model,
-        reason=why,
-        result=result,
-        next_model=following,
-        next_effect_m=math.nan if following is model else effect,
-        friction_demand=demand,
-    )
+        return replace(alone, next_model=Model.ONE_AXIS_VERTICAL, next_effect_m=effect)
+    if scene.ay_mps2.size:
+        return replace(alone, next_model=Model.TWO_AXES, next_effect_m=effect)
+    return alone
 
 
 def _in_plane(scene: Scene, settings: Settings, model: Model, why: str, demand: float) -> Solution:
     result = two_axes.run(as_run(scene, model), settings.tolerance)
+    solution = _without_next(model, why, result, demand)
     if scene.friction.is_constant or model is Model.SPEED_FRICTION:
-        return _followed(scene, model, result, why, demand)
-    fuller = two_axes.run(scene, settings.tolerance)
-    by_speed = _followed(scene, model, result, why, demand)
-    effect = _left_out(result, fuller)
-    return replace(by_speed, next_model=Model.SPEED_FRICTION, next_effect_m=effect)
-
-
-def _followed(scene: Scene, model: Model, result: SlideResult, why: str, demand: float) -> Solution:
-    """Return a solution in two axes that neglects no component of the scene."""
-    return Solution(
-        model=model,
-        reason=why,
-        result=result,
-        next_model=model,
-        next_effect_m=math.nan,
-        friction_demand=demand,
-    )
+        return solution
+    effect = _left_out(result, two_axes.run(scene, settings.tolerance))
+    return replace(solution, next_model=Model.SPEED_FRICTION, next_effect_m=effect)
 
 
 def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
@@ -322,14 +305,8 @@ def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
         peak_speed_mps=math.nan,
         error_m=linked.error_m,
     )
-    return Solution(
-        model=Model.ROW,
-        reason=f"requested; the links change the PRD by {_mm(linked.flexibility_m)}",
-        result=result,
-        next_model=Model.ROW,
-        next_effect_m=math.nan,
-        friction_demand=demand,
-    )
+    why = f"requested; the links change the PRD by {_mm(linked.flexibility_m)}"
+    return _without_next(Model.ROW, why, result, demand)
 
 
 def as_run(scene: Scene, model: Model) -> Scene:
