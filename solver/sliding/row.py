@@ -58,7 +58,7 @@ class BlockRow:
         return math.fsum(mu * share for mu, share in zip(self.mus, self.weights, strict=True))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Energy:
     """Energy balance of a row relative to the roof, per unit mass of the row [J/kg].
 
@@ -191,15 +191,12 @@ def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
         up_m=_tuple(np.abs(up)),
         stretch_m=float(stretch),
         link_force=float(force) / scene.g_mps2,
-        energy=Energy(**dict(zip(_ENERGIES, energy.tolist(), strict=True))),
+        energy=Energy(*energy.tolist()),
         error_m=error,
         n_stops=n_stops,
         n_steps=n_steps,
         rigid=rigid,
     )
-
-
-_ENERGIES = ("work", "friction", "dampers", "kinetic", "springs")
 
 
 def _nothing(status: Status, row: BlockRow, rigid: SlideResult) -> RowResult:
@@ -212,7 +209,7 @@ def _nothing(status: Status, row: BlockRow, rigid: SlideResult) -> RowResult:
         up_m=none,
         stretch_m=math.nan,
         link_force=math.nan,
-        energy=Energy(**dict.fromkeys(_ENERGIES, math.nan)),
+        energy=Energy(*(math.nan,) * 5),
         error_m=math.nan,
         n_stops=0,
         n_steps=0,
