@@ -95,20 +95,27 @@ class TwoAxesOutcome:
     n_steps: int
     step_tolerance: float
 
+    @property
+    def places(self) -> tuple[float, ...]:
+        """PRD, the four excursions and the displacement at the end, x and y [m]."""
+        return self.prd_m, self.down_m, self.up_m, self.left_m, self.right_m, *self.end_m
+
 
 def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
     """Slide a checked scene in two axes, to a tolerance relative to the PRD."""
+    return _run_checked(scene, tolerance)[0]
+
+
+def _run_checked(scene: Scene, tolerance: float) -> tuple[SlideResult, TwoAxesOutcome | None]:
+    """Return the result and the outcome behind it; None if that gives no displacement."""
     n_min_g, t_uplift = minimum_normal(prepared(scene))
     if n_min_g < 0.0:
-        return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
-    return _result(follow(scene, tolerance), n_min_g)
-
-
-def _result(outcome: TwoAxesOutcome, n_min_g: float) -> SlideResult:
+        return without_displacement(Status.UPLIFT, n_min_g, t_uplift), None
+    outcome = follow(scene, tolerance)
     if outcome.status is not Status.OK:
-        return without_displacement(outcome.status, n_min_g, math.nan)
+        return without_displacement(outcome.status, n_min_g, math.nan), None
     speed = math.hypot(*outcome.end_mps)
-    return SlideResult(
+    result = SlideResult(
         status=Status.OK if speed == 0.0 else Status.SLIDING_AT_END,
         prd_m=outcome.prd_m,
         residual_m=outcome.end_m[0],
@@ -124,20 +131,16 @@ def _result(outcome: TwoAxesOutcome, n_min_g: float) -> SlideResult:
         peak_speed_mps=outcome.peak_mps,
         error_m=outcome.error_m,
     )
+    return result, outcome
 
 
 def run_history(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideHistory:
     """Return the displacement history of `run`."""
-    n_min_g, t_uplift = minimum_normal(prepared(scene))
+    result, outcome = _run_checked(scene, tolerance)
     samples = np.full((4, scene.ax_mps2.size), np.nan)
     events: tuple[Event, ...] = ()
-    if n_min_g < 0.0:
-        result = without_displacement(Status.UPLIFT, n_min_g, t_uplift)
-    else:
-        motion = follow(scene, tolerance)
-        result = _result(motion, n_min_g)
-        if motion.status is Status.OK:
-            samples, events = follow_history(scene, motion)
+    if outcome is not None:
+        samples, events = follow_history(scene, outcome)
     return SlideHistory(
         t_s=sample_times(scene),
         u_m=samples[0],
@@ -168,7 +171,7 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
     if motion.status is not Status.OK:
         return motion
     finer = _run(scene, _FINER * motion.step_tolerance, _NO_EVENTS, _NO_HISTORY)
-    changes = np.subtract(_places(finer), _places(motion))
+    changes = np.subtract(finer.places, motion.places)
     change = 2.0 * float(np.abs(changes).max())
     return replace(finer, error_m=max(change, _rounding_m(scene, finer)))
 
@@ -220,11 +223,6 @@ def _components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     still = read_only(np.zeros_like(scene.ax_mps2))
     across, up = (each if each.size else still for each in (scene.ay_mps2, scene.az_mps2))
     return scene.ax_mps2, across, up
-
-
-def _places(outcome: TwoAxesOutcome) -> tuple[float, ...]:
-    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
-    return outcome.prd_m, *sides, *outcome.end_m
 
 
 def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesOutcome:

@@ -33,23 +33,18 @@ Compare = Callable[[TwoAxesOutcome, TwoAxesOutcome], Floats]
 Law = Callable[[float], Friction]
 
 
-def _places(outcome: TwoAxesOutcome) -> Floats:
-    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
-    return np.array([outcome.prd_m, *sides, *outcome.end_m])
-
-
 def _same(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
-    return np.subtract(_places(a), _places(b))
+    return np.subtract(a.places, b.places)
 
 
 def _mirrored_across(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
     x, y = b.end_m
-    return np.subtract(_places(a), [b.prd_m, b.down_m, b.up_m, b.right_m, b.left_m, x, -y])
+    return np.subtract(a.places, [b.prd_m, b.down_m, b.up_m, b.right_m, b.left_m, x, -y])
 
 
 def _mirrored_along(a: TwoAxesOutcome, b: TwoAxesOutcome) -> Floats:
     x, y = b.end_m
-    return np.subtract(_places(a), [b.prd_m, b.up_m, b.down_m, b.left_m, b.right_m, -x, y])
+    return np.subtract(a.places, [b.prd_m, b.up_m, b.down_m, b.left_m, b.right_m, -x, y])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

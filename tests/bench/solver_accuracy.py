@@ -23,7 +23,7 @@ from solver.model import STANDARD_GRAVITY_MPS2 as G
 from solver.model import Floats, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.checked import slide
-from solver.sliding.two_axes import TwoAxesOutcome, follow
+from solver.sliding.two_axes import follow
 from solver.verification.scenes import Case
 from solver.verification.triples import own_triples, recorded_triples
 
@@ -67,12 +67,6 @@ def one_axis(kind: str, records: list[tuple[Floats, Floats | None, float]]) -> N
     figure(f"median error over {kind} records, relative to the PRD", statistics.median(errors))
 
 
-def places(outcome: TwoAxesOutcome) -> Floats:
-    """Return what an error is looked for in."""
-    sides = outcome.down_m, outcome.up_m, outcome.left_m, outcome.right_m
-    return np.array([outcome.prd_m, *sides, *outcome.end_m])
-
-
 def two_axes() -> None:
     """Print, for each tolerance, the largest error and the largest bound."""
     given = recorded_triples(RECORDS) if RECORDS else own_triples(quick=SMOKE)
@@ -98,7 +92,7 @@ def two_axes() -> None:
         theirs = [exact.prd, exact.x_max, -exact.x_min, exact.y_max, -exact.y_min, *exact.end]
         for tolerance in TOLERANCES if exact.prd > 0.0 else ():
             outcome = follow(scene, tolerance)
-            off = float(np.abs(places(outcome) - np.array(theirs)).max())
+            off = float(np.abs(np.subtract(outcome.places, theirs)).max())
             errors[tolerance].append(off / exact.prd)
             bounds[tolerance].append(outcome.error_m / exact.prd)
     kind = "recorded" if RECORDS else "made"
