@@ -42,7 +42,7 @@ def checked_scene(
     problems: list[str] = []
     given = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
     records, dt_s, factor = unpacked(given, dt_s, problems)
-    ax, ay, az = _checked_records(records, problems)
+    ax, ay, az = checked_records(records, problems)
     friction = checked_friction("mu", mu, problems)
     numbers = {
         name: checked_number(name, value, wanted, fits, problems)
@@ -176,7 +176,8 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def _checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]) -> list[Floats]:
+def checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]) -> list[Floats]:
+    """Return read-only records of one shape, the one along the slope first; empty for none."""
     checked = {
         name: NO_RECORD
         if values is None and name != "ax_mps2"

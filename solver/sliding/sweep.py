@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numba import get_num_threads
@@ -20,13 +20,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Statu
 from solver.records.frames import dataset
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
-from solver.sliding.arguments import (
-    Given,
-    checked_number,
-    checked_record,
-    overflow,
-    unpacked,
-)
+from solver.sliding.arguments import Given, checked_number, checked_records, overflow, unpacked
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -68,15 +62,9 @@ class Sweep:
         import pandas as pd
 
         axes = (self.slopes_rad, self.mus, self.scales)
-        index = pd.MultiIndex.from_product(axes, names=("slope_rad", "mu", "scale"))
-        words = np.array([status.value for status in STATUSES])
         return pd.DataFrame(
-            {
-                "prd_m": self.prd_m.ravel(),
-                "residual_m": self.residual_m.ravel(),
-                "status": words[self.status.ravel()],
-            },
-            index=index,
+            {name: values.ravel() for name, values in self._columns().items()},
+            index=pd.MultiIndex.from_product(axes, names=("slope_rad", "mu", "scale")),
         )
 
     def to_xarray(self) -> xr.Dataset:
@@ -88,11 +76,11 @@ class Sweep:
             Where xarray is not installed.
         """
         axes = {"slope_rad": self.slopes_rad, "mu": self.mus, "scale": self.scales}
-        words = np.array([status.value for status in STATUSES])
-        return dataset(
-            axes,
-            {"prd_m": self.prd_m, "residual_m": self.residual_m, "status": words[self.status]},
-        )
+        return dataset(axes, self._columns())
+
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        words = np.array([status.value for status in STATUSES])[self.status]
+        return {"prd_m": self.prd_m, "residual_m": self.residual_m, "status": words}
 
 
 def sweep(
@@ -147,12 +135,7 @@ def sweep(
     records, step_s, factor = unpacked({"ax_mps2": ax_mps2, "az_mps2": az_mps2}, dt_s, problems)
     if records.get("ay_mps2") is not None:
         problems.append("the motion has two horizontal components; give one, or call solver.study")
-    ax = checked_record("ax_mps2", records["ax_mps2"], problems)
-    az = None
-    if records["az_mps2"] is not None:
-        az = checked_record("az_mps2", records["az_mps2"], problems)
-        if az.shape != ax.shape:
-            problems.append(f"az_mps2 has shape {az.shape}; give the shape of ax_mps2, {ax.shape}")
+    ax, *_, az = checked_records(records, problems)
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
         axis("mus", mus, -math.ulp(0.0), math.inf, problems),
@@ -169,7 +152,7 @@ def sweep(
     largest = Scene(
         ax_mps2=ax,
         ay_mps2=NO_RECORD,
-        az_mps2=NO_RECORD if az is None else az,
+        az_mps2=az,
         dt_s=dt,
         slope_rad=0.0,
         friction=coulomb(mu),
@@ -205,7 +188,7 @@ def axis(name: str, values: ArrayLike, above: float, below: float, problems: lis
 
 def _run(
     ax: Floats,
-    az: Floats | None,
+    az: Floats,
     dt: float,
     g: float,
     axes: list[Floats],
@@ -213,14 +196,15 @@ def _run(
     progress: Callable[[float], None],
 ) -> Sweep:
     slopes, mus, scales = axes
-    x, z = one_axis.bounds(ax), None if az is None else one_axis.bounds(az)
+    x = one_axis.bounds(ax)
+    up, z = (az, one_axis.bounds(az)) if az.size else (None, None)
     grid = np.meshgrid(slopes, mus, factor * scales, indexing="ij")
     scenes = np.stack([values.ravel() for values in grid], axis=-1)
     outcomes = np.empty((len(scenes), 4))
     for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
         dealt = _deal(part, get_num_threads())
         out = np.empty((dealt.size, 4))
-        one_axis.sweep_exact(ax, az, x, z, dt, g, scenes[dealt], out)
+        one_axis.sweep_exact(ax, up, x, z, dt, g, scenes[dealt], out)
         outcomes[dealt] = out
         progress((k + 1) / slopes.size)
     s = outcomes.reshape(slopes.size, mus.size, scales.size, 4)
