@@ -27,7 +27,7 @@ from solver.sliding.checked import history, motion, scene, slide, slide_history,
 from solver.sliding.least_model import Model, Settings, Solution
 from solver.sliding.sweep import Sweep, sweep
 from solver.studies.study import StudyRuns, study
-from solver.synthesis import SuiteMotion, make_suite
+from solver.synthesis.suite import SuiteMotion, make_suite
 
 __all__ = [
     "EDITIONS",

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from solver.records.record import record_from_values
-from solver.synthesis import SuiteMotion
+from solver.synthesis.suite import SuiteMotion
 
 DT_S, SECONDS, PEAK_G = 0.01, 4.0, 0.25
 

@@ -22,7 +22,7 @@ from report.sheet.writing.rows import (
 from report.sheet.writing.template import write_template
 from report.suite.inputs import ac156_targets
 from solver.rules.spectra import Tail
-from solver.synthesis import SuiteMotion, make_suite
+from solver.synthesis.suite import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent
 FOOT, INCH, POUND = 0.3048, 0.0254, 4.4482216152605

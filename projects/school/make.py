@@ -24,7 +24,7 @@ from report.sheet.writing.rows import (
 from report.sheet.writing.template import write_template
 from report.suite.inputs import ac156_targets
 from solver.rules.spectra import Tail
-from solver.synthesis import SuiteMotion, make_suite
+from solver.synthesis.suite import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent
 S_S_G, F_A, S_1_G, F_V, T_L_S = 0.55, 1.28, 0.16, 1.5, 6.0

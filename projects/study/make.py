@@ -14,7 +14,7 @@ from report.study.schema import Intensity, Mat, Study, StudyArray, StudyInput
 from report.study.template import write_study
 from report.suite.inputs import ac156_targets
 from solver.rules.spectra import Tail
-from solver.synthesis import make_suite
+from solver.synthesis.suite import make_suite
 
 HERE = Path(__file__).resolve().parent
 INCH = 0.0254

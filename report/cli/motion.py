@@ -169,7 +169,7 @@ def suite(
         from report.suite.files import suite_files, suite_table
         from report.suite.inputs import check_folder, read_seeds
         from report.suite.site import suite_rows
-        from solver.synthesis import make_suite
+        from solver.synthesis.suite import make_suite
 
         check_folder(folder, count)
         check_writable(folder)

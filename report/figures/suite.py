@@ -24,7 +24,7 @@ from report.figures.base import (
 )
 from report.figures.scales import ticks
 from solver.model import Floats
-from solver.synthesis import SpectrumFit
+from solver.synthesis.target import SpectrumFit
 
 _PANEL_IN, _GAP_IN, _TOP_IN, _BOTTOM_IN = 1.55, 0.5, 0.5, 0.46
 _TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)

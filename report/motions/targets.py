@@ -9,13 +9,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from report.sheet.schema import ProjectInput, RecordedAt, SpectrumPoint
 from solver.model import Floats
-from solver.records.scaling import Target, corner_points, design_spectrum
-from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
+from solver.records.scaling import Target, design_spectrum
+from solver.rules.spectra import (
+    RequiredSpectrum,
+    Tail,
+    ac156_horizontal,
+    ac156_vertical,
+    target_sa_g,
+)
 
 OWN = "project-specific"
 
@@ -94,7 +101,7 @@ def _own(rows: Sequence[SpectrumPoint], sa_g: Sequence[float]) -> TargetSpectrum
     freq = 1.0 / np.array([row.period_s for row in rows])[order]
     return TargetSpectrum(
         name=OWN,
-        at=corner_points(freq, np.array(sa_g)[order]),
+        at=partial(target_sa_g, (freq, np.array(sa_g)[order])),
         from_s=float(1.0 / freq[-1]),
         to_s=float(1.0 / freq[0]),
     )

@@ -13,7 +13,8 @@ from report.suite.inputs import SuiteTargets
 from solver.model import Motion
 from solver.records.acceptance import Acceptance, acceptance
 from solver.rules.limit import Limit
-from solver.synthesis import SuiteMotion, target_sa_g
+from solver.rules.spectra import target_sa_g
+from solver.synthesis.suite import SuiteMotion
 
 
 def suite_acceptance(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> Acceptance:

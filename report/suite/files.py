@@ -26,14 +26,9 @@ from report.words.units import G_MPS2
 from solver.model import Floats
 from solver.records.measures import Measures, measures
 from solver.records.record import Record, record_csv
-from solver.synthesis import (
-    BAND_HZ,
-    SpectrumFit,
-    SuiteMotion,
-    Target,
-    lowest_hz,
-    spectrum_fit,
-)
+from solver.rules.spectra import Target
+from solver.synthesis.suite import SuiteMotion
+from solver.synthesis.target import BAND_HZ, SpectrumFit, lowest_hz, spectrum_fit
 
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
 """Limits on every component's ratios to its target, at 1/12 octave."""

@@ -19,8 +19,7 @@ from solver.model import InputError
 from solver.records.record import Record
 from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import RULE_SETS
-from solver.rules.spectra import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical
-from solver.synthesis import Target
+from solver.rules.spectra import RequiredSpectrum, Tail, Target, ac156_horizontal, ac156_vertical
 
 CODES = {rules.code: rules.name for rules in RULE_SETS.values()}
 """Rule sets by their names on the command line."""

@@ -18,7 +18,8 @@ from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from solver.meant import meant
 from solver.model import Floats, InputError, Problem
-from solver.synthesis import BAND_HZ, Target
+from solver.rules.spectra import Target
+from solver.synthesis.target import BAND_HZ
 
 MAX_ROWS = 2000
 MAX_COLUMNS = 30

@@ -98,7 +98,7 @@ def motions_made(workbook: Path, out: Path) -> str:
         from report.sheet.reading.read import read
         from report.suite.files import suite_files
         from report.suite.site import site_targets, suite_rows
-        from solver.synthesis import make_suite
+        from solver.synthesis.suite import make_suite
 
         targets, _ = site_targets(read(workbook))
         tell("Preparing the motions")

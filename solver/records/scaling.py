@@ -23,15 +23,6 @@ DAMPING = 0.05
 PER_DECADE = 100
 
 
-def corner_points(freq_hz: Floats, sa_g: Floats) -> Target:
-    """Return the target through corners [Hz], [g]: log-log between them, constant beyond."""
-    return partial(_between, log_freq=np.log(freq_hz), log_sa=np.log(sa_g))
-
-
-def _between(freq_hz: Floats, *, log_freq: Floats, log_sa: Floats) -> Floats:
-    return np.asarray(np.exp(np.interp(np.log(freq_hz), log_freq, log_sa)))
-
-
 def design_spectrum(*, s_ds_g: float, s_d1_g: float, t_l_s: float) -> Target:
     """Return the design response spectrum at the ground.
 

@@ -13,6 +13,15 @@ import numpy as np
 from solver.model import Floats
 from solver.rules.hazard import Edition
 
+Target = tuple[Floats, Floats]
+"""Corner points of a target spectrum: increasing frequencies [Hz], and accelerations [g]."""
+
+
+def target_sa_g(target: Target, freq_hz: Floats) -> Floats:
+    """Target acceleration [g] at frequencies [Hz]: log-log between corners, constant beyond."""
+    corners_hz, corners_g = (np.log(np.asarray(column)) for column in target)
+    return np.asarray(np.exp(np.interp(np.log(freq_hz), corners_hz, corners_g)), dtype=np.float64)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RequiredSpectrum:
@@ -27,16 +36,13 @@ class RequiredSpectrum:
     sa_g: Floats
 
     @property
-    def corners(self) -> tuple[Floats, Floats]:
+    def corners(self) -> Target:
         """Frequencies [Hz] and accelerations [g], as `solver.make_suite` takes them."""
         return self.freq_hz, self.sa_g
 
     def at(self, freq_hz: Floats) -> Floats:
         """Return ordinates [g] at frequencies [Hz], constant outside the corners."""
-        return np.asarray(
-            np.exp(np.interp(np.log(freq_hz), np.log(self.freq_hz), np.log(self.sa_g))),
-            dtype=np.float64,
-        )
+        return target_sa_g(self.corners, freq_hz)
 
 
 class Tail(StrEnum):

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from solver.kernels import oscillator
-from solver.model import Floats
+from solver.model import Floats, InputError
 from solver.records.record import DECIMALS, UNITS, Record, read_only
 from solver.records.spectrum_acceptance import POINTS_HZ
-from solver.synthesis.target import BAND_HZ, DAMPING, Target, band, spectrum_fit, target_sa_g
+from solver.rules.spectra import Target, target_sa_g
+from solver.synthesis.target import BAND_HZ, DAMPING, band, spectrum_fit, target_problems
 
 # Accepted ratios to the target, and the one at which a low peak is aimed. An interval instead of
 # one value, because corrections at neighboring frequencies conflict, most of all at long periods.
@@ -48,6 +49,8 @@ class MatchingFrame:
 
     Attributes
     ----------
+    target : tuple of array
+        Its corner points.
     dt_s : float
     envelope : array, shape (n,)
     quiet : array, shape (q, n)
@@ -59,6 +62,7 @@ class MatchingFrame:
         Their pseudo-accelerations 0, 1, ... samples after a unit sample.
     """
 
+    target: Target
     dt_s: float
     envelope: Floats
     quiet: Floats
@@ -70,19 +74,43 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> MatchingFrame:
     """Return the frame of a target.
 
     The lowest frequency is that of the target or three cycles in the duration, whichever is higher.
+
+    Parameters
+    ----------
+    target : tuple of array
+        Corner points: frequencies [Hz], rising, and pseudo-spectral accelerations [g].
+    dt_s, duration_s : float
+        Sampling interval, 0.001 to 0.01 s, and time of the last sample, 10 s or more.
+
+    Raises
+    ------
+    InputError
+        If an argument is invalid.
     """
+    _check(target, dt_s, duration_s)
     low_hz = max(min(target[0][0], BAND_HZ[0]), 3.0 / duration_s)
     n = round(duration_s / dt_s) + 1
     from_start = np.linspace(0.0, 1.0, n)
     envelope = np.minimum(1.0, 6.0 * np.minimum(from_start, from_start[::-1]))
     freq_hz = np.append(_matched_hz(low_hz, min(50.0, 0.4 / dt_s)), 5.0 / dt_s)
     return MatchingFrame(
+        target=target,
         dt_s=dt_s,
         envelope=envelope,
         quiet=_quiet(from_start, low_hz * duration_s),
         freq_hz=freq_hz,
         pulses=_pulses(freq_hz * dt_s, n),
     )
+
+
+def _check(target: Target, dt_s: float, duration_s: float) -> None:
+    problems = target_problems(target)
+    if not 0.001 <= dt_s <= 0.01:
+        problems.append(f"time step dt is {dt_s!r}; give 0.001 to 0.01 s")
+    if not 10.0 <= duration_s <= 60_000 * dt_s:
+        problems.append(f"duration is {duration_s!r}; give from 10 s to 60,000 time steps")
+    if problems:
+        raise InputError(problems)
 
 
 def _matched_hz(low_hz: float, high_hz: float) -> Floats:
@@ -124,19 +152,19 @@ def _pulses(cycles: Floats, n: int) -> Floats:
     return (2.0 * ramp[:, 1:-1] - ramp[:, 2:] - ramp[:, :-2]) / p
 
 
-def _goal_mps2(frame: MatchingFrame, target: Target) -> Floats:
+def _goal_mps2(frame: MatchingFrame) -> Floats:
     """Target pseudo-accelerations [m/s2], one for each oscillator of the frame."""
-    return _G * target_sa_g(target, frame.freq_hz)
+    return _G * target_sa_g(frame.target, frame.freq_hz)
 
 
-def shaped(frame: MatchingFrame, start: Floats, target: Target) -> Floats:
+def shaped(frame: MatchingFrame, start: Floats) -> Floats:
     """Enveloped motion whose Fourier amplitudes are corrected iteratively by goal / spectrum."""
-    n, goal = len(frame.envelope), _goal_mps2(frame, target)
+    n, goal = len(frame.envelope), _goal_mps2(frame)
     padded = 1 << (n - 1).bit_length() + 1
     spectrum = np.fft.rfft(start, padded)
     freq_hz = np.maximum(np.fft.rfftfreq(padded, frame.dt_s), 1e-3)
     low, high = frame.freq_hz[0], frame.freq_hz[-2]
-    gain = target_sa_g(target, freq_hz) / np.sqrt(freq_hz)
+    gain = target_sa_g(frame.target, freq_hz) / np.sqrt(freq_hz)
     gain /= (1.0 + (0.9 * low / freq_hz) ** 8) * (1.0 + (freq_hz / (1.2 * high)) ** 8)
     for _ in range(_SHAPINGS):
         a = _calmed(frame, frame.envelope * np.fft.irfft(spectrum * gain, padded)[:n])
@@ -158,7 +186,7 @@ def _peaks(frame: MatchingFrame, a: Floats) -> tuple[Floats, _Samples]:
     return peak, at
 
 
-def matched(frame: MatchingFrame, a: Floats, target: Target) -> Floats:
+def matched(frame: MatchingFrame, a: Floats) -> Floats:
     """Corrected motion with a small mean ratio / smallest ratio to the target, wherever it is.
 
     Minima of the spectrum between the matched frequencies are matched in turn.
@@ -166,8 +194,9 @@ def matched(frame: MatchingFrame, a: Floats, target: Target) -> Floats:
     looked_at = band(_LOOKED_AT, float(frame.freq_hz[0]))
     best, least = a, math.inf
     for _ in range(_ROUNDS):
-        a = _matched(frame, a, _goal_mps2(frame, target))
-        ratio = spectrum_fit(Record(name="", dt_s=frame.dt_s, a_mps2=a), target, looked_at).ratio
+        a = _matched(frame, a, _goal_mps2(frame))
+        record = Record(name="", dt_s=frame.dt_s, a_mps2=a)
+        ratio = spectrum_fit(record, frame.target, looked_at).ratio
         excess = float(ratio.mean() / ratio.min())
         if excess < least:
             best, least = a, excess

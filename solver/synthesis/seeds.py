@@ -58,9 +58,7 @@ class Seed:
         return f"{self.name}, phases rotated by up to {math.degrees(turn):.0f} deg"
 
 
-def noise_seed() -> Seed:
-    """Return a noise seed."""
-    return Seed(name="", a=np.empty(0), own_phases=False)
+NOISE = Seed(name="", a=np.empty(0), own_phases=False)
 
 
 def seeds_of(
@@ -72,7 +70,7 @@ def seeds_of(
     use of a group, and only for the components that the group contains.
     """
     if not records:
-        return noise_seed(), noise_seed(), noise_seed()
+        return NOISE, NOISE, NOISE
     group = records[motion % len(records)]
     x, y, z = (
         Seed(

@@ -16,16 +16,10 @@ from solver.model import Floats, InputError
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
 from solver.records.record import Record
+from solver.rules.spectra import Target
 from solver.synthesis.matching import MatchingFrame, make_frame, matched, rounded, shaped
-from solver.synthesis.seeds import Seed, grown, noise_seed, seeds_of, strongest
-from solver.synthesis.target import (
-    SpectrumFit,
-    Target,
-    keeps,
-    shifted_grids,
-    spectrum_fit,
-    target_problems,
-)
+from solver.synthesis.seeds import Seed, grown, seeds_of, strongest
+from solver.synthesis.target import SpectrumFit, keeps, shifted_grids, spectrum_fit
 
 DRAWS = 20
 
@@ -88,7 +82,7 @@ def make_suite(
 
     Sinusoids under an envelope, matched in frequency and then in time (Gasparini and Vanmarcke,
     MIT R76-4, 1976; Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824), as in
-    `solver.synthesis.synthesize`.
+    `solver.synthesis.suite.synthesize`.
 
     Motion k of a seed is the same for any count. Every component alone satisfies the rows of
     `solver.records.acceptance` where its target is given and the duration has three cycles: it is
@@ -143,36 +137,31 @@ def make_suite(
     """
     if count < 1 or seed < 0:
         raise InputError(f"suite: count {count} and seed {seed}; give at least 1 and at least 0")
-    for target in (horizontal_target, vertical_target):
-        _check(target, dt_s, duration_s)
-    _check_records(records, dt_s, duration_s)
     horizontal, vertical = (
-        _Wanted(target=target, frame=make_frame(target, dt_s, duration_s))
-        for target in (horizontal_target, vertical_target)
+        make_frame(target, dt_s, duration_s) for target in (horizontal_target, vertical_target)
     )
+    _check_records(records, dt_s, duration_s)
     suite, hold_s = [], HOLD_SHARE * duration_s
     for k, sequence in enumerate(np.random.SeedSequence(seed).spawn(count), start=1):
         progress(f"motion {k} of {count}")
         rng = np.random.Generator(np.random.PCG64(sequence))
         # y is drawn last, so that x and z are the same as in a pair without y.
-        seed_x, seed_y, seed_z = seeds_of(records, k - 1, dt_s, len(horizontal.frame.envelope))
-        x, from_x = _component(horizontal, seed_x, rng, f"motion-{k:02d}-x", ())
-        z, from_z = _component(vertical, seed_z, rng, f"motion-{k:02d}-z", (x,))
-        y, from_y = _component(horizontal, seed_y, rng, f"motion-{k:02d}-y", (x, z))
+        seed_x, seed_y, seed_z = seeds_of(records, k - 1, dt_s, len(horizontal.envelope))
+        x, from_x = synthesize(horizontal, seed_x, rng, f"motion-{k:02d}-x")
+        z, from_z = synthesize(vertical, seed_z, rng, f"motion-{k:02d}-z", (x,))
+        y, from_y = synthesize(horizontal, seed_y, rng, f"motion-{k:02d}-y", (x, z))
         suite.append(SuiteMotion(x=x, y=y, z=z, seeds=(from_x, from_y, from_z), hold_s=hold_s))
     return suite
 
 
 def synthesize(
-    target: Target,
-    *,
+    frame: MatchingFrame,
+    seed: Seed,
     rng: np.random.Generator,
-    dt_s: float,
-    duration_s: float,
     name: str,
     unlike: Sequence[Record] = (),
-) -> Record:
-    """Generate one component whose 5 % damped spectrum matches the target.
+) -> tuple[Record, str]:
+    """Generate one component whose 5 % damped spectrum matches the target of a frame.
 
     Sinusoids of random phase under an envelope (Gasparini and Vanmarcke, SIMQKE, MIT R76-4,
     1976), adjusted in frequency, then corrected in time by the reversed impulse responses of the
@@ -182,50 +171,32 @@ def synthesize(
 
     Parameters
     ----------
-    target : tuple of array
-        Corner points: frequencies [Hz], rising, and pseudo-spectral accelerations [g].
     rng : Generator
         Source of the phases; the same state gives the same motion.
-    dt_s, duration_s : float
-        Sampling interval, 0.001 to 0.01 s, and time of the last sample, 10 s or more.
-    name : str
     unlike : sequence of Record
         Components of equal step and length with which this one must not correlate
         (`MOST_CORRELATION`).
 
+    Returns
+    -------
+    tuple of Record and str
+        The component, and the description of its seed.
+
     Raises
     ------
     InputError
-        If an argument is invalid, or `DRAWS` motions all miss the target.
+        If `DRAWS` motions all miss the target.
     """
-    _check(target, dt_s, duration_s)
-    wanted = _Wanted(target=target, frame=make_frame(target, dt_s, duration_s))
-    return _component(wanted, noise_seed(), rng, name, unlike)[0]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Wanted:
-    """A target with the frame for matching its motions."""
-
-    target: Target
-    frame: MatchingFrame
-
-
-def _component(
-    wanted: _Wanted, seed: Seed, rng: np.random.Generator, name: str, unlike: Sequence[Record]
-) -> tuple[Record, str]:
-    """Return a component and the description of its seed."""
-    target, frame = wanted.target, wanted.frame
     duration_s = frame.dt_s * (len(frame.envelope) - 1)
     nearest = math.inf, ""
     for draw in range(DRAWS):
         start = grown(seed, rng, len(frame.envelope), draw)
-        a = matched(frame, shaped(frame, start, target), target)
-        a = rounded(a * _ABOVE / _fit(wanted, a).minimum)
+        a = matched(frame, shaped(frame, start))
+        a = rounded(a * _ABOVE / _fit(frame, a).minimum)
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
         alike = any(abs(correlation(record, other)) > MOST_CORRELATION for other in unlike)
         is_strong = strength(record).d5_95_s >= HOLD_SHARE * duration_s
-        fit = _fit(wanted, a)
+        fit = _fit(frame, a)
         if keeps(fit) and is_strong and not alike:
             return record, seed.words(draw)
         reached = f"{fit.minimum:.2f} to {fit.maximum:.2f}"
@@ -236,10 +207,10 @@ def _component(
     )
 
 
-def _fit(wanted: _Wanted, a: Floats) -> SpectrumFit:
+def _fit(frame: MatchingFrame, a: Floats) -> SpectrumFit:
     """Compare a component with its target on grids of 1/6 octave that begin anywhere."""
-    record = Record(name="", dt_s=wanted.frame.dt_s, a_mps2=a)
-    return spectrum_fit(record, wanted.target, shifted_grids(float(wanted.frame.freq_hz[0])))
+    record = Record(name="", dt_s=frame.dt_s, a_mps2=a)
+    return spectrum_fit(record, frame.target, shifted_grids(float(frame.freq_hz[0])))
 
 
 def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s: float) -> None:
@@ -256,15 +227,5 @@ def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s:
             problems.append(f"{record.name}: lasts {found_s:g} s; give a seed of at least {least}")
         elif not strongest(record, dt_s, n).any():
             problems.append(f"{record.name}: is constant; give another record as a seed")
-    if problems:
-        raise InputError(problems)
-
-
-def _check(target: Target, dt_s: float, duration_s: float) -> None:
-    problems = target_problems(target)
-    if not 0.001 <= dt_s <= 0.01:
-        problems.append(f"time step dt is {dt_s!r}; give 0.001 to 0.01 s")
-    if not 10.0 <= duration_s <= 60_000 * dt_s:
-        problems.append(f"duration is {duration_s!r}; give from 10 s to 60,000 time steps")
     if problems:
         raise InputError(problems)

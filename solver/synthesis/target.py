@@ -14,9 +14,7 @@ import numpy as np
 from solver.model import Floats
 from solver.records.record import UNITS, Record
 from solver.records.spectrum import response_spectrum
-
-Target = tuple[Floats, Floats]
-"""Corner points of a target spectrum: increasing frequencies [Hz], and accelerations [g]."""
+from solver.rules.spectra import Target, target_sa_g
 
 DAMPING = 0.05
 BAND_HZ = (0.3, 33.3)
@@ -69,12 +67,6 @@ class SpectrumFit:
     def mean(self) -> float:
         """Mean ratio, with equal weight for every frequency."""
         return float(self.ratio.mean())
-
-
-def target_sa_g(target: Target, freq_hz: Floats) -> Floats:
-    """Target acceleration [g] at frequencies [Hz]: log-log between corners, constant beyond."""
-    corners_hz, corners_g = (np.log(np.asarray(column)) for column in target)
-    return np.exp(np.interp(np.log(freq_hz), corners_hz, corners_g))
 
 
 def lowest_hz(target: Target) -> float:

@@ -14,7 +14,8 @@ import numpy as np
 
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.record import Record, read_only
-from solver.synthesis import SuiteMotion, Target, make_suite
+from solver.rules.spectra import Target
+from solver.synthesis.suite import SuiteMotion, make_suite
 from solver.verification import plane_scipy
 
 SEED = 2003

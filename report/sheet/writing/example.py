@@ -25,7 +25,7 @@ from report.sheet.writing.shipped import EXAMPLE
 from report.sheet.writing.template import write_template
 
 if TYPE_CHECKING:
-    from solver.synthesis import SuiteMotion
+    from solver.synthesis.suite import SuiteMotion
 
 FOOT, INCH, POUND = 0.3048, 0.0254, 4.4482216152605
 PSF = POUND / FOOT**2
@@ -51,7 +51,7 @@ def suite() -> list[SuiteMotion]:
     from solver.rules.hazard import EDITIONS
     from solver.rules.provisions import RULE_SETS
     from solver.rules.spectra import ac156_horizontal, ac156_vertical
-    from solver.synthesis import make_suite
+    from solver.synthesis.suite import make_suite
 
     edition = EDITIONS[RULE_SETS["SEAOC PV1-2012"].edition]
     across = ac156_horizontal(edition, s_ds_g=S_DS_G, z_over_h=1.0)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from solver.synthesis import SuiteMotion
+    from solver.synthesis.suite import SuiteMotion
 
 Row = Mapping[str, object]
 Range = tuple[float, float]

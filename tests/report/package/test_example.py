@@ -10,7 +10,7 @@ from solver.formats import read_record
 from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
-from solver.synthesis import make_suite
+from solver.synthesis.suite import make_suite
 
 EXAMPLE = ROOT / "projects" / "example"
 

@@ -5,7 +5,7 @@ import json
 import pytest
 
 import commands
-import solver.synthesis
+import solver.synthesis.suite
 import waves
 from report.results.publish import STAMP
 from report.sheet.reading.read import read
@@ -88,7 +88,9 @@ def test_a_target_spectrum_of_the_workbook_is_not_passed_over(tmp_path):
 @pytest.fixture
 def quick(monkeypatch):
     """Motions of sines at once."""
-    monkeypatch.setattr(solver.synthesis, "make_suite", lambda *_, count, **__: waves.suite(count))
+    monkeypatch.setattr(
+        solver.synthesis.suite, "make_suite", lambda *_, count, **__: waves.suite(count)
+    )
 
 
 def suite(*words):

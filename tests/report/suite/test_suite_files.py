@@ -277,7 +277,7 @@ def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
 
 def test_a_component_outside_the_limits_is_counted(made):
     """Motions for 1.2 g, beside the target of 2.4 g."""
-    from solver.synthesis import SuiteMotion
+    from solver.synthesis.suite import SuiteMotion
 
     x, y, z = records(made[0], 1)
     motion = SuiteMotion(x=x, y=y, z=z, seeds=("noise",) * 3, hold_s=20.0)

@@ -10,7 +10,9 @@ import pytest
 from solver.model import InputError
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
-from solver.synthesis import make_suite, seeds, target_sa_g
+from solver.rules.spectra import target_sa_g
+from solver.synthesis import seeds
+from solver.synthesis.suite import make_suite
 
 pytestmark = [
     pytest.mark.skipif(

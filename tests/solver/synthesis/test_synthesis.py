@@ -13,14 +13,12 @@ from solver.formats import read_motion_file, read_record
 from solver.model import InputError, Motion
 from solver.records.acceptance import acceptance
 from solver.records.record import write_record
-from solver.synthesis import (
-    make_suite,
-    spectrum_fit,
-    suite,
-    synthesize,
-    target,
-    target_sa_g,
-)
+from solver.rules.spectra import target_sa_g
+from solver.synthesis import suite, target
+from solver.synthesis.matching import make_frame
+from solver.synthesis.seeds import NOISE
+from solver.synthesis.suite import make_suite, synthesize
+from solver.synthesis.target import spectrum_fit
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
@@ -188,21 +186,21 @@ class TestSynthesis:
     def test_a_long_period_tail_is_met_at_other_samplings(self, dt_s, duration_s):
         # 1/T beyond 0.77 s, then flat and falling.
         tail = np.array([0.1, 1.0 / 0.77, 8.3, 33.3]), np.array([0.077, 1.0, 1.0, 0.75])
-        record = synthesize(tail, rng=rng(1), dt_s=dt_s, duration_s=duration_s, name="tail")
+        record, _ = synthesize(make_frame(tail, dt_s, duration_s), NOISE, rng(1), "tail")
         assert len(record.a_mps2) == round(duration_s / dt_s) + 1
         ratio = psa_over(record, tail, BAND)
         assert 0.9 <= ratio.min() <= ratio.max() <= 1.3
 
     def test_a_target_that_begins_above_the_band_is_flat_below(self):
         flat = np.array([2.0, 20.0]), np.array([1.0, 1.0])
-        record = synthesize(flat, rng=rng(1), dt_s=0.01, duration_s=20.0, name="flat")
+        record, _ = synthesize(make_frame(flat, 0.01, 20.0), NOISE, rng(1), "flat")
         assert psa_over(record, flat, BAND[:24]) == pytest.approx(1.0, abs=0.1)
 
     def test_a_motion_like_another_is_drawn_again(self):
-        how = {"dt_s": 0.01, "duration_s": 12.0, "name": "x"}
-        first = synthesize(HORIZONTAL, rng=rng(1), **how)
-        assert np.array_equal(synthesize(HORIZONTAL, rng=rng(1), **how).a_mps2, first.a_mps2)
-        second = synthesize(HORIZONTAL, rng=rng(1), unlike=(first,), **how)
+        frame = make_frame(HORIZONTAL, 0.01, 12.0)
+        first, again = (synthesize(frame, NOISE, rng(1), "x")[0] for _ in range(2))
+        assert np.array_equal(again.a_mps2, first.a_mps2)
+        second, _ = synthesize(frame, NOISE, rng(1), "x", unlike=(first,))
         assert abs(np.corrcoef(first.a_mps2, second.a_mps2)[0, 1]) <= 0.3
 
     def test_a_target_out_of_reach_is_told(self, monkeypatch):
@@ -212,7 +210,7 @@ class TestSynthesis:
             InputError,
             match=r"x: 2 motions of 12 s all miss .*; the closest has 1\.00 to 1\.\d\d times",
         ):
-            synthesize(HORIZONTAL, rng=rng(1), dt_s=0.01, duration_s=12.0, name="x")
+            synthesize(make_frame(HORIZONTAL, 0.01, 12.0), NOISE, rng(1), "x")
 
     @pytest.mark.parametrize(
         ("how", "expected"),
@@ -231,7 +229,7 @@ class TestSynthesis:
     def test_impossible_arguments_are_refused(self, how, expected):
         usual = {"target": HORIZONTAL, "dt_s": 0.005, "duration_s": 30.0}
         with pytest.raises(InputError, match=expected):
-            synthesize(**(usual | how), rng=rng(1), name="x")
+            make_frame(**(usual | how))
 
 
 class TestFit:
