@@ -21,7 +21,7 @@ from report.study.schema import NoValue
 from report.study.spread import SpectralSpread, spectral_spread
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
-from solver.studies.curves import Statistics, largest_slope, minimum_friction, statistics
+from solver.studies.curves import Statistics, first_allowed, statistics
 from solver.studies.fit import Fit, fit_prd
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner
@@ -137,7 +137,7 @@ class StudyResults:
         values, mus = self.displacements[name][building], np.array(self.plan.input.mus)
 
         def least(prd_m: Floats) -> float:
-            mu = minimum_friction(mus, prd_m, allowed_m)
+            mu = first_allowed(mus, prd_m, allowed_m)
             # Rounded up, unless it is one of the study or none is between.
             return mu if mu in mus else min(round_up(mu, FRICTION_DECIMALS), float(mus[-1]))
 
@@ -151,7 +151,7 @@ class StudyResults:
         values, slopes = self.displacements[name][building], np.array(self.plan.input.slopes_deg)
 
         def largest(prd_m: Floats) -> float:
-            slope = largest_slope(slopes, prd_m, allowed_m)
+            slope = first_allowed(slopes[::-1], prd_m[::-1], allowed_m)
             # Rounded down, unless it is one of the study or none is between.
             least = float(slopes[0])
             return slope if slope in slopes else max(round_down(slope, SLOPE_DECIMALS), least)

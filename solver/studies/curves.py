@@ -63,40 +63,20 @@ def _finite(values: Floats) -> Floats:
     return np.where(np.isfinite(values), values, np.nan)
 
 
-def minimum_friction(mus: Floats, prd_m: Floats, allowed_m: float) -> float:
-    """Return the least friction coefficient from which on the PRD does not exceed a limit.
+def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
+    """Return the value from which on, in the order given, the PRD does not exceed a limit.
 
-    Interpolated between the runs; the smallest coefficient run if none exceeds the limit, NaN if
-    the largest does. The reading of the paper's Fig. 12.
-
-    Parameters
-    ----------
-    mus, prd_m : array, shape (q,)
-        Increasing coefficients and their PRD [m].
-    allowed_m : float
-        Limit [m].
-    """
-    return _crossing(mus, prd_m, allowed_m)
-
-
-def largest_slope(slopes: Floats, prd_m: Floats, allowed_m: float) -> float:
-    """Return the largest slope up to which the PRD does not exceed a limit.
-
-    Interpolated between the runs; the largest slope run if none exceeds the limit, NaN if the
-    smallest does.
+    Of increasing friction coefficients it is the least that is enough, the reading of the paper's
+    Fig. 12; of decreasing slopes the largest that is allowed. Interpolated between the runs; the
+    first value if none exceeds the limit, NaN if the last does.
 
     Parameters
     ----------
-    slopes, prd_m : array, shape (p,)
-        Increasing slopes, in any unit, and their PRD [m].
+    values, prd_m : array, shape (q,)
+        Values in any unit, and their PRD [m].
     allowed_m : float
         Limit [m].
     """
-    return _crossing(slopes[::-1], prd_m[::-1], allowed_m)
-
-
-def _crossing(values: Floats, prd_m: Floats, allowed_m: float) -> float:
-    """Return the value after which the PRD no longer exceeds a limit, in the order given."""
     beyond = np.flatnonzero(~(prd_m <= allowed_m))
     if not beyond.size:
         return float(values[0])

@@ -21,10 +21,9 @@ from solver.model import Floats, InputError, Motion, Status
 from solver.records.frames import dataset
 from solver.sliding.least_model import Model
 from solver.sliding.sweep import axis
-from solver.studies import curves
 from solver.studies.campaign import Campaign, grid
 from solver.studies.capacity import Curve, capacities
-from solver.studies.curves import Statistics, statistics
+from solver.studies.curves import Statistics, first_allowed, statistics
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 
 if TYPE_CHECKING:
@@ -96,7 +95,7 @@ class StudyRuns:
         mean = self.statistics().mean_m
         return np.array(
             [
-                [curves.minimum_friction(self.mus, of_level, allowed_m) for of_level in of_slope.T]
+                [first_allowed(self.mus, of_level, allowed_m) for of_level in of_slope.T]
                 for of_slope in mean
             ]
         )

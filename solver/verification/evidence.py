@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from solver.model import Floats
-from solver.studies.curves import minimum_friction
+from solver.studies.curves import first_allowed
 from solver.verification.model_evidence import ModelEvidence
 from solver.verification.reference import DIGITS
 from solver.verification.shake_table import ShakeTable
@@ -138,8 +138,8 @@ class DesignCurves:
         return np.array([np.interp(ppa_g, self.ppas_g, row) for row in by_slope])
 
     def minimum_mu(self, slope_deg: float, ppa_g: float, wanted_m: float) -> float:
-        """Return the least friction coefficient that limits the PRD; see `minimum_friction`."""
-        return minimum_friction(self.mus, self.prd(slope_deg, ppa_g), wanted_m)
+        """Return the least friction coefficient that limits the PRD; see `first_allowed`."""
+        return first_allowed(self.mus, self.prd(slope_deg, ppa_g), wanted_m)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -151,7 +151,6 @@ class Conditioning:
     record: str
     slope_deg: float
     ppa_g: float
-    relative_change: float  # of mu, both increased and decreased
     mu: Floats  # shape (n,)
     prd_m: Floats  # shape (n,)
     change_percent: Floats  # shape (n,): larger of the two changes of the PRD, see `percent_off`

@@ -168,7 +168,6 @@ def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
             record=record.name,
             slope_deg=SLOPE_DEG,
             ppa_g=ppa_g,
-            relative_change=change,
             mu=mu,
             prd_m=prd_m,
             change_percent=np.maximum(percent_off(less_m, prd_m), percent_off(more_m, prd_m)),

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from solver.studies.curves import largest_slope, minimum_friction, statistics
+from solver.studies.curves import first_allowed, statistics
 
 NONE = math.nan
 
@@ -45,7 +45,7 @@ def test_the_percentile_does_not_depend_on_a_missing_value_above_it():
     ],
 )
 def test_least_friction_is_above_what_exceeds_the_limit(prds_m, limit_m, expected):
-    found = minimum_friction(np.array([0.3, 0.4, 0.5]), np.array(prds_m), limit_m)
+    found = first_allowed(np.array([0.3, 0.4, 0.5]), np.array(prds_m), limit_m)
     assert found == pytest.approx(expected, rel=1e-14, nan_ok=True)
 
 
@@ -59,5 +59,5 @@ def test_least_friction_is_above_what_exceeds_the_limit(prds_m, limit_m, expecte
     ],
 )
 def test_largest_slope_is_below_every_slope_that_exceeds_the_limit(prds_m, expected):
-    found = largest_slope(np.array([0.0, 2.0, 4.0, 6.0]), np.array(prds_m), 0.3)
+    found = first_allowed(np.array([6.0, 4.0, 2.0, 0.0]), np.array(prds_m[::-1]), 0.3)
     assert found == pytest.approx(expected, rel=1e-14, nan_ok=True)

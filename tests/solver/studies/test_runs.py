@@ -11,7 +11,7 @@ from solver.model import Status, coulomb
 from solver.sliding.least_model import Model
 from solver.sliding.sweep import sweep
 from solver.studies.campaign import Campaign, cases_of, grid
-from solver.studies.curves import minimum_friction
+from solver.studies.curves import first_allowed
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
@@ -98,7 +98,7 @@ def test_curves_are_those_of_the_paper_procedure():
     prd = prd.reshape(slopes.size, PAPER_MUS.size, ppas.size)
     assert prd == pytest.approx(study.prd_m[::7, :, 3::6], rel=1e-12, abs=1e-15)
     wanted = 0.1 * float(prd[1, :, -1].max())
-    least = minimum_friction(PAPER_MUS, prd[1, :, -1], wanted)
+    least = first_allowed(PAPER_MUS, prd[1, :, -1], wanted)
     expected = study.minimum_mu(float(slopes[1]), float(ppas[-1]), wanted)
     assert least == pytest.approx(expected, rel=1e-9)
 

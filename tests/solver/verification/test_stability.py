@@ -83,5 +83,5 @@ def test_at_the_critical_friction_the_ninth_digit_shows_and_elsewhere_it_does_no
     large = still.prd_m[below] > 1e-3
     assert still.change_percent[below][large] == pytest.approx(expected[large], rel=1e-3)
     assert (still.prd_m[~below] == 0.0).all()
-    assert (shaken.ppa_g, design.relative_change) == (stability.PPA_G, 0.05)
+    assert shaken.ppa_g == stability.PPA_G
     assert np.median(design.change_percent) > 1.0
