@@ -33,9 +33,8 @@ class PrescriptiveBasis(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prescriptive:
-    """The prescriptive displacement: value of the formula, minimum, and which governs."""
+    """The prescriptive displacement, the minimum of its formula, and which governs."""
 
-    formula_m: float
     minimum_m: float
     value_m: float
     governs: PrescriptiveBasis
@@ -57,11 +56,8 @@ def prescriptive_displacement(
     minimum = rules.length_m("prescriptive_minimum_in")
     if rules.low_sdc_is_flat and sdc in "ABC":
         flat = rules.length_m("prescriptive_low_sdc_in")
-        return Prescriptive(
-            formula_m=formula, minimum_m=flat, value_m=flat, governs=PrescriptiveBasis.LOW_CATEGORY
-        )
+        return Prescriptive(minimum_m=flat, value_m=flat, governs=PrescriptiveBasis.LOW_CATEGORY)
     return Prescriptive(
-        formula_m=formula,
         minimum_m=minimum,
         value_m=max(formula, minimum),
         governs=PrescriptiveBasis.FORMULA if formula >= minimum else PrescriptiveBasis.MINIMUM,
@@ -309,15 +305,8 @@ def analysis_checks(
         measure=Measure.ANGLE_DEG,
     )
     may_exceed = rules.steeper_if_reviewed and sdc in "ABC" and is_reviewed
-    return (
-        replace(slope, may_exceed=may_exceed),
-        _check(
-            rules,
-            "Number of motions",
-            n_motions,
-            "analysis_min_motions",
-        ),
-    )
+    count = _check(rules, "Number of motions", n_motions, "analysis_min_motions")
+    return replace(slope, may_exceed=may_exceed), count
 
 
 def _check(

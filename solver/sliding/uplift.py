@@ -23,8 +23,6 @@ class Uplift:
     ----------
     n_min_g : float
         Minimum of N / (m g); negative with uplift.
-    t_min_s : float
-        Time of the first occurrence of that minimum [s].
     t_first_s : float
         Time when N first falls below zero [s]; NaN if it never does.
     duration_s : float
@@ -34,7 +32,6 @@ class Uplift:
     """
 
     n_min_g: float
-    t_min_s: float
     t_first_s: float
     duration_s: float
     times: int
@@ -48,11 +45,9 @@ class Uplift:
 def uplift(scene: Scene) -> Uplift:
     """Return when and how far N falls below zero, exactly for N linear between samples."""
     normal, dt = normal_mps2(scene), scene.dt_s
-    least = int(np.argmin(normal))
     below, starts = _below(normal), _starts(normal)
     return Uplift(
-        n_min_g=float(normal[least]) / scene.g_mps2,
-        t_min_s=least * dt,
+        n_min_g=float(normal.min()) / scene.g_mps2,
         t_first_s=float(starts[0]) * dt if starts.size else math.nan,
         duration_s=float(below.sum()) * dt,
         times=starts.size,
