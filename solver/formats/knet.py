@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
 from solver.formats.motionfile import MotionFile
@@ -28,14 +27,6 @@ _LEADING = re.compile(r"[\d.]+", re.ASCII)
 _KIK_NET = {"1": "NS1", "2": "EW1", "3": "UD1", "4": "NS2", "5": "EW2", "6": "UD2"}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Entry:
-    """One line of the heading."""
-
-    text: str
-    index: int
-
-
 def recognizes(lines: Sequence[str]) -> bool:
     """Whether the heading begins with the origin time and has a scale factor."""
     near = lines[:_HEADING_LINES]
@@ -47,18 +38,16 @@ def read(source: Source) -> MotionFile:
     """Read the one component of a file."""
     rate = _number(source, "Sampling Freq(Hz)")
     duration = _number(source, "Duration Time(s)")
-    memo = _entry(source, "Memo.")
+    _, memo = _entry(source, "Memo.")
     dt_s = source.step(Stated(value=1.0 / rate.value, rounding=0.0, index=rate.index))
     count = round(duration.value * rate.value)
-    block = Block(
-        first=memo.index + 1, stop=len(source.lines), count=count, promised=duration.index
-    )
+    block = Block(first=memo + 1, stop=len(source.lines), count=count, promised=duration.index)
     values = free_values(source, block) * _scale(source)
-    peak = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
-    stated_mps2 = 0.01 * printed(peak.text, peak.index).value
+    peak, at = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
+    stated_mps2 = 0.01 * printed(peak, at).value
     centered = values - values.mean() if len(values) else values
-    notes = [*peak_notes(source, peak.index, stated_mps2, centered), *offset_notes(values)]
-    direction = _entry(source, "Dir.").text
+    notes = [*peak_notes(source, at, stated_mps2, centered), *offset_notes(values)]
+    direction, _ = _entry(source, "Dir.")
     name = _KIK_NET.get(direction, direction)
     if name.endswith("1"):
         notes.append("the sensor is in the borehole, not at the surface")
@@ -67,33 +56,31 @@ def read(source: Source) -> MotionFile:
     return motion_file(source, form, [channel])
 
 
-def _entry(source: Source, *names: str) -> _Entry:
+def _entry(source: Source, *names: str) -> tuple[str, int]:
+    """Text of a line of the heading behind its name, and its index."""
     for index, line in enumerate(source.lines[:_HEADING_LINES]):
         for name in names:
             if line.startswith(name):
-                return _Entry(text=line[len(name) :].strip(), index=index)
+                return line[len(name) :].strip(), index
     raise InputError(f"{source.name}: found no line {names[0]}; give the whole heading")
 
 
 def _number(source: Source, name: str) -> Stated:
-    entry = _entry(source, name)
-    match = _LEADING.match(entry.text)
-    stated = printed(match[0] if match else "", entry.index)
+    text, index = _entry(source, name)
+    match = _LEADING.match(text)
+    stated = printed(match[0] if match else "", index)
     if not 0.0 < stated.value < 1e6:
-        raise InputError(
-            f"{source.at(entry.index)}: found {shown(entry.text)}; give a number above 0"
-        )
+        raise InputError(f"{source.at(index)}: found {shown(text)}; give a number above 0")
     return stated
 
 
 def _scale(source: Source) -> float:
     """Value of one count [m/s2]."""
-    entry = _entry(source, "Scale Factor")
-    match = _SCALE.match(entry.text)
-    over, under = (printed(match[i], entry.index).value for i in (1, 3)) if match else (0.0, 0.0)
+    text, index = _entry(source, "Scale Factor")
+    match = _SCALE.match(text)
+    over, under = (printed(match[i], index).value for i in (1, 3)) if match else (0.0, 0.0)
     if not match or not (over > 0.0 and under > 0.0):
         raise InputError(
-            f"{source.at(entry.index)}: found {shown(entry.text)}; give a scale as"
-            " 3920(gal)/6182761"
+            f"{source.at(index)}: found {shown(text)}; give a scale as 3920(gal)/6182761"
         )
-    return source.scale(match[2], entry.index) * over / under
+    return source.scale(match[2], index) * over / under

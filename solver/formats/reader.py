@@ -6,9 +6,9 @@ Contains the list of formats and their order. Read `read_motion_file` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Protocol
 
 from solver.formats import cosmos, csmip, geonet, knet, peer, smc, text
 from solver.formats.motionfile import MotionFile
@@ -16,17 +16,13 @@ from solver.formats.source import Source, open_source
 from solver.records.record import Record
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Format:
-    recognizes: Callable[[Sequence[str]], bool]
-    read: Callable[[Source], MotionFile]
+class _Format(Protocol):
+    def recognizes(self, lines: Sequence[str], /) -> bool: ...
+    def read(self, source: Source, /) -> MotionFile: ...
 
 
 # GeoNet precedes CSMIP, whose first line is similar; text is last because it accepts every file.
-_FORMATS = tuple(
-    _Format(recognizes=module.recognizes, read=module.read)
-    for module in (cosmos, geonet, csmip, smc, knet, peer, text)
-)
+_FORMATS: tuple[_Format, ...] = (cosmos, geonet, csmip, smc, knet, peer, text)
 
 
 def read_motion_file(path: str | Path, *, units: str = "", dt_s: float = math.nan) -> MotionFile:
@@ -61,8 +57,7 @@ def read_motion_file(path: str | Path, *, units: str = "", dt_s: float = math.na
     (Record('RM1-x.csv', 6001 samples at 0.005 s),)
     """
     source = open_source(Path(path), units=units, dt_s=dt_s)
-    form = next(form for form in _FORMATS if form.recognizes(source.lines))
-    return form.read(source)
+    return next(form for form in _FORMATS if form.recognizes(source.lines)).read(source)
 
 
 def read_record(

@@ -283,6 +283,21 @@ def _noted(table: dict[str, Provision], notes: Mapping[str, str]) -> dict[str, P
     return {key: replace(row, note=notes.get(key, "")) for key, row in table.items()}
 
 
+_ASCE_7_16 = RuleSet(
+    code="asce7-16",
+    name="ASCE 7-16",
+    title="ASCE/SEI 7-16, Minimum Design Loads and Associated Criteria for Buildings "
+    "and Other Structures, 13.6.12",
+    values=_noted(_table(_ASCE, "ASCE 7-16"), _ASCE_NOTES) | _IBC,
+    importance_in_separation=False,
+    low_sdc_is_flat=False,
+    mu_rises_with_slope=True,
+    low_profile_length=LowProfileLength.SPACING,
+    steeper_if_reviewed=True,
+    statistic_is_stated=False,
+    edition="ASCE 7-16",
+)
+
 RULE_SETS: Mapping[str, RuleSet] = {
     rules.name: rules
     for rules in (
@@ -300,32 +315,13 @@ RULE_SETS: Mapping[str, RuleSet] = {
             statistic_is_stated=True,
             edition="ASCE 7-16",
         ),
-        RuleSet(
-            code="asce7-16",
-            name="ASCE 7-16",
-            title="ASCE/SEI 7-16, Minimum Design Loads and Associated Criteria for Buildings "
-            "and Other Structures, 13.6.12",
-            values=_noted(_table(_ASCE, "ASCE 7-16"), _ASCE_NOTES) | _IBC,
-            importance_in_separation=False,
-            low_sdc_is_flat=False,
-            mu_rises_with_slope=True,
-            low_profile_length=LowProfileLength.SPACING,
-            steeper_if_reviewed=True,
-            statistic_is_stated=False,
-            edition="ASCE 7-16",
-        ),
-        RuleSet(
+        _ASCE_7_16,
+        replace(
+            _ASCE_7_16,
             code="asce7-22",
             name="ASCE 7-22",
-            title="ASCE/SEI 7-22, Minimum Design Loads and Associated Criteria for Buildings "
-            "and Other Structures, 13.6.12",
+            title=_ASCE_7_16.title.replace("7-16", "7-22"),
             values=_noted(_unverified(_table(_ASCE, "ASCE 7-22")), _ASCE_NOTES) | _IBC,
-            importance_in_separation=False,
-            low_sdc_is_flat=False,
-            mu_rises_with_slope=True,
-            low_profile_length=LowProfileLength.SPACING,
-            steeper_if_reviewed=True,
-            statistic_is_stated=False,
             edition="ASCE 7-22",
         ),
     )

@@ -17,7 +17,7 @@ from numba import get_num_threads
 from numpy.typing import NDArray
 
 from solver.model import Floats
-from solver.studies.campaign import Cases
+from solver.studies.campaign import grid
 from solver.studies.runs import STATUSES, Track, demand_at, empty_rows
 
 Flags = NDArray[np.bool_]
@@ -82,13 +82,7 @@ class Curve:
 
     def prd_m(self, intensity: Floats) -> Floats:
         """Return the PRD at intensities, shape (m,) [m]; NaN without a final value."""
-        every = np.ones_like(intensity)
-        cases = Cases(
-            building=np.zeros(every.size, dtype=np.int64),
-            slope_rad=self.slope_rad * every,
-            mu=self.mu * every,
-            intensity=intensity,
-        )
+        cases = grid(1, [self.slope_rad], [self.mu], intensity)
         rows = empty_rows((len(cases), len(self.tracks)))
         for column, track in enumerate(self.tracks):
             track.fill(cases, np.arange(len(cases)), rows, column)

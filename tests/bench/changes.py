@@ -29,7 +29,7 @@ def rule_set(top: Path) -> None:
     """Add an edition of ASCE 7 with the numbers of the last one."""
     path = top / "solver" / "rules" / "rulesets.py"
     text = path.read_text(encoding="utf-8")
-    begin = text.rindex("        RuleSet(")
+    begin = text.rindex("        replace(\n")
     end = text.index("\n        ),\n", begin) + len("\n        ),\n")
     last = text[begin:end]
     added = last.replace("asce7-22", "asce7-28").replace("7-22", "7-28")
@@ -68,7 +68,7 @@ def record_format(top: Path) -> None:
     (top / "solver" / "formats" / "acc.py").write_text(FORMAT, encoding="utf-8")
     reader = top / "solver" / "formats" / "reader.py"
     replaced(reader, "solver.formats import cosmos,", "solver.formats import acc, cosmos,")
-    replaced(reader, "for module in (cosmos,", "for module in (acc, cosmos,")
+    replaced(reader, " = (cosmos,", " = (acc, cosmos,")
 
 
 PAGE = """<section>
