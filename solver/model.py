@@ -426,10 +426,15 @@ class Motion:
         object.__setattr__(self, "_reversed", backward)
 
     def __repr__(self) -> str:
-        there = {"x": True, "y": self.has_transverse, "z": self.has_vertical}
-        names = " and ".join(name for name, is_there in there.items() if is_there)
         samples = f"{len(self.ax_mps2)} samples of {self.dt_s:g} s"
+        names = " and ".join(self.components)
         return f"Motion: {self.id}, {names}, {samples}, scale {self.scale:g}"
+
+    @property
+    def components(self) -> dict[str, Floats]:
+        """The components that there are by the names x, y and z, unscaled [m/s2]."""
+        arrays = {"x": self.ax_mps2, "y": self.ay_mps2, "z": self.az_mps2}
+        return {name: a for name, a in arrays.items() if len(a)}
 
     @property
     def has_vertical(self) -> bool:

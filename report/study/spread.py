@@ -10,7 +10,7 @@ import numpy as np
 
 from solver.model import Floats, Motion
 from solver.records.spectrum import response_spectrum
-from solver.records.spectrum_acceptance import LEAST_RATIO, POINTS_HZ, components_of
+from solver.records.spectrum_acceptance import LEAST_RATIO, POINTS_HZ
 
 FREQ_HZ = POINTS_HZ[:: len(POINTS_HZ) // 13]
 """About 14 of the frequencies at which spectra are compared with a target [Hz]."""
@@ -61,7 +61,7 @@ def _deviations(motions: Sequence[Motion]) -> Floats:
         [
             [motion.scale * response_spectrum(a, motion.dt_s, 1.0 / FREQ_HZ) for a in parts]
             for motion in motions
-            for parts in [components_of(motion).values()]
+            for parts in [motion.components.values()]
         ]
     )
     with np.errstate(divide="ignore", invalid="ignore"):

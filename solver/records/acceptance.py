@@ -17,7 +17,6 @@ from solver.records.record import Record
 from solver.records.spectrum_acceptance import (
     COMPONENTS,
     SpectrumAt,
-    components_of,
     spectrum_ratios,
     spectrum_rows,
 )
@@ -119,7 +118,7 @@ def motion_strength(motion: Motion, hold_s: float) -> MotionStrength:
     """Measure the strong motion and the correlations of a motion as run."""
     records = {
         name: Record(name=name, dt_s=motion.dt_s, a_mps2=motion.scale * a)
-        for name, a in components_of(motion).items()
+        for name, a in motion.components.items()
     }
     return MotionStrength(
         id=motion.id,

@@ -107,8 +107,7 @@ def spectrum(
 def _components(shaking: Record | Motion) -> dict[str, Floats]:
     if isinstance(shaking, Record):
         return {shaking.name: shaking.a_mps2}
-    each = {"x": shaking.ax_mps2, "y": shaking.ay_mps2, "z": shaking.az_mps2}
-    return {name: shaking.scale * a for name, a in each.items() if a.size}
+    return {name: shaking.scale * a for name, a in shaking.components.items()}
 
 
 def response_spectrum(

@@ -6,7 +6,7 @@ Read `spectrum_ratios`, then `spectrum_rows`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -96,12 +96,6 @@ class SpectrumRatio:
         return f"{self.motion} {self.component}, {freq_hz:.3g} Hz"
 
 
-def components_of(motion: Motion) -> Mapping[str, Floats]:
-    """Return the components that a motion has, by name, unscaled [m/s2]."""
-    arrays = (motion.ax_mps2, motion.ay_mps2, motion.az_mps2)
-    return {name: a for name, a in zip(COMPONENTS, arrays, strict=True) if len(a)}
-
-
 def spectrum_ratios(
     motions: Sequence[Motion], horizontal: SpectrumAt, vertical: SpectrumAt
 ) -> tuple[SpectrumRatio, ...]:
@@ -117,7 +111,7 @@ def spectrum_ratios(
             / goals[name],
         )
         for motion in motions
-        for name, a in components_of(motion).items()
+        for name, a in motion.components.items()
     )
 
 
