@@ -25,7 +25,8 @@ from report.sheet.schema import (
 )
 from report.words.units import G_MPS2
 from solver.building.periods import approximate_period_s
-from solver.building.roof import Building, RoofMotion, building_of_periods, shaking_to_roof
+from solver.building.roof import RoofMotion, shaking_to_roof
+from solver.building.structure import Building, building_of_periods
 from solver.model import Motion
 from solver.records.measures import Measures, measures
 from solver.records.record import Record, read_only

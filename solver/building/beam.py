@@ -73,7 +73,7 @@ def beam_modes(alpha0: float, count: int, heights: ArrayLike = (1.0,)) -> Modes:
     ------
     InputError
     """
-    check_alpha0(alpha0)
+    _check_alpha0(alpha0)
     x = np.asarray(heights, dtype=np.float64)
     if math.isinf(alpha0):
         gamma = (np.arange(count) + 0.5) * math.pi
@@ -109,9 +109,11 @@ def story_modes(alpha0: float, stories: int) -> Modes:
     ------
     InputError
     """
-    check_alpha0(alpha0)
+    _check_alpha0(alpha0)
     if not 1 <= stories <= MOST_STORIES:
-        raise InputError(f"stories: found {stories}; give a whole number from 1 to {MOST_STORIES}")
+        raise InputError(
+            f"stories: found {stories}; give a whole number from 1 to {MOST_STORIES}, 0 for a beam"
+        )
     squares, shapes = np.linalg.eigh(floor_stiffness(alpha0, stories))
     factors = shapes.sum(axis=0) * shapes[-1]
     return Modes(period_ratios=np.sqrt(squares[0] / squares), factors=factors[:, None])
@@ -133,13 +135,7 @@ def floor_stiffness(alpha0: float, stories: int) -> Floats:
     return np.asarray(bending + alpha0**2 * shear)
 
 
-def check_alpha0(alpha0: float) -> None:
-    """Raise if the lateral stiffness ratio is out of range.
-
-    Raises
-    ------
-    InputError
-    """
+def _check_alpha0(alpha0: float) -> None:
     if not (0.0 <= alpha0 <= MOST_ALPHA0 or alpha0 == math.inf):
         raise InputError(
             f"lateral stiffness ratio: found {alpha0}; give 0 to {MOST_ALPHA0:g}, or infinity"

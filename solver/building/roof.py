@@ -14,25 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.building.structure import Building, building_of_modes, building_of_periods
+from solver.building.structure import Building
 from solver.kernels import oscillator
 from solver.model import Floats, InputError, Motion
 from solver.records.record import read_only
 from solver.records.spectrum import refined
-
-__all__ = [
-    "Building",
-    "RoofMotion",
-    "RoofShaking",
-    "absolute_accelerations",
-    "at_roof",
-    "building_of_modes",
-    "building_of_periods",
-    "lengthened",
-    "roof_motion",
-    "shaking_to_roof",
-    "to_roof",
-]
 
 SHARE = 0.05
 """All neglected modes together may change the roof acceleration by this fraction of its peak."""

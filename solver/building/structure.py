@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from solver.building.beam import MOST_STORIES, Modes, beam_modes, check_alpha0, story_modes
+from solver.building.beam import beam_modes, story_modes
 from solver.model import Floats, InputError
+from solver.records.record import read_only
 
 BEAM_MODES = 40
 """Number of modes of a continuous beam; the roof factors of higher modes are below 0.04."""
@@ -87,7 +87,7 @@ def building_of_periods(
     Building: 4 equal stories, in shear; period 0.5, 0.16 s; damping 3, 5 % of critical
     """
     _check_periods(periods_s, damping)
-    modes = _modes(alpha0, stories)
+    modes = story_modes(alpha0, stories) if stories else beam_modes(alpha0, BEAM_MODES)
     ratios = modes.period_ratios
     given = np.array(periods_s[: ratios.size], dtype=np.float64)
     periods = np.append(given, given[-1] * ratios[given.size :] / ratios[given.size - 1])
@@ -95,9 +95,9 @@ def building_of_periods(
     first = np.array(damping[: periods.size], dtype=np.float64)
     zeta[: first.size] = first
     return Building(
-        periods_s=_read_only(periods),
-        damping=_read_only(zeta),
-        roof_factors=_read_only(modes.factors[:, 0]),
+        periods_s=read_only(periods),
+        damping=read_only(zeta),
+        roof_factors=read_only(modes.factors[:, 0]),
         words=_words(given, damping, alpha0, stories),
     )
 
@@ -122,22 +122,11 @@ def building_of_modes(
         raise InputError("modes: give a period, a damping and a roof factor for each")
     total = sum(roof_factors)
     return Building(
-        periods_s=_read_only(periods_s),
-        damping=_read_only(damping),
-        roof_factors=_read_only(roof_factors),
+        periods_s=read_only(np.array(periods_s)),
+        damping=read_only(np.array(damping)),
+        roof_factors=read_only(np.array(roof_factors)),
         words=f"{len(periods_s)} modes as given, sum of roof factors {total:.3f}",
     )
-
-
-def _modes(alpha0: float, stories: int) -> Modes:
-    check_alpha0(alpha0)
-    if stories == 0:
-        return beam_modes(alpha0, BEAM_MODES)
-    if not 1 <= stories <= MOST_STORIES:
-        raise InputError(
-            f"stories: found {stories}; give a whole number from 1 to {MOST_STORIES}, 0 for a beam"
-        )
-    return story_modes(alpha0, stories)
 
 
 def _words(given: Floats, damping: Sequence[float], alpha0: float, stories: int) -> str:
@@ -153,12 +142,6 @@ def _words(given: Floats, damping: Sequence[float], alpha0: float, stories: int)
         if 0.0 < alpha0 < math.inf:
             kind += f", in shear and bending with a lateral stiffness ratio of {alpha0:.3g}"
     return f"{kind}; period {periods} s; damping {ratios} % of critical"
-
-
-def _read_only(values: ArrayLike) -> Floats:
-    array = np.array(values, dtype=np.float64)
-    array.setflags(write=False)
-    return array
 
 
 def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None:

@@ -14,7 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from solver.building.periods import FOOT_M, approximate_period_s
-from solver.building.roof import RoofMotion, building_of_modes, to_roof
+from solver.building.roof import RoofMotion, to_roof
+from solver.building.structure import building_of_modes
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 from solver.records.spectrum import response_spectrum

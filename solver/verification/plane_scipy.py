@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from solver.forces import forces
 from solver.model import Floats, Scene
 
 Solver = Literal["RK45", "DOP853", "Radau"]
@@ -42,12 +43,9 @@ def is_installed() -> bool:
 
 def samples_of(scene: Scene) -> Floats:
     """Return downslope G, cross-slope G and mu N at the samples, shape (n, 3) [m/s2]."""
-    sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
-    ax = scene.scale * scene.ax_mps2
-    ay = scene.scale * scene.ay_mps2 if scene.ay_mps2.size else 0.0 * ax
-    weight = scene.g_mps2 + (scene.scale * scene.az_mps2 if scene.az_mps2.size else 0.0 * ax)
-    cap = scene.friction.mu_slow * (cs * weight + sn * ax)
-    return np.column_stack([sn * weight - cs * ax, -ay, cap])
+    on = forces(scene)
+    cap = scene.friction.mu_slow * on.normal_mps2
+    return np.column_stack([on.down_mps2, on.across_mps2, cap])
 
 
 class _Interval:

@@ -17,7 +17,8 @@ from report.manual.building import building
 from report.manual.summary import summary
 from report.typeset.pdf import TEMPLATES
 from solver.building.beam import beam_modes
-from solver.building.roof import absolute_accelerations, building_of_periods, roof_motion
+from solver.building.roof import absolute_accelerations, roof_motion
+from solver.building.structure import building_of_periods
 from solver.model import InputError
 from solver.records.record import Record, write_record
 from solver.records.spectrum import response_spectrum

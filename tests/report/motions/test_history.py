@@ -10,7 +10,8 @@ import stand_in
 from report.motions.components import Components, processing_of
 from report.motions.history import first_period_s, shake
 from report.sheet.schema import MotionInput
-from solver.building.roof import building_of_periods, shaking_to_roof
+from solver.building.roof import shaking_to_roof
+from solver.building.structure import building_of_periods
 from solver.records.measures import measures
 from solver.records.processing import Processing, process
 from solver.records.record import Record

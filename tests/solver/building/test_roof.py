@@ -17,14 +17,12 @@ from solver.building.roof import (
     MOST_STEPS,
     RESTING_SHARE,
     absolute_accelerations,
-    building_of_modes,
-    building_of_periods,
     lengthened,
     roof_motion,
     shaking_to_roof,
     to_roof,
 )
-from solver.building.structure import BEAM_MODES
+from solver.building.structure import BEAM_MODES, building_of_modes, building_of_periods
 from solver.model import InputError
 
 pytestmark = pytest.mark.skipif(
