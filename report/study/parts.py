@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numba import get_num_threads
+from numba import config
 
 from report.study.extra import ARROW, extra
 from report.study.manifest import NAME, machine
@@ -301,7 +301,7 @@ def run_missing(
         return done
 
     # One more than there are cores: a part that waits for the disk leaves no core idle.
-    with ThreadPoolExecutor(get_num_threads() + 1) as pool:
+    with ThreadPoolExecutor(config.NUMBA_NUM_THREADS + 1) as pool:
         running = {pool.submit(work, number) for number in costliest_first(campaign, missing)}
         try:
             while running:

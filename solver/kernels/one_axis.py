@@ -18,12 +18,9 @@ Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
 import math
 
 import numpy as np
-from numba import config, njit, prange
+from numba import njit
 
 from solver.kernels.compiler import KEPT
-
-# GNU OpenMP, numba's default, takes 8 ms to start a sweep; workqueue takes 0.2 ms.
-config.THREADING_LAYER = "workqueue"
 
 # Kinds of event in the `events` array.
 DOWN = 1.0
@@ -378,22 +375,9 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
             history[0, i:] = events[k + 1, 2]
 
 
-@njit(cache=KEPT, forceinline=True)
-def _run_scene(ax, az, x, z, dt, g, scene, out):
-    """Fill `out` with the outcome of one scene of a sweep."""
-    sn, cs = math.sin(scene[0]), math.cos(scene[0])
-    least, _ = minimum_normal(ax, az, x, z, dt, sn, cs, g, scene[2])
-    out[:] = np.nan
-    if least >= 0.0:
-        s_max, s_min, s, w, _, _, _, _ = slide_exact(
-            ax, az, x, z, dt, sn, cs, scene[1], g, scene[2], None
-        )
-        out[0], out[1], out[2], out[3] = s_max, s_min, s, w
-
-
-@njit(cache=KEPT, parallel=True)
+@njit(cache=KEPT, nogil=True)
 def sweep_exact(ax, az, x, z, dt, g, scenes, out):
-    """Run many scenes under one record, in parallel.
+    """Run many scenes under one record on one core; other threads go on.
 
     Parameters
     ----------
@@ -402,12 +386,11 @@ def sweep_exact(ax, az, x, z, dt, g, scenes, out):
     out : array, shape (m, 4)
         Filled with the largest s, the least s, s and s' at the end; NaN if N falls below zero.
     """
-    for k in prange(scenes.shape[0]):
-        _run_scene(ax, az, x, z, dt, g, scenes[k], out[k])
-
-
-@njit(cache=KEPT, nogil=True)
-def sweep_alone(ax, az, x, z, dt, g, scenes, out):
-    """Run many scenes under one record on one core, as `sweep_exact`; other threads go on."""
     for k in range(scenes.shape[0]):
-        _run_scene(ax, az, x, z, dt, g, scenes[k], out[k])
+        slope, mu, scale = scenes[k]
+        sn, cs = math.sin(slope), math.cos(slope)
+        least, _ = minimum_normal(ax, az, x, z, dt, sn, cs, g, scale)
+        out[k] = np.nan
+        if least >= 0.0:
+            found = slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, None)
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = found[:4]

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import get_num_threads
+from numba import config
 from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels import one_axis
@@ -201,12 +202,18 @@ def _run(
     grid = np.meshgrid(slopes, mus, factor * scales, indexing="ij")
     scenes = np.stack([values.ravel() for values in grid], axis=-1)
     outcomes = np.empty((len(scenes), 4))
-    for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
-        dealt = _deal(part, get_num_threads())
-        out = np.empty((dealt.size, 4))
-        one_axis.sweep_exact(ax, up, x, z, dt, g, scenes[dealt], out)
-        outcomes[dealt] = out
-        progress((k + 1) / slopes.size)
+    threads = config.NUMBA_NUM_THREADS
+
+    def run(chosen: NDArray[np.intp]) -> None:
+        out = np.empty((chosen.size, 4))
+        one_axis.sweep_exact(ax, up, x, z, dt, g, scenes[chosen], out)
+        outcomes[chosen] = out
+
+    with ThreadPoolExecutor(threads) as pool:
+        for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
+            # Dealt out, so that the threads take about equal time.
+            list(pool.map(run, (part[at::threads] for at in range(threads))))
+            progress((k + 1) / slopes.size)
     s = outcomes.reshape(slopes.size, mus.size, scales.size, 4)
     # The same product as in a single run, so that both results agree to the last bit.
     cs = np.array([math.cos(slope) for slope in slopes])[:, None, None]
@@ -236,8 +243,3 @@ def order_alike(scenes: Floats) -> NDArray[np.intp]:
     slope, mu, scale = scenes.T
     yields_at = np.arctan2(np.tan(np.arctan(mu) - np.abs(slope)), np.abs(scale))
     return np.lexsort((yields_at, np.sign(slope * scale)))
-
-
-def _deal(order: NDArray[np.intp], threads: int) -> NDArray[np.intp]:
-    """Deal scenes out so that equal numbers of them per thread take about equal time."""
-    return np.concatenate([order[k::threads] for k in range(threads)])

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numba import get_num_threads
+from numba import config
 from numpy.typing import NDArray
 
 from solver.model import Floats
@@ -148,7 +148,7 @@ def capacities(
     one = partial(
         _of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring, steps=steps
     )
-    with ThreadPoolExecutor(get_num_threads()) as pool:
+    with ThreadPoolExecutor(config.NUMBA_NUM_THREADS) as pool:
         rows = np.array(list(pool.map(one, curves))).reshape(len(curves), len(limits_m), 5)
     return tuple(
         Capacities(

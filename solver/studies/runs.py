@@ -165,7 +165,7 @@ def _sweep(track: Track, scenes: Floats, az: Floats | None, z: Floats | None) ->
     """Return `LENGTHS` [m] and the speed at the end [m/s], shape (6, m)."""
     order, out = order_alike(scenes), np.empty((len(scenes), 4))
     one = track.scene
-    kernel.sweep_alone(one.ax_mps2, az, track.x, z, one.dt_s, one.g_mps2, scenes[order], out)
+    kernel.sweep_exact(one.ax_mps2, az, track.x, z, one.dt_s, one.g_mps2, scenes[order], out)
     s_max, s_min, s_end, w_end = np.empty((4, len(scenes)))
     for values, found in zip((s_max, s_min, s_end, w_end), out.T, strict=True):
         values[order] = found

@@ -14,7 +14,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import get_num_threads
+from numba import config
 from numpy.typing import ArrayLike, NDArray
 
 from solver.model import Floats, InputError, Motion, Status
@@ -220,7 +220,7 @@ def study(
     if problems:
         raise InputError(problems)
     campaign = _campaign(motions, *axes)
-    with ThreadPoolExecutor(get_num_threads()) as pool:
+    with ThreadPoolExecutor(config.NUMBA_NUM_THREADS) as pool:
         parts = list(pool.map(partial(run_part, Runner(campaign)), campaign.parts))
     shape = (*(values.size for values in axes), len(campaign.columns))
     names = ((motions[number].id, each.name) for number, each in campaign.columns)

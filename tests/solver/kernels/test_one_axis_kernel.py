@@ -28,9 +28,9 @@ LONG = [
 
 def run_all(compiled):
     """Return the outcome of every scene by every kernel, compiled or as plain Python."""
-    names = "slide_exact", "fill_history", "minimum_normal", "bounds", "sweep_exact", "sweep_alone"
+    names = "slide_exact", "fill_history", "minimum_normal", "bounds", "sweep_exact"
     kernels = [getattr(one_axis, name) for name in names]
-    exact, fill, normal, bounds, sweep, alone, peaks, oscillations = (
+    exact, fill, normal, bounds, sweep, peaks, oscillations = (
         f if compiled else getattr(f, "py_func", f)
         for f in (*kernels, oscillator.peaks, oscillator.histories)
     )
@@ -50,8 +50,6 @@ def run_all(compiled):
         out, scene = np.empty((1, 4)), np.array([[math.asin(sn), mu, scale]])
         sweep(ax, az, x, z, 0.25, G, scene, out)
         numbers += out.ravel().tolist()
-        alone(ax, az, x, z, 0.25, G, scene, out)
-        assert numbers[-4:] == pytest.approx(out.ravel().tolist(), rel=0.0, nan_ok=True)
         for omega in (1e-6, 1e-2, 1.0, 50.0):
             peak, at = np.empty(1), np.empty(1, dtype=np.int64)
             peaks(ax, 0.25, np.array([omega]), 0.05, peak, at)

@@ -1,6 +1,7 @@
 """Sweeps give what single runs give, to the last bit."""
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 
 import numba
@@ -40,16 +41,19 @@ def test_uplift_is_a_hole_with_its_status():
     assert np.isfinite(swept.prd_m[1, 0, 0])
 
 
-def test_the_number_of_threads_changes_nothing(noise):
-    before = numba.get_num_threads()
+def test_the_number_of_threads_changes_nothing(noise, monkeypatch):
     prds_m = []
-    try:
-        for threads in (1, before):
-            numba.set_num_threads(threads)
-            prds_m.append(sweep(noise, 0.01, **ALL).prd_m)
-    finally:
-        numba.set_num_threads(before)
+    for threads in (1, 3):
+        monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", threads)
+        prds_m.append(sweep(noise, 0.01, **ALL).prd_m)
     np.testing.assert_array_equal(*prds_m)
+
+
+def test_sweeps_run_beside_each_other(noise):
+    with ThreadPoolExecutor(3) as pool:
+        found = list(pool.map(lambda _: sweep(noise, 0.01, **ALL).prd_m, range(6)))
+    for other in found[1:]:
+        np.testing.assert_array_equal(other, found[0])
 
 
 def test_progress_runs_up_to_one(noise):
@@ -82,7 +86,7 @@ def test_on_one_core_each_scene_has_its_row(noise):
     ax.setflags(write=False)
     scenes = np.array([(0.02, 0.1 * (1 + k), 1.0) for k in range(5)])
     out = np.full((5, 4), math.nan)
-    one_axis.sweep_alone(ax, None, one_axis.bounds(ax), None, 0.01, 9.8, scenes, out)
+    one_axis.sweep_exact(ax, None, one_axis.bounds(ax), None, 0.01, 9.8, scenes, out)
     for (slope, mu, _), row in zip(scenes, out, strict=True):
         result = slide(ax, 0.01, slope_rad=slope, mu=mu, g_mps2=9.8)
         assert math.cos(slope) * row[2] == result.residual_m
