@@ -17,11 +17,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numba import config
 
 from report.study.extra import ARROW, extra
 from report.study.manifest import NAME, machine
 from solver.files import write_whole
+from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError
 from solver.sliding.least_model import Model
 from solver.studies.campaign import Campaign
@@ -301,7 +301,7 @@ def run_missing(
         return done
 
     # One more than there are cores: a part that waits for the disk leaves no core idle.
-    with ThreadPoolExecutor(config.NUMBA_NUM_THREADS + 1) as pool:
+    with ThreadPoolExecutor(THREADS + 1) as pool:
         running = {pool.submit(work, number) for number in costliest_first(campaign, missing)}
         try:
             while running:

@@ -64,3 +64,6 @@ def _is_kept() -> bool:
 
 KEPT = _is_kept()
 """Whether kernels are kept on disk."""
+
+THREADS: int = vars(config)["NUMBA_NUM_THREADS"]
+"""Cores that many runs are distributed over; the environment variable of that name limits them."""

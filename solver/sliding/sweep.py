@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import config
 from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels import one_axis
+from solver.kernels.compiler import THREADS
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Status, coulomb
 from solver.records.frames import dataset
 from solver.records.record import Record
@@ -202,17 +202,16 @@ def _run(
     grid = np.meshgrid(slopes, mus, factor * scales, indexing="ij")
     scenes = np.stack([values.ravel() for values in grid], axis=-1)
     outcomes = np.empty((len(scenes), 4))
-    threads = config.NUMBA_NUM_THREADS
 
     def run(chosen: NDArray[np.intp]) -> None:
         out = np.empty((chosen.size, 4))
         one_axis.sweep_exact(ax, up, x, z, dt, g, scenes[chosen], out)
         outcomes[chosen] = out
 
-    with ThreadPoolExecutor(threads) as pool:
+    with ThreadPoolExecutor(THREADS) as pool:
         for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
             # Dealt out, so that the threads take about equal time.
-            list(pool.map(run, (part[at::threads] for at in range(threads))))
+            list(pool.map(run, (part[at::THREADS] for at in range(THREADS))))
             progress((k + 1) / slopes.size)
     s = outcomes.reshape(slopes.size, mus.size, scales.size, 4)
     # The same product as in a single run, so that both results agree to the last bit.

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numba import config
 from numpy.typing import NDArray
 
-from solver.model import Floats
+from solver.kernels.compiler import THREADS
+from solver.model import Floats, Status
 from solver.studies.campaign import grid
 from solver.studies.runs import STATUSES, Track, demand_at, empty_rows
 
@@ -86,7 +86,7 @@ class Curve:
         rows = empty_rows((len(cases), len(self.tracks)))
         for column, track in enumerate(self.tracks):
             track.fill(cases, np.arange(len(cases)), rows, column)
-        final = rows.status == STATUSES.index(STATUSES[0])
+        final = rows.status == STATUSES.index(Status.OK)
         return np.asarray(np.where(final, rows.lengths[0], np.nan).max(axis=1))
 
     def first_slip(self) -> float:
@@ -148,7 +148,7 @@ def capacities(
     one = partial(
         _of_motion, limits_m=limits_m, levels=levels, is_censoring=is_censoring, steps=steps
     )
-    with ThreadPoolExecutor(config.NUMBA_NUM_THREADS) as pool:
+    with ThreadPoolExecutor(THREADS) as pool:
         rows = np.array(list(pool.map(one, curves))).reshape(len(curves), len(limits_m), 5)
     return tuple(
         Capacities(

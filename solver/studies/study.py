@@ -14,9 +14,9 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import config
 from numpy.typing import ArrayLike, NDArray
 
+from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError, Motion, Status
 from solver.records.frames import dataset
 from solver.sliding.least_model import Model
@@ -220,7 +220,7 @@ def study(
     if problems:
         raise InputError(problems)
     campaign = _campaign(motions, *axes)
-    with ThreadPoolExecutor(config.NUMBA_NUM_THREADS) as pool:
+    with ThreadPoolExecutor(THREADS) as pool:
         parts = list(pool.map(partial(run_part, Runner(campaign)), campaign.parts))
     shape = (*(values.size for values in axes), len(campaign.columns))
     names = ((motions[number].id, each.name) for number, each in campaign.columns)

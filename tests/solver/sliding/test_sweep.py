@@ -4,7 +4,6 @@ import math
 from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 
-import numba
 import numpy as np
 import pytest
 
@@ -44,7 +43,7 @@ def test_uplift_is_a_hole_with_its_status():
 def test_the_number_of_threads_changes_nothing(noise, monkeypatch):
     prds_m = []
     for threads in (1, 3):
-        monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", threads)
+        monkeypatch.setattr("solver.sliding.sweep.THREADS", threads)
         prds_m.append(sweep(noise, 0.01, **ALL).prd_m)
     np.testing.assert_array_equal(*prds_m)
 
