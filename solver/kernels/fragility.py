@@ -97,22 +97,6 @@ def fit_censored(y, is_censored):
 
 
 @njit(cache=KEPT)
-def fit_many(y, is_censored, found):
-    """Fit a normal distribution to each row.
-
-    Parameters
-    ----------
-    y, is_censored : array, shape (r, m)
-    found : array, shape (r, 4)
-        Filled with mean, deviation and their errors; NaN where there is none.
-    """
-    for row in range(y.shape[0]):
-        mean, deviation, of_mean, of_log, _ = fit_censored(y[row], is_censored[row])
-        found[row, 0], found[row, 1] = mean, deviation
-        found[row, 2], found[row, 3] = of_mean, of_log
-
-
-@njit(cache=KEPT)
 def _log_likelihood(y, is_censored, mean, b):
     total = 0.0
     for i in range(y.size):
@@ -149,18 +133,22 @@ def log_likelihood_at(y, is_censored, mean, deviation):
 
 
 @njit(cache=KEPT)
-def deviances(y, is_censored, mean, found):
-    """Fill twice the log of the likelihood ratio of a mean, for each row; NaN where there is none.
+def fit_many(y, is_censored, mean, found):
+    """Fit a normal distribution to each row, and compare its likelihood with that of a mean.
 
     Parameters
     ----------
     y, is_censored : array, shape (r, m)
     mean : float
-    found : array, shape (r,)
+    found : array, shape (r, 5)
+        Filled with mean, deviation, their errors, and the deviance of `mean`: twice the log of the
+        likelihood ratio. NaN where there is none.
     """
     for row in range(y.shape[0]):
-        own, deviation, _, _, status = fit_censored(y[row], is_censored[row])
-        found[row] = np.nan
+        own, deviation, of_mean, of_log, status = fit_censored(y[row], is_censored[row])
+        found[row, 0], found[row, 1] = own, deviation
+        found[row, 2], found[row, 3], found[row, 4] = of_mean, of_log, np.nan
         if status == FITTED:
             best = _log_likelihood(y[row], is_censored[row], own, 1.0 / deviation)
-            found[row] = 2.0 * (best - log_likelihood_at(y[row], is_censored[row], mean, deviation))
+            least = log_likelihood_at(y[row], is_censored[row], mean, deviation)
+            found[row, 4] = 2.0 * (best - least)

@@ -205,11 +205,11 @@ def _drawn_ranges(found: Capacities, fitted: Lognormal, seed: int) -> tuple[Rang
     drawn = mean + fitted.beta * np.random.default_rng(seed).standard_normal((REPEATS, y.size))
     ends = np.log(found.end)
     is_beyond, drawn = drawn > ends, np.minimum(drawn, ends)
-    fits, ratios = np.empty((REPEATS, 4)), np.empty(REPEATS)
-    kernel.fit_many(drawn, is_beyond, fits)
-    kernel.deviances(drawn, is_beyond, mean, ratios)
-    bound = float(np.nanquantile(ratios, CONFIDENCE))
-    pivots = (np.log(fits[:, 1]) - math.log(fitted.beta)) / fits[:, 3]
+    fits = np.empty((REPEATS, 5))
+    kernel.fit_many(drawn, is_beyond, mean, fits)
+    _, deviations, _, of_logs, deviances = fits.T
+    bound = float(np.nanquantile(deviances, CONFIDENCE))
+    pivots = (np.log(deviations) - math.log(fitted.beta)) / of_logs
     low, high = np.nanquantile(pivots, TAILS)
     *_, of_mean, of_log, _ = kernel.fit_censored(y, found.is_censored)
     theta_range = tuple(
@@ -217,18 +217,18 @@ def _drawn_ranges(found: Capacities, fitted: Lognormal, seed: int) -> tuple[Rang
         for side in (-1.0, 1.0)
     )
     beta_range = fitted.beta * math.exp(-high * of_log), fitted.beta * math.exp(-low * of_log)
-    return (theta_range[0], theta_range[1]), beta_range, int(np.isnan(ratios).sum())
+    return (theta_range[0], theta_range[1]), beta_range, int(np.isnan(deviances).sum())
 
 
 def _where_deviance_is(
     bound: float, y: Floats, is_censored: Flags, mean: float, step: float
 ) -> float:
     """Return the mean, on the side of a step, at which the deviance reaches a bound."""
-    ratio = np.empty(1)
+    fit = np.empty((1, 5))
 
     def exceeds(distance: float) -> bool:
-        kernel.deviances(y[None], is_censored[None], mean + distance, ratio)
-        return bool(ratio[0] > bound)
+        kernel.fit_many(y[None], is_censored[None], mean + distance, fit)
+        return bool(fit[0, 4] > bound)
 
     near, far = 0.0, step
     while not exceeds(far):
