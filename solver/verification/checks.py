@@ -49,10 +49,9 @@ def slip_checks(
         yield Check(id, source, quantity, "m", problem, known, value, tolerance, expected.prd_m)
 
 
-def trapezoid(peak: float, plateau: int, rest: int, ramp: int = 1) -> Floats:
-    """Return a pulse: zero, a ramp, `plateau` intervals at the peak, a ramp, `rest` intervals."""
-    rise = np.linspace(0.0, peak, ramp + 1)
-    return np.concatenate([rise, np.full(plateau, peak), rise[-2::-1], np.zeros(rest)])
+def trapezoid(peak: float, plateau: int, rest: int) -> Floats:
+    """Return a pulse: zero, `plateau` intervals at the peak between ramps, `rest` intervals."""
+    return np.concatenate([[0.0], np.full(plateau + 1, peak), np.zeros(rest + 1)])
 
 
 def closed_forms() -> Iterator[Check]:

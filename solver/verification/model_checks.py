@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from solver.forces import forces
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Scene, Status, coulomb
+from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Motion, Scene, Status, coulomb
 from solver.records.record import read_only
 from solver.sliding import least_model, one_axis, two_axes
 from solver.sliding.least_model import Model, Settings
@@ -23,7 +23,7 @@ from solver.verification.checks import slip_checks
 from solver.verification.evidence import Check
 from solver.verification.random_pairs import bound_ratios
 from solver.verification.study import MODEL_CASES, TIGHT, faded, flat_scene, scenes_of
-from solver.verification.triples import Triple
+from solver.verification.triples import RECORDED, cut, scene_of
 
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""
@@ -32,7 +32,7 @@ REFERENCE_SAMPLES = (61, 101)
 """Samples of the part of a motion that the SciPy reference integrates, quick and full."""
 
 
-def model_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[Check]:
+def model_checks(triples: Sequence[Motion], *, quick: bool) -> Iterator[Check]:
     """Run the checks; the first motion, a generated one, is used where one motion is enough.
 
     Motions whose vertical component lifts the block in one of `MODEL_CASES` are excluded.
@@ -51,45 +51,45 @@ def model_checks(triples: Sequence[Triple], *, quick: bool) -> Iterator[Check]:
     yield from _choices(kept[0])
     yield from _random_pairs(quick=quick)
     if plane_scipy.is_installed():
-        recorded = [triple for triple in kept if triple.is_recorded]
+        recorded = [triple for triple in kept if triple.source == RECORDED]
         for triple in [kept[0], *recorded][: 1 if quick else 3]:
             yield from _against_scipy(triple, REFERENCE_SAMPLES[not quick])
 
 
-def stays(triple: Triple) -> bool:
+def stays(triple: Motion) -> bool:
     """Whether the motion's vertical component lifts the block in none of `MODEL_CASES`."""
     runs = (one_axis.run(scene) for scene in scenes_of([triple], MODEL_CASES))
     return all(run.status is not Status.UPLIFT for run in runs)
 
 
-def _one_axis(triple: Triple) -> Iterator[Check]:
+def _one_axis(triple: Motion) -> Iterator[Check]:
     source = "Exact method, one axis with vertical"
     for case in MODEL_CASES:
-        scene = triple.scene(case, coulomb(case.mu), second=False)
-        name = f"No cross-slope component: {triple.name}, {case}"
+        scene = scene_of(triple, case, coulomb(case.mu), second=False)
+        name = f"No cross-slope component: {triple.id}, {case}"
         exact, plane = one_axis.run(scene), two_axes.run(scene, TIGHT)
         yield from slip_checks("TA-1", source, name, exact, plane, AGREES)
 
 
-def _turned(triple: Triple) -> Iterator[Check]:
+def _turned(triple: Motion) -> Iterator[Check]:
     row = partial(Check, "TA-2", "Flat roof: the displacement rotates with the motion")
     case = MODEL_CASES[0]
-    flat = triple.scene(case, coulomb(case.mu))
+    flat = scene_of(triple, case, coulomb(case.mu))
     plain = two_axes.run(flat, TIGHT)
     for degrees in (30.0, 137.0):
         turned = two_axes.run(_turned_by(flat, degrees), TIGHT)
         back = _turn(np.array([turned.residual_m, turned.residual_across_m]), -degrees)
         off = math.dist(back.tolist(), (plain.residual_m, plain.residual_across_m)) / plain.prd_m
-        name = f"Both components rotated by {degrees:g} degrees: {triple.name}, {case}"
+        name = f"Both components rotated by {degrees:g} degrees: {triple.id}, {case}"
         yield row("PRD", "m", name, plain.prd_m, turned.prd_m, AGREES)
         yield row("Residual, rotated back: difference / PRD", "1", name, 0.0, off, AGREES)
 
 
-def _in_proportion(triple: Triple) -> Check:
+def _in_proportion(triple: Motion) -> Check:
     case = MODEL_CASES[0]
-    scene = triple.scene(case, coulomb(case.mu), second=False)
+    scene = scene_of(triple, case, coulomb(case.mu), second=False)
     exact, line = one_axis.run(scene), two_axes.run(_turned_by(scene, 53.0), TIGHT)
-    name = f"One component rotated by 53 degrees: {triple.name}, {case}"
+    name = f"One component rotated by 53 degrees: {triple.id}, {case}"
     source = "Proportional components cause slip along one line: exact method, one axis"
     return Check("TA-3", source, "PRD", "m", name, exact.prd_m, line.prd_m, AGREES)
 
@@ -163,23 +163,23 @@ def _stop() -> Iterator[Check]:
         yield Check("TA-5", source, quantity, unit, name, known, computed, AGREES)
 
 
-def _friction_by_speed(triple: Triple) -> Iterator[Check]:
+def _friction_by_speed(triple: Motion) -> Iterator[Check]:
     source = "Converges to two axes with one coefficient: within 50 times the difference"
     case = MODEL_CASES[1]
-    plain = two_axes.run(triple.scene(case, coulomb(case.mu)), TIGHT)
+    plain = two_axes.run(scene_of(triple, case, coulomb(case.mu)), TIGHT)
     for drop in (1e-4, 1e-5, 1e-6):
         slow = case.mu * (1.0 - drop)
         law = Friction(mu_slow=slow, mu_fast=case.mu, rate_s_per_m=30.0, mu_static=slow)
-        found = two_axes.run(triple.scene(case, law), TIGHT)
-        name = f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.name}, {case}"
+        found = two_axes.run(scene_of(triple, case, law), TIGHT)
+        name = f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.id}, {case}"
         yield Check("TA-6", source, "PRD", "m", name, plain.prd_m, found.prd_m, 50.0 * drop)
 
 
-def _static_friction(triple: Triple) -> Iterator[Check]:
+def _static_friction(triple: Motion) -> Iterator[Check]:
     """A delay of the onset of slip changes the velocity by its square."""
     case = MODEL_CASES[1]
-    both = triple.scene(case, coulomb(case.mu))
-    alone = triple.scene(case, coulomb(case.mu), second=False)
+    both = scene_of(triple, case, coulomb(case.mu))
+    alone = scene_of(triple, case, coulomb(case.mu), second=False)
     one, two = one_axis.run(alone).prd_m, two_axes.run(both, TIGHT).prd_m
     for excess in (1e-2, 1e-3, 1e-4):
         law = replace(both.friction, mu_static=(1.0 + excess) * case.mu)
@@ -188,38 +188,38 @@ def _static_friction(triple: Triple) -> Iterator[Check]:
             ("TA-8", both, "two axes", two, "two axes with one coefficient"),
         ):
             source = f"Converges to {method}: within 50 times the square of the difference"
-            name = f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.name}, "
+            name = f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.id}, "
             found_m = two_axes.run(replace(scene, friction=law), TIGHT).prd_m
             tolerance = 50.0 * excess**2
             yield Check(id, source, "PRD", "m", f"{name}{case}", kinetic_m, found_m, tolerance)
 
 
-def _one_block(triple: Triple) -> Iterator[Check]:
+def _one_block(triple: Motion) -> Iterator[Check]:
     """Rows that move as one block: one block, and three identical ones with unloaded links."""
     source = "Exact method, one axis with vertical: the links carry no force"
     row = partial(Check, "TA-9", source, "PRD, largest of the blocks", "m")
     case = MODEL_CASES[1]
-    scene = triple.scene(case, coulomb(case.mu), second=False)
+    scene = scene_of(triple, case, coulomb(case.mu), second=False)
     exact = one_axis.run(scene)
     for count in (1, 3):
         blocks = slide_row(scene, BlockRow(mus=(case.mu,) * count, stiffness_per_s2=1e4))
-        name = f"Row of identical blocks, {count} in all: {triple.name}, {case}"
+        name = f"Row of identical blocks, {count} in all: {triple.id}, {case}"
         yield row(name, exact.prd_m, max(blocks.prd_m), AGREES)
 
 
-def _left_out(triple: Triple, *, quick: bool) -> Check:
+def _left_out(triple: Motion, *, quick: bool) -> Check:
     """Count scenes in which the neglected component matters more than the stated estimate."""
     over = count = 0
     for share in (0.3, 0.1, 0.03, 0.01, 0.003):
         for case in MODEL_CASES[:2] if quick else MODEL_CASES:
-            full = triple.scene(case, coulomb(case.mu))
+            full = scene_of(triple, case, coulomb(case.mu))
             scene = faded(full, share)
             choice = least_model.solve(scene)
             change = abs(two_axes.run(scene, TIGHT).prd_m - choice.result.prd_m)
             said = 0.0 if choice.model is Model.TWO_AXES else choice.next_effect_m
             over += not change <= said + choice.result.error_m
             count += 1
-    name = f"Effect of the neglected component: {triple.name}, {count} cases"
+    name = f"Effect of the neglected component: {triple.id}, {count} cases"
     source = "Two axes with vertical, second component times 0.3, 0.1, 0.03, 0.01 and 0.003"
     exceeding = "Cases that exceed the stated effect"
     return Check("TA-10", source, exceeding, "1", name, 0.0, float(over), 0.0)
@@ -234,10 +234,10 @@ def _random_pairs(*, quick: bool) -> Iterator[Check]:
         yield row(f"{ratios.n_pairs} random pairs, {ratios.kind}", 0.0, failed, 0.0)
 
 
-def _choices(triple: Triple) -> Iterator[Check]:
+def _choices(triple: Motion) -> Iterator[Check]:
     source = "Number of the simplest sufficient model (section 12)"
     case = MODEL_CASES[1]
-    full = triple.scene(case, coulomb(case.mu))
+    full = scene_of(triple, case, coulomb(case.mu))
     peak = forces(full).friction_demand
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
     faint = faded(full, 1e-4)
@@ -249,19 +249,19 @@ def _choices(triple: Triple) -> Iterator[Check]:
         ("Three components", full, Model.TWO_AXES),
         ("Velocity-dependent friction", replace(full, friction=law), Model.SPEED_FRICTION),
     ):
-        name = f"{what}: {triple.name}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
+        name = f"{what}: {triple.id}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
         found = float(least_model.solve(scene, Settings()).model)
         yield Check("TA-12", source, "Model chosen", "1", name, float(model), found, 0.0)
 
 
-def _against_scipy(triple: Triple, samples: int) -> Iterator[Check]:
+def _against_scipy(triple: Motion, samples: int) -> Iterator[Check]:
     source = "SciPy DOP853, relative tolerance 10⁻¹², restarted at every sample and event"
     row = partial(Check, "TA-13", source, "Position error / PRD", "1")
-    case, part = MODEL_CASES[1], triple.cut(samples)
-    scene = part.scene(case, coulomb(case.mu))
+    case, part = MODEL_CASES[1], cut(triple, samples)
+    scene = scene_of(part, case, coulomb(case.mu))
     x, y = plane_scipy.reference(scene)
     for tolerance in (1e-4, 1e-6, 1e-8, 1e-10):
         history = two_axes.run_history(scene, tolerance)
         off = float(np.hypot(history.u_m - x, history.across_m - y).max()) / history.result.prd_m
-        name = f"Tolerance of 1 / {1.0 / tolerance:,.0f}: {part.name}, {case}"
+        name = f"Tolerance of 1 / {1.0 / tolerance:,.0f}: {part.id}, {case}"
         yield row(name, 0.0, off, tolerance)

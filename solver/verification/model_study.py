@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from solver.model import Floats, Friction, HorizontalComponent, Orientation, Scene, coulomb
+from solver.model import Floats, Friction, Motion, Scene, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.row import BlockRow, RowResult, slide_row
@@ -45,7 +45,7 @@ from solver.verification.study import (
     plane_prds,
     scenes_of,
 )
-from solver.verification.triples import Triple
+from solver.verification.triples import RECORDED, scene_of
 
 SLOPES_DEG, MUS, PPAS_G = (0.0, 2.0, 5.0), (0.3, 0.4, 0.5, 0.6), (0.5, 1.0, 1.5)
 """All combinations are run; if quick, only the first and last values."""
@@ -62,42 +62,37 @@ STRETCHES_M = {STIFF: 1e-3, SOFT: 1e-2}
 ROW_DAMPING = 0.05
 """Damping ratio of one block on its link."""
 
-ORIENTATIONS = tuple(
-    Orientation(component=component, polarity=polarity)
-    for component in HorizontalComponent
-    for polarity in (1, -1)
-)
-"""Each horizontal component along the slope, in each sign."""
 
-
-def model_evidence(triples: Sequence[Triple], *, quick: bool) -> ModelEvidence:
+def model_evidence(triples: Sequence[Motion], *, quick: bool) -> ModelEvidence:
     """Run all comparisons; accuracy and run times use the first motion."""
     first = triples[0]
-    length = (first.x_mps2.size - 1) * first.dt_s
+    length = (first.ax_mps2.size - 1) * first.dt_s
     return ModelEvidence(
         study=study(triples, quick=quick),
         static=static(triples, quick=quick),
         bounds=bound_ratios(quick=quick),
         work=plane_work.work(first, quick=quick),
         stops=plane_work.stops(),
-        times_motion=f"{first.name}, {length:.0f} s in steps of {first.dt_s:g} s",
+        times_motion=f"{first.id}, {length:.0f} s in steps of {first.dt_s:g} s",
         times=times(first),
     )
 
 
-def study(triples: Sequence[Triple], *, quick: bool) -> ModelStudy:
+def study(triples: Sequence[Motion], *, quick: bool) -> ModelStudy:
     """Run every scene of every motion with every orientation by every model."""
     slopes, mus, ppas = _axes(quick)
     row_ppa_g = ppas[len(ppas) // 2]
-    turned = [triple.turned(orientation) for triple in triples for orientation in ORIENTATIONS]
-    scenes = scenes_of(turned, grid(slopes, mus, ppas))
+    headings = triples[0].orientations
+    scenes = scenes_of(triples, grid(slopes, mus, ppas), headings)
     results = [two_axes.run(scene) for scene in scenes]
     answered = [result for result in results if not math.isnan(result.prd_m)]
     errors = (result.error_m / result.prd_m if result.prd_m else 0.0 for result in answered)
-    changes = _changes(scenes, np.array([result.prd_m for result in results]), len(triples))
+    changes = _changes(
+        scenes, np.array([result.prd_m for result in results]), (len(triples), len(headings))
+    )
     return ModelStudy(
-        motions=tuple(triple.name for triple in triples),
-        n_recorded=sum(triple.is_recorded for triple in triples),
+        motions=tuple(triple.id for triple in triples),
+        n_recorded=sum(triple.source == RECORDED for triple in triples),
         slopes_deg=tuple(slopes),
         mus=tuple(mus),
         ppas_g=tuple(ppas),
@@ -115,12 +110,14 @@ def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
     return tuple((values[0], values[-1]) for values in axes) if quick else axes
 
 
-def static(triples: Sequence[Triple], *, quick: bool) -> StaticEvidence:
+def static(triples: Sequence[Motion], *, quick: bool) -> StaticEvidence:
     """Run every scene of every motion in its first orientation, static friction above kinetic."""
     return static_evidence(scenes_of(triples, grid(*_axes(quick))), 1.0 / SLOW_SHARE)
 
 
-def _changes(scenes: Sequence[Scene], plane_m: Floats, n_triples: int) -> Iterator[ModelChange]:
+def _changes(
+    scenes: Sequence[Scene], plane_m: Floats, headings: tuple[int, int]
+) -> Iterator[ModelChange]:
     """Compare the models; the simpler ones use the low-velocity friction, as `least_model` does.
 
     `higher_m` uses at every velocity the coefficient that others have at high velocity or at rest.
@@ -133,7 +130,7 @@ def _changes(scenes: Sequence[Scene], plane_m: Floats, n_triples: int) -> Iterat
     higher_m = plane_prds(scenes, lambda mu: coulomb(mu / SLOW_SHARE))
     yield _change(VERTICAL, alone_m, vertical_m)
     yield _change(SECOND, vertical_m, plane_m)
-    yield _change(WORST, *(_worst_heading(prd_m, n_triples) for prd_m in (vertical_m, plane_m)))
+    yield _change(WORST, *(_worst_heading(prd_m, headings) for prd_m in (vertical_m, plane_m)))
     yield _change(OVER_SLOW, plane_m, by_speed_m)
     yield _change(OVER_FAST, higher_m, by_speed_m)
     yield _change(HELD_ONE, vertical_m, held_alone_m)
@@ -145,9 +142,9 @@ def _axis_prds(scenes: Sequence[Scene]) -> Floats:
     return np.array([one_axis.run(scene).prd_m for scene in scenes])
 
 
-def _worst_heading(prd_m: Floats, n_triples: int) -> Floats:
+def _worst_heading(prd_m: Floats, headings: tuple[int, int]) -> Floats:
     """Return the largest PRD of the orientations of each motion and case that give one."""
-    by_heading = prd_m.reshape(n_triples, len(ORIENTATIONS), -1)
+    by_heading = prd_m.reshape(*headings, -1)
     return np.asarray(np.fmax.reduce(by_heading, axis=1).ravel())
 
 
@@ -196,12 +193,12 @@ def by_speed(mu_slow: float) -> Friction:
     )
 
 
-def times(triple: Triple) -> dict[str, float]:
+def times(triple: Motion) -> dict[str, float]:
     """Time every model on the scenes `MODEL_CASES`; the first two share one solver."""
     medians = {}
     for title, run, law, second, vertical in _MODELS:
         scenes = [
-            triple.scene(case, law(case.mu), second=second, vertical=vertical)
+            scene_of(triple, case, law(case.mu), second=second, vertical=vertical)
             for case in MODEL_CASES
         ]
         medians[title] = statistics.median(minimum_seconds(partial(run, scene)) for scene in scenes)

@@ -16,7 +16,7 @@ from functools import partial
 
 import numpy as np
 
-from solver.model import STANDARD_GRAVITY_MPS2, Scene, coulomb
+from solver.model import STANDARD_GRAVITY_MPS2, Motion, Scene, coulomb
 from solver.records.record import Record
 from solver.sliding import checked, one_axis, two_axes
 from solver.verification import model_checks
@@ -24,7 +24,7 @@ from solver.verification.evidence import PeerPoint, percent_off
 from solver.verification.plane_scipy import samples_of
 from solver.verification.scenes import CASES, Case
 from solver.verification.study import MODEL_CASES, clocked, posed
-from solver.verification.triples import Triple
+from solver.verification.triples import cut, scene_of
 
 SUBSTEPS = 10
 MOTIONS = 3
@@ -54,7 +54,7 @@ class Peer:
 def peer_points(
     judges: Mapping[str, Sequence[Peer]],
     records: Sequence[Record],
-    triples: Sequence[Triple],
+    triples: Sequence[Motion],
     *,
     quick: bool,
 ) -> Iterator[PeerPoint]:
@@ -80,11 +80,11 @@ def _record_scenes(records: Sequence[Record], quick: bool) -> Iterator[_Named]:
             yield record.name, case, posed(checked.scene, record, case)()
 
 
-def _motion_scenes(triples: Sequence[Triple], quick: bool, *, second: bool) -> Iterator[_Named]:
+def _motion_scenes(triples: Sequence[Motion], quick: bool, *, second: bool) -> Iterator[_Named]:
     for triple in triples:
-        part = triple.cut(min(round(MOTION_S / triple.dt_s) + 1, triple.x_mps2.size))
+        part = cut(triple, min(round(MOTION_S / triple.dt_s) + 1, triple.ax_mps2.size))
         for case in MODEL_CASES[:1] if quick else MODEL_CASES:
-            yield part.name, case, part.scene(case, coulomb(case.mu), second=second)
+            yield part.id, case, scene_of(part, case, coulomb(case.mu), second=second)
 
 
 def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> PeerPoint:

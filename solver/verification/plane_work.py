@@ -13,13 +13,13 @@ from functools import partial
 import pandas as pd
 
 from solver.kernels import fixed_steps
-from solver.model import Floats, Scene, coulomb
+from solver.model import Floats, Motion, Scene, coulomb
 from solver.sliding import two_axes
 from solver.verification import plane_scipy
 from solver.verification.model_checks import stopped_scene
 from solver.verification.plane_scipy import Integrated, Solver, samples_of
 from solver.verification.study import MODEL_CASES, TIGHT, clocked, minimum_seconds
-from solver.verification.triples import Triple
+from solver.verification.triples import cut, scene_of
 
 OURS = "Power series, event by event"
 HOLDING = "Fixed steps, stick at velocity reversal"
@@ -54,7 +54,7 @@ STOPS_BY_SCIPY: _BySciPy = (
 _Run = tuple[str, str, Callable[[], Integrated]]
 
 
-def work(triple: Triple, *, quick: bool) -> pd.DataFrame:
+def work(triple: Motion, *, quick: bool) -> pd.DataFrame:
     """Run every method with each of its settings on the strongest part of a motion.
 
     Returns
@@ -64,15 +64,15 @@ def work(triple: Triple, *, quick: bool) -> pd.DataFrame:
         of the right-hand side), and position error and velocity at the end. The PRD error of the
         power series is its largest at a sample. A failed run has no time and no errors: NaN.
     """
-    part = triple.cut(SAMPLES[not quick])
-    scene = part.scene(CASE, coulomb(CASE.mu))
+    part = cut(triple, SAMPLES[not quick])
+    scene = scene_of(part, CASE, coulomb(CASE.mu))
     solvers = [(solver, v0, given[:2]) for solver, v0, given in SCIPY[:3]] if quick else SCIPY
     steps = {f"P = {count}": count for count in SUBSTEPS}
     found = _measured(scene, _runs(scene, TOLERANCES, steps, solvers))
     # Their errors of the PRD may be zero by chance.
     largest = [_largest_percent(scene, tolerance) for tolerance in TOLERANCES]
     found.loc[found["method"] == OURS, "PRD error [%]"] = largest
-    return found.assign(case=f"{part.name}, {CASE}")
+    return found.assign(case=f"{part.id}, {CASE}")
 
 
 def stops() -> pd.DataFrame:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 
+from solver.model import Motion
 from solver.records.record import Record
 from solver.verification import (
     building,
@@ -27,7 +28,7 @@ from solver.verification.evidence import Check, Verification
 from solver.verification.scenes import own_records
 from solver.verification.shake_table import SHIPPED, compare
 from solver.verification.table_tests import TableTest
-from solver.verification.triples import Triple, own_triples
+from solver.verification.triples import own_triples
 
 
 def verify(
@@ -35,7 +36,7 @@ def verify(
     quick: bool,
     progress: Callable[[str], None],
     buildings: Sequence[FloorRecords] = (),
-    motions: Sequence[Triple] = (),
+    motions: Sequence[Motion] = (),
     tests: Sequence[TableTest] = (),
 ) -> Verification:
     """Check the solver and measure every method on the project's records and on given ones.
@@ -48,7 +49,7 @@ def verify(
         Called with a line for each stage.
     buildings : sequence of FloorRecords
         Recorded buildings, see `recorded_buildings`; the model building always runs.
-    motions : sequence of Triple
+    motions : sequence of Motion
         Recorded motions of three components, see `recorded_triples`, for the comparison of models;
         the project's motions always run. If quick, only the first is used.
     tests : sequence of TableTest

@@ -19,6 +19,8 @@ from solver.model import (
     STANDARD_GRAVITY_MPS2,
     Floats,
     Friction,
+    Motion,
+    Orientation,
     Scene,
     SlideHistory,
     SlideResult,
@@ -28,7 +30,7 @@ from solver.records.record import Record, read_only
 from solver.rivals.methods import NO_RECORD, AxisScene
 from solver.sliding import checked, one_axis, two_axes
 from solver.verification.scenes import Case, scale_to
-from solver.verification.triples import Triple
+from solver.verification.triples import AS_RECORDED, scene_of
 
 T = TypeVar("T")
 
@@ -50,9 +52,18 @@ def grid(
     return tuple(itertools.starmap(Case, itertools.product(slopes_deg, mus, ppas_g)))
 
 
-def scenes_of(triples: Iterable[Triple], cases: Sequence[Case]) -> list[Scene]:
+def scenes_of(
+    triples: Iterable[Motion],
+    cases: Sequence[Case],
+    orientations: Sequence[Orientation] = (AS_RECORDED,),
+) -> list[Scene]:
     """Return every case of every motion, with all components and one friction coefficient."""
-    return [triple.scene(case, coulomb(case.mu)) for triple in triples for case in cases]
+    return [
+        scene_of(triple, case, coulomb(case.mu), orientation)
+        for triple in triples
+        for orientation in orientations
+        for case in cases
+    ]
 
 
 def flat_scene(ax_mps2: Floats, ay_mps2: Floats, dt_s: float, friction: Friction) -> Scene:

@@ -42,7 +42,7 @@ Motion = tuple[Floats, Floats, Floats, float]
 def motions() -> tuple[Motion, ...]:
     """Return three components, the third at times empty, and the time step of each motion."""
     triples = recorded_triples(RECORDS) if RECORDS else own_triples(quick=SMOKE)
-    found = [(triple.x_mps2, triple.y_mps2, triple.z_mps2, triple.dt_s) for triple in triples]
+    found = [(triple.ax_mps2, triple.ay_mps2, triple.az_mps2, triple.dt_s) for triple in triples]
     return (*found, *(pairs(RECORDS) if RECORDS else ()))
 
 

@@ -25,7 +25,7 @@ from solver.rivals.methods import NO_RECORD
 from solver.sliding.checked import slide
 from solver.sliding.two_axes import follow
 from solver.verification.scenes import Case
-from solver.verification.triples import own_triples, recorded_triples
+from solver.verification.triples import cut, own_triples, recorded_triples, scene_of
 
 # Slope [deg], friction coefficient, PPA [g].
 SCENES = ((0.0, 0.1, 1.0), (4.0, 0.3, 1.5), (-7.0, 0.5, 2.0), (2.0, 0.45, 1.5))
@@ -74,8 +74,8 @@ def two_axes() -> None:
     bounds: dict[float, list[float]] = {tolerance: [] for tolerance in TOLERANCES}
     motions, cases = given[:2], PLANE[: 1 if SMOKE else None]
     for triple, (slope_deg, mu, ppa_g) in itertools.product(motions, cases):
-        part = triple.cut(1 + round(STRONG_S / triple.dt_s))
-        scene = part.scene(Case(slope_deg, mu, ppa_g), coulomb(mu))
+        part = cut(triple, 1 + round(STRONG_S / triple.dt_s))
+        scene = scene_of(part, Case(slope_deg, mu, ppa_g), coulomb(mu))
         weight = (G + scene.scale * scene.az_mps2) * math.cos(scene.slope_rad)
         if np.min(weight + scene.scale * scene.ax_mps2 * math.sin(scene.slope_rad)) < 0.0:
             scene = replace(scene, az_mps2=NO_RECORD)

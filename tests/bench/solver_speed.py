@@ -31,7 +31,7 @@ from solver.sliding.row import slide_row
 from solver.sliding.sweep import order_alike
 from solver.verification.model_study import by_speed, row_of
 from solver.verification.scenes import Case
-from solver.verification.triples import own_triples
+from solver.verification.triples import own_triples, scene_of
 
 SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
 FRICTIONS = [0.1 + 0.05 * k for k in range(15)]
@@ -199,10 +199,10 @@ def models() -> None:
     triple = own_triples(quick=True)[0]
     times = []
     for run, law, second, vertical in MODELS.values():
-        scenes = [triple.scene(c, law(c.mu), second=second, vertical=vertical) for c in CASES]
+        scenes = [scene_of(triple, c, law(c.mu), second=second, vertical=vertical) for c in CASES]
         times.append([partial(run, scene) for scene in scenes[: 2 if SMOKE else None]])
     taken = [statistics.median(seconds(*calls, repeats=REPEATS)) for calls in times]
-    figure("samples of the motion by which models are compared", triple.x_mps2.size)
+    figure("samples of the motion by which models are compared", triple.ax_mps2.size)
     figure("one axis, median of 24 cases", taken[0] * 1e3, "ms")
     for name, one in zip([*MODELS][1:], taken[1:], strict=True):
         figure(f"{name}, relative to one axis", one / taken[0], "times")

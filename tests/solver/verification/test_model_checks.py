@@ -49,6 +49,6 @@ def test_a_solver_that_is_off_by_a_millionth_fails(monkeypatch):
 
 def test_a_motion_whose_vertical_lifts_the_block_is_left_out():
     (triple,) = own_triples(True)
-    lifting = replace(triple, name="lifting", z_mps2=read_only(9.0 * triple.z_mps2))
+    lifting = replace(triple, id="lifting", az_mps2=read_only(9.0 * triple.az_mps2))
     rows = model_checks.model_checks((triple, lifting), quick=True)
     assert not any("lifting" in row.problem for row in rows)

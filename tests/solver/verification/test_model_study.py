@@ -20,7 +20,7 @@ from solver.verification.model_evidence import (
     WORST,
     ModelChange,
 )
-from solver.verification.triples import own_triples
+from solver.verification.triples import own_triples, scale_to
 
 
 @pytest.fixture(scope="module")
@@ -39,9 +39,9 @@ def test_every_run_is_counted(study):
 
 def test_a_ratio_is_that_of_two_slides(study):
     (triple,) = own_triples(True)
-    scene = {"slope_rad": 0.0, "mu": 0.3, "scale": triple.scale_to(1.5)}
-    alone = slide(triple.x_mps2, triple.dt_s, az_mps2=triple.z_mps2, **scene)
-    both = slide(triple.x_mps2, triple.dt_s, ay_mps2=triple.y_mps2, az_mps2=triple.z_mps2, **scene)
+    scene = {"slope_rad": 0.0, "mu": 0.3, "scale": scale_to(triple, 1.5)}
+    alone = slide(triple.ax_mps2, triple.dt_s, az_mps2=triple.az_mps2, **scene)
+    both = slide(triple, **scene)
     assert min(alone.prd_m, both.prd_m) > LEAST_M
     ratio = both.prd_m / alone.prd_m
     assert np.abs(study.named(SECOND).ratios - ratio).min() == pytest.approx(0.0, abs=1e-9)
@@ -71,7 +71,7 @@ def test_a_row_is_compared_with_a_rigid_array_of_its_mean_friction(study):
 
 def test_lifted_runs_are_counted_and_not_compared():
     (triple,) = own_triples(True)
-    lifting = replace(triple, z_mps2=read_only(20.0 * triple.z_mps2))
+    lifting = replace(triple, az_mps2=read_only(20.0 * triple.az_mps2))
     study = model_study.study((lifting,), quick=True)
     assert study.n_uplift == study.n_runs
     assert all(change.ratios.size == 0 and math.isnan(change.median) for change in study.changes)

@@ -12,7 +12,7 @@ from solver.sliding import one_axis
 from solver.verification import plane_scipy
 from solver.verification.model_checks import stopped_scene
 from solver.verification.scenes import Case
-from solver.verification.triples import own_triples
+from solver.verification.triples import cut, own_triples, scene_of
 
 pytestmark = pytest.mark.nightly("solver/kernels/two_axes.py", "solver/verification/")
 
@@ -28,8 +28,8 @@ def assert_followed(scene):
 
 @pytest.mark.parametrize("slope_deg", [0.0, 4.0])
 def test_the_reference_is_the_exact_motion_where_there_is_one_axis(slope_deg):
-    part = own_triples(True)[0].cut(41)
-    scene = part.scene(Case(slope_deg, 0.5, 1.0), coulomb(0.5), second=False)
+    part = cut(own_triples(True)[0], 41)
+    scene = scene_of(part, Case(slope_deg, 0.5, 1.0), coulomb(0.5), second=False)
     assert assert_followed(scene).n_stops > 0
 
 

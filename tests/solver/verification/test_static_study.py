@@ -6,7 +6,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.verification import model_study, static_study
 from solver.verification.study import MODEL_CASES, TIGHT
-from solver.verification.triples import own_triples
+from solver.verification.triples import own_triples, scene_of
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +66,7 @@ def test_the_block_that_is_pushed_back_slides_off_without_more_friction_at_rest(
 
 def test_where_nothing_slides_there_is_nothing_to_compare():
     (triple,) = own_triples(True)
-    still = triple.scene(MODEL_CASES[0], coulomb(9.0))
+    still = scene_of(triple, MODEL_CASES[0], coulomb(9.0))
     none = static_study.static_evidence([still], 1.25)
     assert none.n_scenes == 0
     assert all(changes.empty for changes in none.differences.values())

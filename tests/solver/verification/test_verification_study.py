@@ -8,13 +8,13 @@ import pytest
 from blocks import readonly
 from solver.model import HorizontalComponent, Orientation, coulomb
 from solver.sliding import one_axis
-from solver.sliding.checked import slide
+from solver.sliding.checked import motion, slide
 from solver.verification import study
 from solver.verification.scenes import Case, near_fault_pulse, scale_to, shortened
-from solver.verification.triples import Triple
+from solver.verification.triples import AS_RECORDED
 
 X, Y, Z = map(readonly, ([0, 6, -6, 0], [0, 1, 2, 0], [0, 1, -1, 0]))
-MADE = Triple(name="made", is_recorded=False, dt_s=0.1, x_mps2=X, y_mps2=Y, z_mps2=Z)
+MADE = motion(X, Y, Z, dt_s=0.1, id="made")
 
 
 def test_a_grid_has_every_combination_once_the_ppa_fastest():
@@ -24,8 +24,8 @@ def test_a_grid_has_every_combination_once_the_ppa_fastest():
 
 
 def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case():
-    turned = MADE.turned(Orientation(component=HorizontalComponent.TRANSVERSE, polarity=-1))
-    scenes = study.scenes_of([MADE, turned], study.MODEL_CASES)
+    turned = Orientation(component=HorizontalComponent.TRANSVERSE, polarity=-1)
+    scenes = study.scenes_of([MADE], study.MODEL_CASES, (AS_RECORDED, turned))
     assert [scene.friction.mu_slow for scene in scenes] == [0.3, 0.4, 0.5] * 2
     assert scenes[0].ax_mps2.tolist() == X.tolist()
     assert scenes[3].ax_mps2.tolist() == (-Y).tolist()
