@@ -57,20 +57,11 @@ class Channel:
     notes: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class VolumePart:
-    """Lines of one channel with its heading, from index `first` to before `stop`."""
-
-    first: int
-    stop: int
-
-
-def parts_of(source: Source, heading: re.Pattern[str]) -> list[VolumePart]:
-    """Parts of a file, each of which begins with the first line of a heading."""
+def parts_of(source: Source, heading: re.Pattern[str]) -> list[range]:
+    """Lines of each part of a file, by index; it begins with the first line of a heading."""
     starts = [index for index, line in enumerate(source.lines) if heading.match(line)]
     check_number(source, len(starts))
-    stops = [*starts[1:], len(source.lines)]
-    return [VolumePart(first=first, stop=stop) for first, stop in zip(starts, stops, strict=True)]
+    return list(map(range, starts, [*starts[1:], len(source.lines)]))
 
 
 def motion_file(

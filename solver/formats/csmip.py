@@ -14,11 +14,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from solver.formats.channels import (
     Channel,
-    VolumePart,
     check_length,
     check_only_blank,
     check_steps,
@@ -95,7 +94,7 @@ def read(source: Source) -> MotionFile:
     return motion_file(source, form, channels, recorder_notes(source, len(parts)))
 
 
-def _volume_1(source: Source, part: VolumePart) -> Channel:
+def _volume_1(source: Source, part: range) -> Channel:
     even = _search(source, part, _EVEN_1)
     dt_s, values, notes = _even_values(source, part, *even) if even else _pair_values(source, part)
     at, peak_mps2 = _peak(source, part, _PEAK_1)
@@ -107,17 +106,17 @@ def _volume_1(source: Source, part: VolumePart) -> Channel:
     )
 
 
-def _pair_values(source: Source, part: VolumePart) -> tuple[float, Floats, tuple[str, ...]]:
+def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str, ...]]:
     """Pairs of time and acceleration, ten numbers per line."""
     points = _search(source, part, _POINTS)
     unit = _search(source, part, _PAIR_UNIT)
     if not points or not unit:
         wanted = "NO. OF POINTS" if not points else "UNITS OF UNCOR ACCEL"
         raise InputError(
-            f"{source.at(part.first)}: found no line {wanted} = ...; give the whole file"
+            f"{source.at(part.start)}: found no line {wanted} = ...; give the whole file"
         )
     scale = source.scale(unit[1][1], unit[0])
-    first = part.first + _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1)
+    first = part.start + _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1)
     stop, ended = _stop(source, first, part.stop)
     block = Block(first=first, stop=stop, count=2 * int(points[1][1]), promised=points[0])
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
@@ -131,7 +130,7 @@ def _pair_values(source: Source, part: VolumePart) -> tuple[float, Floats, tuple
 
 
 def _even_values(
-    source: Source, part: VolumePart, at: int, match: re.Match[str]
+    source: Source, part: range, at: int, match: re.Match[str]
 ) -> tuple[float, Floats, tuple[str, ...]]:
     """Evenly spaced values after a line with their count, rate, unit and format."""
     _check_heading(source, part, at, _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1))
@@ -152,11 +151,11 @@ def _even_values(
     return dt_s, values, ended
 
 
-def _volume_2(source: Source, part: VolumePart) -> Channel:
+def _volume_2(source: Source, part: range) -> Channel:
     place = _search(source, part, _EVEN_2)
     if not place:
         raise InputError(
-            f"{source.at(part.first)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
+            f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
             " ...; give the whole file"
         )
     at, line = place
@@ -181,7 +180,7 @@ def _volume_2(source: Source, part: VolumePart) -> Channel:
     )
 
 
-def _step_2(source: Source, part: VolumePart, stated: Stated) -> Stated:
+def _step_2(source: Source, part: range, stated: Stated) -> Stated:
     """Step of the real heading, which has more digits than the line above the values."""
     exact = _reals_2(source, part)[_STEP_2 - 1]
     if math.isnan(exact.value):
@@ -195,9 +194,9 @@ def _step_2(source: Source, part: VolumePart, stated: Stated) -> Stated:
     return exact
 
 
-def _check_heading(source: Source, part: VolumePart, at: int, due: int) -> None:
+def _check_heading(source: Source, part: range, at: int, due: int) -> None:
     """Raise if the heading above the line of values has more or fewer lines than the format."""
-    found = at - part.first
+    found = at - part.start
     if found != due:
         raise InputError(
             f"{source.at(at)}: found {found} lines of heading above this one, where the format has"
@@ -205,27 +204,22 @@ def _check_heading(source: Source, part: VolumePart, at: int, due: int) -> None:
         )
 
 
-def _reals_1(source: Source, part: VolumePart) -> list[Stated]:
-    return header_values(source, part.first + _TEXT_1 + _WHOLE, _REALS_1, _REAL)
+def _reals_1(source: Source, part: range) -> list[Stated]:
+    return header_values(source, part.start + _TEXT_1 + _WHOLE, _REALS_1, _REAL)
 
 
-def _reals_2(source: Source, part: VolumePart) -> list[Stated]:
-    return header_values(source, part.first + _TEXT_2 + _WHOLE, _REALS_2, _REAL)
+def _reals_2(source: Source, part: range) -> list[Stated]:
+    return header_values(source, part.start + _TEXT_2 + _WHOLE, _REALS_2, _REAL)
 
 
 def _search(
-    source: Source, part: VolumePart, pattern: re.Pattern[str]
+    source: Source, part: range, pattern: re.Pattern[str]
 ) -> tuple[int, re.Match[str]] | None:
     """First line of a channel's heading that contains the pattern."""
-    for index in _heading(part):
+    for index in part[: _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2) + 1]:
         if match := pattern.search(source.lines[index]):
             return index, match
     return None
-
-
-def _heading(part: VolumePart) -> Iterator[int]:
-    lines = _TEXT_2 + _WHOLE + _REAL.lines(_REALS_2) + 1
-    return iter(range(part.first, min(part.first + lines, part.stop)))
 
 
 def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
@@ -237,14 +231,14 @@ def _stop(source: Source, first: int, stop: int) -> tuple[int, tuple[str, ...]]:
     return stop, ("no end-of-data line (/&) follows the values: the file may be truncated",)
 
 
-def _peak(source: Source, part: VolumePart, pattern: re.Pattern[str]) -> tuple[int, float]:
+def _peak(source: Source, part: range, pattern: re.Pattern[str]) -> tuple[int, float]:
     place = _search(source, part, pattern)
     if not place:
-        return part.first, 0.0
+        return part.start, 0.0
     index, match = place
     return index, printed(match[1], index).value * unit_size(match[2])
 
 
-def _name(source: Source, part: VolumePart, lines: int) -> str:
-    heading = source.lines[part.first : min(part.first + lines, part.stop)]
+def _name(source: Source, part: range, lines: int) -> str:
+    heading = (source.lines[index] for index in part[:lines])
     return next((line for line in heading if line.strip().upper().startswith("CHAN")), "")

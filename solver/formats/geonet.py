@@ -17,7 +17,6 @@ from collections.abc import Sequence
 
 from solver.formats.channels import (
     Channel,
-    VolumePart,
     check_length,
     check_only_blank,
     check_steps,
@@ -64,7 +63,7 @@ def read(source: Source) -> MotionFile:
     parts = parts_of(source, _FIRST)
     if len(parts) != _COMPONENTS:
         raise InputError(
-            f"{source.at(parts[-1].first)}: found the heading of component {len(parts)}, the last"
+            f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
             f" one, where the format has {_COMPONENTS} components; give the whole file"
         )
     form = "GeoNet V1A" if _is_uncorrected(source) else "GeoNet V2A"
@@ -75,9 +74,9 @@ def _is_uncorrected(source: Source) -> bool:
     return source.line(0).strip().upper().startswith("UN")
 
 
-def _component(source: Source, part: VolumePart) -> Channel:
-    whole = header_values(source, part.first + _TEXT, _WHOLES, _WHOLE)
-    real = header_values(source, part.first + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
+def _component(source: Source, part: range) -> Channel:
+    whole = header_values(source, part.start + _TEXT, _WHOLES, _WHOLE)
+    real = header_values(source, part.start + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
     count = whole[_ACCELERATIONS - 1]
     if not 0.0 <= count.value < 1e8:
         raise InputError(
@@ -95,25 +94,25 @@ def _component(source: Source, part: VolumePart) -> Channel:
         *peak_notes(source, peak.index, peak.value * scale, values),
     )
     return Channel(
-        name=source.line(part.first + _COMPONENT_LINE - 1),
+        name=source.line(part.start + _COMPONENT_LINE - 1),
         dt_s=dt_s,
         a_mps2=values,
         notes=(*notes, *offset_notes(values)) if uncorrected else notes,
     )
 
 
-def _block(part: VolumePart, whole: Sequence[Stated]) -> Block:
+def _block(part: range, whole: Sequence[Stated]) -> Block:
     """Lines of the accelerations: up to the velocities, if there are any."""
-    first, count = part.first + _HEADING, whole[_ACCELERATIONS - 1]
+    first, count = part.start + _HEADING, whole[_ACCELERATIONS - 1]
     end = first + _WHOLE.lines(int(count.value))
     alone = not whole[_VELOCITIES - 1].value > 0.0
     stop = part.stop if alone else min(end, part.stop)
     return Block(first=first, stop=stop, count=int(count.value), promised=count.index)
 
 
-def _step(source: Source, part: VolumePart, exact: Stated) -> Stated:
+def _step(source: Source, part: range, exact: Stated) -> Stated:
     """Step in the real numbers of the heading, compared with the one in the text."""
-    at = part.first + _UNIT_LINE - 1
+    at = part.start + _UNIT_LINE - 1
     line = source.line(at)
     match = _STEP_LINE.search(line) if _INTERVAL.search(line) else None
     if not match:
@@ -125,22 +124,22 @@ def _step(source: Source, part: VolumePart, exact: Stated) -> Stated:
     return exact if exact.rounding <= stated.rounding else stated
 
 
-def _check_length(source: Source, part: VolumePart, reached_s: float, dt_s: float) -> None:
+def _check_length(source: Source, part: range, reached_s: float, dt_s: float) -> None:
     """Compare count times step with the duration in the text."""
-    at = part.first + _LENGTH_LINE - 1
+    at = part.start + _LENGTH_LINE - 1
     if match := _LENGTH.search(source.line(at)):
         check_length(source, printed(match[1], at), reached_s, dt_s)
 
 
-def _scale(source: Source, part: VolumePart) -> float:
+def _scale(source: Source, part: range) -> float:
     """Value [m/s2] of one unit: from `Raw readings in units of 1.00 mm/s/s`, or of the peak."""
-    at = part.first + _UNIT_LINE - 1
+    at = part.start + _UNIT_LINE - 1
     if unit := _UNIT.search(source.line(at)):
         readings = printed(unit[1], at).value
         if not readings > 0.0:
             raise InputError(f"{source.at(at)}: found units of {unit[1]}; give a number above 0")
         return source.scale(unit[2], at) * readings
-    at = part.first + _PEAK_LINE - 1
+    at = part.start + _PEAK_LINE - 1
     unit = _PEAK_UNIT.match(source.line(at).strip())
     if not unit:
         raise InputError(
@@ -149,12 +148,12 @@ def _scale(source: Source, part: VolumePart) -> float:
     return source.scale(unit[1], at)
 
 
-def _rest(source: Source, part: VolumePart, whole: Sequence[Stated]) -> tuple[str, ...]:
+def _rest(source: Source, part: range, whole: Sequence[Stated]) -> tuple[str, ...]:
     """Note that a file is truncated after its accelerations."""
     counts = [whole[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
     counts = [count for count in counts if 0.0 < count < 1e8]
     lines = sum(_WHOLE.lines(int(count)) for count in [whole[_ACCELERATIONS - 1].value, *counts])
-    end = part.first + _HEADING + lines
+    end = part.start + _HEADING + lines
     if end <= part.stop:
         check_only_blank(source, end, part.stop, "the values of a component")
         return ()
