@@ -3,11 +3,7 @@
 Never raises, knows no units but SI; numpy and numba only. Read `solver.rivals.methods` for a
 description of each, and `solver.kernels.one_axis` for the exact method.
 
-Letters, along the slope and per unit mass, positive downslope:
-    ax, az   horizontal (right) and vertical (up) acceleration of the plane          [m/s2]
-    g        acceleration of gravity                                                 [m/s2]
-    sn, cs   sine and cosine of the roof slope theta, positive down to the right
-    mu       friction coefficient, static and kinetic
+Letters, beside those of `one_axis`, along the slope and per unit mass, positive downslope:
     G, N     drive downslope and normal force (Eq. 6 with the vertical added)        [m/s2]
     down, up G - mu N and -G - mu N: net acceleration of a block sliding that way    [m/s2]
     s, w     distance slid and its rate                                              [m], [m/s]

@@ -50,7 +50,7 @@ def run_history(scene: Scene, method: Method = EXACT, /, **parameters: float) ->
     )
 
 
-def rounding(scene: Scene) -> float:
+def rounding(scene: AxisScene) -> float:
     """Return the allowance for rounding error in a displacement by the method `exact` [m].
 
     The drive and friction are computed to 4 units in the last place of their terms. Friction is
@@ -58,10 +58,6 @@ def rounding(scene: Scene) -> float:
     time t, and d t^2 / 2 in displacement. Here t is the whole record, and the result is doubled to
     cover rounding of the sums.
     """
-    return _rounding(prepared(scene))
-
-
-def _rounding(scene: AxisScene) -> float:
     c, up = scene, abs(scene.scale) * float(max(-scene.z[0, -1], scene.z[1, -1], 0.0))
     along = abs(c.scale) * float(max(-c.x[0, -1], c.x[1, -1]))
     terms = (abs(c.sn) + c.mu * c.cs) * (c.g + up) + (c.cs + c.mu * abs(c.sn)) * along
@@ -79,7 +75,7 @@ def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floa
         samples[:] = np.nan
         return without_displacement(Status.DIVERGED, n_min_g, math.nan)
     samples *= scene.cs
-    error_m = _rounding(scene) if method is EXACT else math.nan
+    error_m = rounding(scene) if method is EXACT else math.nan
     return _result(outcome, scene.cs, n_min_g, error_m)
 
 

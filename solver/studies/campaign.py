@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
+from operator import itemgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +30,7 @@ _SAMPLED_MOTIONS = 50
 _SAMPLED_STEP = 8
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Cases:
     """Cases in the order of the rows.
 
@@ -49,12 +50,12 @@ class Cases:
         return self.mu.size
 
     def __getitem__(self, part: slice) -> Cases:
-        return Cases(
-            building=self.building[part],
-            slope_rad=self.slope_rad[part],
-            mu=self.mu[part],
-            intensity=self.intensity[part],
-        )
+        return Cases(*map(itemgetter(part), self.columns))
+
+    @property
+    def columns(self) -> tuple[NDArray[np.int64], Floats, Floats, Floats]:
+        """The arrays in the order of the fields."""
+        return self.building, self.slope_rad, self.mu, self.intensity
 
 
 def grid(
@@ -67,22 +68,12 @@ def grid(
 def cases_of(rows: Sequence[tuple[int, float, float, float]]) -> Cases:
     """Return cases from tuples of building, slope [rad], friction coefficient and intensity."""
     columns = np.array(rows, dtype=float).reshape(-1, 4).T
-    return Cases(
-        building=columns[0].astype(np.int64),
-        slope_rad=columns[1].copy(),
-        mu=columns[2].copy(),
-        intensity=columns[3].copy(),
-    )
+    return Cases(columns[0].astype(np.int64), *(column.copy() for column in columns[1:]))
 
 
 def joined(parts: Sequence[Cases]) -> Cases:
     """Return cases one after the other."""
-    return Cases(
-        building=np.concatenate([part.building for part in parts]),
-        slope_rad=np.concatenate([part.slope_rad for part in parts]),
-        mu=np.concatenate([part.mu for part in parts]),
-        intensity=np.concatenate([part.intensity for part in parts]),
-    )
+    return Cases(*map(np.concatenate, zip(*(part.columns for part in parts), strict=True)))
 
 
 @dataclass(frozen=True, kw_only=True)

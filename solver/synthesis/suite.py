@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -62,8 +63,7 @@ class SuiteMotion:
     @property
     def correlations(self) -> tuple[float, float, float]:
         """Return the correlation coefficients of x with y, x with z and y with z."""
-        pairs = ((self.x, self.y), (self.x, self.z), (self.y, self.z))
-        xy, xz, yz = (correlation(first, other) for first, other in pairs)
+        xy, xz, yz = (correlation(*pair) for pair in combinations(self.components, 2))
         return xy, xz, yz
 
 
@@ -81,8 +81,7 @@ def make_suite(
     """Generate motions of two horizontal components and a vertical component each.
 
     Sinusoids under an envelope, matched in frequency and then in time (Gasparini and Vanmarcke,
-    MIT R76-4, 1976; Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824), as in
-    `solver.synthesis.suite.synthesize`.
+    MIT R76-4, 1976; Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824).
 
     Motion k of a seed is the same for any count. Every component alone satisfies the rows of
     `solver.records.acceptance` where its target is given and the duration has three cycles: it is
@@ -163,11 +162,11 @@ def synthesize(
 ) -> tuple[Record, str]:
     """Generate one component whose 5 % damped spectrum matches the target of a frame.
 
-    Sinusoids of random phase under an envelope (Gasparini and Vanmarcke, SIMQKE, MIT R76-4,
-    1976), adjusted in frequency, then corrected in time by the reversed impulse responses of the
-    oscillators (Lilhanand and Tseng, 9th World Conf. Earthquake Eng. II (1988) 819-824). Velocity
-    and displacement return to zero at the end, exactly for acceleration linear between samples. The
-    record is rounded as `solver.records.record.write_record` prints it in g before it is checked.
+    Sinusoids of random phase under an envelope (SIMQKE), adjusted in frequency, then corrected in
+    time by the reversed impulse responses of the oscillators: the sources are in `make_suite`.
+    Velocity and displacement return to zero at the end, exactly for acceleration linear between
+    samples. The record is rounded as `solver.records.record.write_record` prints it in g before it
+    is checked.
 
     Parameters
     ----------
