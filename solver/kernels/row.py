@@ -201,31 +201,6 @@ def _next_events(b, sigma, mus, hold, degree, line, when, side):
 
 
 @jit()
-def _spend(b, sigma, mus, m, c, h, x, driving, hold, degree, energy):
-    """Add the work of G and the dissipation of friction and dashpots from 0 to x, exactly."""
-    n = sigma.size
-    for i in range(n):
-        work = loss = 0.0
-        power = h * x * m[i] / n
-        for p in range(degree + 1):
-            flat, steep = power * b[W, i, p] / (p + 1), power * x * b[W, i, p] / (p + 2)
-            work += driving[0] * flat + driving[1] * steep
-            loss += hold[0] * flat + hold[1] * steep
-            power *= x
-        energy[0] += work
-        energy[1] += sigma[i] * mus[i] * loss
-    if c == 0.0:
-        return
-    for i in range(n - 1):
-        for p in range(degree + 1):
-            rate = b[W, i + 1, p] - b[W, i, p]
-            power = c * h / n * rate * x ** (p + 1)
-            for q in range(degree + 1):
-                energy[2] += power * (b[W, i + 1, q] - b[W, i, q]) / (p + q + 1)
-                power *= x
-
-
-@jit()
 def _advance(b, s, w, e, links, h, x, degree):
     """Advance all blocks and links to x, and update the largest stretches and tensions."""
     for i in range(s.size):
@@ -265,7 +240,7 @@ def _switch(b, s, w, sigma, mus, hold, degree, x, when, side, line, peaks):
 
 
 @njit(cache=KEPT, nogil=True)
-def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, energy, samples):
+def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, samples):
     """Solve the motion of a row of blocks from rest, with unstretched links, event by event.
 
     The error is bounded by energy: the difference of two motions of the row, measured by
@@ -284,30 +259,26 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, ene
         Filled with the largest s, the least s, s and w at the end.
     links : array, shape (blocks - 1, 2)
         Filled with the largest |e| [m] and |F| [m/s2] of each link.
-    energy : array, shape (5,)
-        Filled with the work of G, the energy dissipated by friction and by dashpots, and the
-        kinetic and spring energy at the end, each per unit mass of the row [J/kg].
     samples : array, shape (blocks, n), or None
         Filled with s at the samples.
 
     Returns
     -------
     tuple
-        Whether the end was reached, bound of the error in position [m], numbers of stops and of
-        steps.
+        Whether the end was reached, bound of the error in position [m], number of stops.
     """
     n = mus.size
     b = np.zeros((4, n, ORDER + 1))
     s, w, sigma, e = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n - 1)
     when, side, line = np.empty(n), np.zeros(n), np.zeros(ORDER + 1)
     driving, hold = np.zeros(2), np.zeros(2)
-    peaks[:], links[:], energy[:] = 0.0, 0.0, 0.0
+    peaks[:], links[:] = 0.0, 0.0
     if samples is not None:
         samples[:, 0] = 0.0
     maximum_mu = mus.max()
     rate = 2.0 * math.sqrt(k / m.min()) + 4.0 * c / m.min() if n > 1 else 0.0
     longest = min(dt, 1.0 / rate) if rate > 0.0 else dt
-    n_stops = n_steps = 0
+    n_stops = 0
     drift = error = 0.0
     for i in range(drive.size - 1):
         tau, n_events = 0.0, 0
@@ -320,9 +291,7 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, ene
             degree, size = _series(b, w, e, sigma, mus, m, k, c, h, driving, hold)
             x, tie = _next_events(b, sigma, mus, hold, degree, line, when, side)
             reached = min(x, 1.0)
-            _spend(b, sigma, mus, m, c, h, reached, driving, hold, degree, energy)
             _advance(b, s, w, e, links, h, reached, degree)
-            n_steps += 1
             drift += STEP * EPS * (size + h * given) + tie * h
             if x < NEVER:
                 stopped, lost = _switch(
@@ -330,7 +299,7 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, ene
                 )
                 n_stops, n_events, drift = n_stops + stopped, n_events + 1, drift + lost
                 if n_events > maximum_events:
-                    return False, np.inf, n_stops, n_steps
+                    return False, np.inf, n_stops
             error += drift * h * reached
             tau = dt if x == NEVER and h == dt - tau else tau + h * reached
         if samples is not None:
@@ -338,7 +307,4 @@ def slide_row(drive, normal, dt, mus, m, k, c, maximum_events, peaks, links, ene
     for i in range(n):
         peaks[i, 0], peaks[i, 1] = max(peaks[i, 0], s[i]), min(peaks[i, 1], s[i])
         peaks[i, 2], peaks[i, 3] = s[i], w[i]
-        energy[3] += 0.5 * m[i] / n * w[i] * w[i]
-        if i < n - 1:
-            energy[4] += 0.5 * k / n * e[i] * e[i]
-    return True, error / math.sqrt(m.min() / n), n_stops, n_steps
+    return True, error / math.sqrt(m.min() / n), n_stops

@@ -58,32 +58,6 @@ class BlockRow:
         return math.fsum(mu * share for mu, share in zip(self.mus, self.weights, strict=True))
 
 
-@dataclass(frozen=True, slots=True)
-class Energy:
-    """Energy balance of a row relative to the roof, per unit mass of the row [J/kg].
-
-    Attributes
-    ----------
-    work : float
-        Work done by gravity and by the shaking along the slope.
-    friction, dampers : float
-        Energy dissipated by friction and by the dashpots.
-    kinetic, springs : float
-        Kinetic energy and energy stored in the springs at the end.
-    """
-
-    work: float
-    friction: float
-    dampers: float
-    kinetic: float
-    springs: float
-
-    @property
-    def defect(self) -> float:
-        """Error of the balance: zero except for rounding error."""
-        return self.work - self.friction - self.dampers - self.kinetic - self.springs
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RowResult:
     """A row under one motion. Displacements are horizontal, relative to the roof.
@@ -100,11 +74,10 @@ class RowResult:
         step is located; a step is at most one sixth of the shortest period of the links.
     link_force : float
         Largest force in a link / mean weight of a block.
-    energy : Energy
     error_m : float
         Bound of the difference of any block's position from the exact motion under the
         interpolated record [m], from energy (`solver.kernels.row`), rounding error included.
-    n_stops, n_steps : int
+    n_stops : int
     rigid : SlideResult
         Result for the row as one rigid array with `BlockRow.mean_mu`.
     """
@@ -116,10 +89,8 @@ class RowResult:
     up_m: tuple[float, ...]
     stretch_m: float
     link_force: float
-    energy: Energy
     error_m: float
     n_stops: int
-    n_steps: int
     rigid: SlideResult
 
     @property
@@ -164,8 +135,8 @@ def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     if rigid.status is Status.UPLIFT:
         return _nothing(Status.UPLIFT, row, rigid)
     count, on_plane = len(row.mus), forces(scene)
-    peaks, links, energy = np.empty((count, 4)), np.empty((count - 1, 2)), np.empty(5)
-    reached, error, n_stops, n_steps = kernel.slide_row(
+    peaks, links = np.empty((count, 4)), np.empty((count - 1, 2))
+    reached, error, n_stops = kernel.slide_row(
         on_plane.down_mps2,
         on_plane.normal_mps2,
         scene.dt_s,
@@ -176,7 +147,6 @@ def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
         _MOST_EVENTS,
         peaks,
         links,
-        energy,
         samples,
     )
     if not reached or not np.isfinite(peaks).all():
@@ -191,10 +161,8 @@ def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
         up_m=_tuple(np.abs(up)),
         stretch_m=float(stretch),
         link_force=float(force) / scene.g_mps2,
-        energy=Energy(*energy.tolist()),
         error_m=error,
         n_stops=n_stops,
-        n_steps=n_steps,
         rigid=rigid,
     )
 
@@ -209,10 +177,8 @@ def _nothing(status: Status, row: BlockRow, rigid: SlideResult) -> RowResult:
         up_m=none,
         stretch_m=math.nan,
         link_force=math.nan,
-        energy=Energy(*(math.nan,) * 5),
         error_m=math.nan,
         n_stops=0,
-        n_steps=0,
         rigid=rigid,
     )
 

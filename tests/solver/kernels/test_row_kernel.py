@@ -24,13 +24,13 @@ def run_all(follow):
         for most in (1000, 0):
             count = len(mus)
             peaks, links = np.empty((count, 4)), np.empty((count - 1, 2))
-            energy, samples = np.empty(5), np.full((count, len(drive)), -1.0)
+            samples = np.full((count, len(drive)), -1.0)
             for places in (samples, None):
                 numbers += follow(
                     readonly(drive), readonly(normal), 0.2, np.array(mus), np.array(m), k, c, most,
-                    peaks, links, energy, places,
+                    peaks, links, places,
                 )  # fmt: skip
-                numbers += [*peaks.ravel(), *links.ravel(), *energy]
+                numbers += [*peaks.ravel(), *links.ravel()]
             numbers += [*samples.ravel()]
     return np.array(numbers, dtype=float)
 

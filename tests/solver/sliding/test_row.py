@@ -1,4 +1,4 @@
-"""A row of blocks, against closed forms, one block, one rigid array, energy and SciPy."""
+"""A row of blocks, against closed forms, one block, one rigid array, and SciPy."""
 
 import itertools
 import math
@@ -158,7 +158,7 @@ def test_a_block_without_friction_that_nothing_pushes_rests():
     assert result.prd_m[0] == pytest.approx(result.prd_m[2], rel=1e-12)
 
 
-# Symmetry, invariance, energy
+# Symmetry, invariance
 
 
 MIXED = BlockRow(mus=(0.3, 0.5, 0.3, 0.2), stiffness_per_s2=2e3, damping_per_s=5.0,
@@ -184,22 +184,11 @@ def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
     np.testing.assert_allclose(history, history[::-1], rtol=0.0, atol=1e-11)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
 @pytest.mark.parametrize("damping", [0.0, 5.0, 300.0])
-@pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
-def test_work_is_what_friction_dampers_speed_and_springs_have(seed, damping, k):
-    row = replace(MIXED, stiffness_per_s2=k, damping_per_s=damping)
-    energy = slide_row(shaken(seed), row).energy
-    assert abs(energy.defect) < 1e-11 * energy.work
-    assert energy.friction > 0.0
-    assert (energy.dampers > 0.0) == (damping > 0.0)
-    assert min(energy.kinetic, energy.springs, energy.dampers) >= 0.0
-
-
-@pytest.mark.parametrize("k", [0.0, 1e2, 1e4, 1e6])
 @pytest.mark.parametrize("seed", range(4))
-def test_samples_put_between_samples_change_no_more_than_the_bound(seed, k):
-    run, row = shaken(seed), replace(MIXED, stiffness_per_s2=k)
+def test_samples_put_between_samples_change_no_more_than_the_bound(seed, damping, k):
+    run, row = shaken(seed), replace(MIXED, stiffness_per_s2=k, damping_per_s=damping)
     samples = np.arange(run.ax_mps2.size)
     at = np.arange(3 * samples.size - 2) / 3.0
     ax, az = (np.interp(at, samples, a) for a in (run.ax_mps2, run.az_mps2))
