@@ -49,8 +49,16 @@ class Section:
     id: str
     title: str
     template: str
-    content: Mapping[str, Any] = field(default_factory=dict)
-    charts: Mapping[str, str] = field(default_factory=dict)
+    content: Mapping[str, Any]
+    charts: Mapping[str, str]
+
+
+def section(
+    name: str, title: str, /, *, id: str = "", charts: Mapping[str, str] = {}, **content: Any
+) -> Section:
+    """Return the section of a template by its path without ending, whose last part is its id."""
+    id = id or name.rpartition("/")[2]
+    return Section(id=id, title=title, template=f"{name}.html", content=content, charts=charts)
 
 
 def filled(

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
+from operator import itemgetter
 from typing import Any
 
 from markupsafe import Markup
@@ -147,6 +148,11 @@ Column = tuple[Shown, _Value] | tuple[Shown, _Value, _Value]
 
 A value that is `Wide` covers the columns that follow.
 """
+
+
+def by_place(*heads: Shown) -> Sequence[Column]:
+    """Return columns for items that are rows of values: each takes the value at its place."""
+    return [(head, itemgetter(at)) for at, head in enumerate(heads)]
 
 
 def listed(

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed, with_total
 from report.entities.shown import plain, text, words
 from report.figures import building as figures
-from report.manual.section import section
 from report.words.counts import capitalized
 from report.words.formats import slug
 from report.words.units import G_MPS2, number
@@ -20,7 +19,7 @@ def building(verification: Verification) -> Section:
     """Return each building, the model building first."""
     names = [f"building-{slug(roof.title)}" for roof in verification.roofs]
     return section(
-        "building",
+        "manual/building",
         "Roof motion computed from ground motion",
         SHOWN_S=figures.SHOWN_S,
         computed=figures.computed,

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import listed
 from report.entities.shown import text, words
-from report.manual.section import section
 from report.manual.summary import judged
 from report.words.counts import ranged
 from solver.verification.evidence import Verification
@@ -34,7 +33,7 @@ def features(verification: Verification) -> Section:
     """Return the table of features."""
     found = statuses(verification.checks, verification.tables)
     return section(
-        "features",
+        "manual/features",
         "Status of each feature",
         features=listed(found, _FEATURE, kind="compact"),
     )
@@ -59,7 +58,7 @@ def _limits(status: FeatureStatus) -> str:
 def known_errors() -> Section:
     """Return the errors of released versions, with what to do about them."""
     return section(
-        "known-errors",
+        "manual/known-errors",
         "Known errors of released versions",
         columns=listed((), _ERROR, kind="compact"),
     )

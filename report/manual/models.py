@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed
 from report.entities.shown import plain, text, words
 from report.figures import models as figures
 from report.figures.scales import power_of_ten
-from report.manual.section import section
 from report.words.formats import general, percent, scientific, seconds, ten_digits, two_digits
 from report.words.letters import lettered
 from report.words.units import number
@@ -78,7 +77,7 @@ _PUSHED = (
 def models(verification: Verification) -> Section:
     """Return the comparison of the models."""
     return section(
-        "models",
+        "manual/models",
         "Models: one axis, two axes and rows of blocks",
         CHANGED=CHANGED,
         least_ratio=power_of_ten(figures.LEAST_RATIO),

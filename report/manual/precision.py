@@ -6,12 +6,11 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed
 from report.entities.shown import text, words
 from report.figures import work as figures
 from report.figures.scales import power_of_ten
-from report.manual.section import section
 from report.words.formats import percent, seconds, slug
 from report.words.letters import lettered
 from solver.rivals.methods import METHODS
@@ -33,7 +32,7 @@ def work(verification: Verification) -> Section:
     lost = runs[runs[["time per run [s]", "PRD error [m]"]].isna().any(axis=1)]
     envelopes = {measure: f"work-each-{slug(measure)}" for measure in figures.MEASURES}
     return section(
-        "work",
+        "manual/work",
         "Accuracy against run time",
         cases=len(runs[["record", "case"]].drop_duplicates()),
         lost=lost.groupby("method", sort=False).size().to_dict(),

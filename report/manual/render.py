@@ -13,7 +13,7 @@ import pandas as pd
 from markupsafe import Markup
 
 import solver.building.roof
-from report.document.sections import Section, filled
+from report.document.sections import Section, filled, section
 from report.document.templates import rendered
 from report.figures.base import load_fonts
 from report.manual.building import building
@@ -22,7 +22,6 @@ from report.manual.machine import this_machine
 from report.manual.models import models
 from report.manual.precision import work
 from report.manual.robustness import conditioning, stability
-from report.manual.section import section
 from report.manual.shake_table import shake_table
 from report.manual.studies import convergence, curves, links
 from report.manual.summary import judged, summary
@@ -101,7 +100,7 @@ def sections(verification: Verification, machine: Mapping[str, str]) -> tuple[Se
     """Return all sections except cover and contents."""
     return (
         summary(verification),
-        section("scope", "Scope and terms"),
+        section("manual/scope", "Scope and terms"),
         checks(verification),
         methods(),
         work(verification),

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.figures import maps
-from report.manual.section import section
 from solver.verification.evidence import Verification
 
 
@@ -18,7 +17,7 @@ def stability(verification: Verification) -> Section:
         for at in range(0, len(counted), maps.MOST)
     }
     return section(
-        "stability",
+        "manual/stability",
         "Stability",
         by_chart=by_chart,
         charts={
@@ -33,7 +32,7 @@ def conditioning(verification: Verification) -> Section:
     cases = verification.conditioning
     by_chart = {f"conditioning-{at // 2 + 1}": cases[at : at + 2] for at in range(0, len(cases), 2)}
     return section(
-        "conditioning",
+        "manual/conditioning",
         "Sensitivity to the friction coefficient",
         by_chart={
             # A case with the largest and the median change [%].

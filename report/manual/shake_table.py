@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import grouped, listed
 from report.entities.shown import centered, plain, text, words
 from report.figures.shake_table import computed_against_measured
-from report.manual.section import section
 from report.manual.summary import judged
 from report.words.counts import grouped_by, joined
 from report.words.units import number
@@ -50,7 +49,7 @@ def shake_table(verification: Verification) -> Section:
 
     drawn = [table for table in verification.tables if any(run.ratio > 0.0 for run in table.runs)]
     return section(
-        "shake-table",
+        "manual/shake-table",
         "Comparison with a shake table",
         explained=explained(()),
         tables=[

@@ -8,11 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Table, listed, with_total
 from report.entities.shown import text, words
 from report.figures import paper
-from report.manual.section import section
 from report.words.counts import grouped_by
 from report.words.formats import general, percent, seconds, slug
 from report.words.letters import lettered
@@ -27,7 +26,7 @@ def convergence(verification: Verification) -> Section:
     """Return the paper's Fig. 5."""
     found = list(verification.convergence.items())
     return section(
-        "convergence",
+        "manual/convergence",
         "The paper's convergence study (Fig. 5)",
         scenarios=len(paper_studies.CONVERGENCE_CASES),
         paper_percent=paper.PAPER_P64_PERCENT,
@@ -63,7 +62,7 @@ def links(verification: Verification) -> Section:
     by_record = grouped_by(verification.links, lambda link: link.record)
     by_chart = {f"links-{slug(name)}": tuple(rows) for name, rows in by_record.items()}
     return section(
-        "links",
+        "manual/links",
         "Comparison with a link model (Figs. 6 to 9)",
         by_chart=by_chart,
         differences=_differences(verification.links),
@@ -102,7 +101,7 @@ def curves(verification: Verification) -> Section:
     slope_deg, wanted_m = paper.READ_OFF
     names = [slug(study.record) for study in verification.curves]
     return section(
-        "curves",
+        "manual/curves",
         "Design curves (Figs. 10 to 12)",
         ppa_g=paper.FIG_12_PPA_G,
         slope_deg=slope_deg,

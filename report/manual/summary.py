@@ -8,12 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 from markupsafe import Markup
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import centered, text, words
 from report.manual import studies
 from report.manual.precision import floor
-from report.manual.section import section
 from report.pages.parts import verdict
 from report.words.counts import grouped_by
 from report.words.formats import scientific
@@ -45,7 +44,7 @@ def summary(verification: Verification) -> Section:
     beside = paper.merge(work[work["method"] == "exact"], on=["record", "case"])
     worst = max(links, key=lambda link: link.worst_percent) if links else None
     return section(
-        "summary",
+        "manual/summary",
         "Summary",
         key_results=listed((), _KEY_RESULTS),
         floor=floor(verification),

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import grouped, listed
 from report.entities.shown import centered, text, words
-from report.manual.section import section
 from report.manual.summary import judged
 from report.words.counts import grouped_by
 from report.words.formats import percent, scientific, seconds, ten_digits, unbroken
@@ -64,7 +63,7 @@ def checks(verification: Verification) -> Section:
         return f"{row.id}. Source: {lettered(row.source)}"
 
     return section(
-        "checks",
+        "manual/checks",
         "Checks",
         by_section={
             name: grouped(grouped_by(rows, source), _CHECK, kind="compact")
@@ -80,7 +79,7 @@ def _quantity(row: Check) -> str:
 def methods() -> Section:
     """Return the table of methods."""
     return section(
-        "methods",
+        "manual/methods",
         "Methods compared",
         methods=listed(METHODS.values(), _METHOD, kind="compact"),
     )
@@ -90,7 +89,7 @@ def peers(points: Sequence[PeerPoint]) -> Section:
     """Return the results of other programs, each run below its program and model."""
     groups = grouped_by(points, lambda peer: f"{peer.peer} {peer.version}: {peer.note}")
     return section(
-        "peers",
+        "manual/peers",
         "Other programs",
         peers=grouped(groups, _PEER, kind="compact"),
     )
@@ -103,7 +102,7 @@ def _error(value_percent: float) -> str:
 def software(machine: Mapping[str, str]) -> Section:
     """Return versions and the machine."""
     return section(
-        "software",
+        "manual/software",
         "Software and machine",
         versions=listed(machine.items(), _VERSION),
     )

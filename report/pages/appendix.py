@@ -5,14 +5,14 @@ from __future__ import annotations
 import platform
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import replace
 from importlib import metadata
 from itertools import groupby, zip_longest
 from string import ascii_uppercase, digits
 
 from markupsafe import Markup
 
-from report.document.tables import Table, TableRow, listed
-from report.entities.columns import TableColumn
+from report.document.tables import Column, Table, listed
 from report.entities.shown import plain, words
 from report.motions.components import RecordFile
 from report.pages.parts import BAR, MOTION_ROWS, PackageData
@@ -96,29 +96,23 @@ def _single_cells(rows: Sequence[EchoRow], changed: Set[str]) -> _Echoed:
     given = [row for row in rows if not _is_in_note(row, changed)]
     half = (len(given) + 1) // 2
     pairs = zip_longest(given[:half], given[half:])
-    table = Table(
-        columns=(*_SINGLE_COLUMNS, *_SINGLE_COLUMNS),
-        rows=tuple(
-            TableRow(
-                cells=(*_single(left, changed), *_single(right, changed)),
-                kind=_bar((left, right), changed),
-            )
-            for left, right in pairs
-        ),
-        kind="compact",
-    )
+    columns = (*_single(0, changed), *_single(1, changed))
+    table = listed(pairs, columns, kind="compact", style=lambda pair: _bar(pair, changed))
     return table, (), [_blank(row, row.cell) for row in rows if _is_in_note(row, changed)]
 
 
-_SINGLE_COLUMNS = (
-    TableColumn(head="Cell", align="left", share=0.6),
-    TableColumn(head="Field", align="left", share=2.2),
-    TableColumn(head="Entered", align="left", share=2.6),
-)
+def _single(side: int, changed: Set[str]) -> Sequence[Column]:
+    """Return the columns of one side of the pairs, of which the last may have no right one."""
 
+    def entered(pair: Sequence[EchoRow | None]) -> str:
+        row = pair[side]
+        return _entered(row, row.unit, changed) if row else ""
 
-def _single(row: EchoRow | None, changed: Set[str]) -> tuple[str, str, str]:
-    return ("", "", "") if row is None else (row.cell, row.label, _entered(row, row.unit, changed))
+    return (
+        (words("Cell", 0.6), lambda pair: getattr(pair[side], "cell", "")),
+        (words("Field", 2.2), lambda pair: getattr(pair[side], "label", "")),
+        (words("Entered", 2.6), entered),
+    )
 
 
 def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Echoed]:
@@ -175,32 +169,22 @@ def _columns(
     chunk: Sequence[Sequence[EchoRow]],
     changed: Set[str],
 ) -> Table:
-    letters = [_column_letters(cells[0]) for cells in chunk]
-    return Table(
-        columns=(
-            TableColumn(head="Row", align="left", share=5.0),
-            *(
-                TableColumn(
-                    head=f"{name} {cells[0].label}",
-                    unit=cells[0].unit,
-                    align="left",
-                    share=_width(cells),
-                )
-                for name, cells in zip(letters, chunk, strict=True)
-            ),
-        ),
-        rows=tuple(
-            TableRow(
-                cells=(
-                    number,
-                    *(_entered(line[n], "", changed) if n in line else "" for n in letters),
-                ),
-                kind=_bar((line.get(n) for n in letters), changed),
+    heads = {_column_letters(cells[0]): cells for cells in chunk}
+    columns = (
+        (words("Row", 5.0), lambda line: _row_number(next(iter(line.values())))),
+        *(
+            (
+                replace(words(f"{name} {cells[0].label}", _width(cells)), unit=cells[0].unit),
+                lambda line, name=name: _entered(line[name], "", changed) if name in line else "",
             )
-            for number, line in lines.items()
+            for name, cells in heads.items()
         ),
-        kind="compact",
     )
+
+    def style(line: Mapping[str, EchoRow]) -> str:
+        return _bar(map(line.get, heads), changed)
+
+    return listed(lines.values(), columns, kind="compact", style=style)
 
 
 def _entered(row: EchoRow, unit: str, changed: Set[str]) -> str:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from operator import itemgetter
 
 import numpy as np
 from markupsafe import Markup
@@ -14,15 +14,14 @@ from report.assessment.conditions import DRIFT_M, drifts
 from report.assessment.evidence import Evidence
 from report.assessment.highpass import Beyond
 from report.assessment.spectra import PRINTED_S, Spectra, departures
-from report.document.tables import Column, Table, TableRow, Wide, listed
-from report.entities.columns import TableColumn
-from report.entities.shown import centered, length, plain, text, words
+from report.document.tables import Column, Table, Wide, by_place, listed
+from report.entities.shown import Shown, centered, length, plain, text, words
 from report.motions.history import PreparedMotion
 from report.pages.acceptance import acceptance_table, event_table, lowest_between, strength_table
 from report.pages.building import building_part
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
-from report.words.counts import grouped_by
+from report.words.counts import grouped_by, numbered
 from report.words.units import G_MPS2, Unit, number
 from solver.model import Floats, Motion
 from solver.records.processing import AS_RECORDED
@@ -138,79 +137,61 @@ def _highpass_table(package: PackageData, beyond: Sequence[Beyond]) -> Table:
 
 def spectrum_table(spectra: Sequence[Spectra]) -> Table:
     """Return target, achieved ordinates and their ratios at a few periods, by component."""
-    return Table(
-        columns=(
-            TableColumn(head="Period", align="left", share=2.9),
-            *(
-                TableColumn(head=f"{period:g} s", unit=f"{1 / period:.3g} Hz")
-                for period in PRINTED_S
-            ),
-        ),
-        rows=tuple(row for part in spectra for row in _spectrum_rows(part)),
-        kind="compact",
-    )
+    periods = (text(f"{period:g} s", f"{1 / period:.3g} Hz") for period in PRINTED_S)
+    rows = (row for part in spectra for row in _spectrum_rows(part))
+    columns = by_place(words("Period", 2.9), *periods)
+    return listed(rows, columns, kind="compact", style=itemgetter(-1))
 
 
-def _spectrum_rows(part: Spectra) -> Sequence[TableRow]:
+def _spectrum_rows(part: Spectra) -> Iterator[Sequence[str | Wide]]:
+    """Yield name, ordinates and style of each row; a component stays on one sheet."""
     at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
     target, sa = part.target_g[at], part.sa_g[:, at]
-    count = f"{len(part.ids)} motion{'s' if len(part.ids) > 1 else ''}"
-    title = Markup("<b>{}</b>").format(part.title)
-    head = TableRow(cells=(Wide(title, 1 + len(PRINTED_S)),), kind="total group")
-    mean = _ordinates(f"Mean of {count} [g]", sa.mean(axis=0))
+    mean = f"Mean of {numbered(len(part.ids), 'motion')} [g]", *_numbers(sa.mean(axis=0), 3)
+    yield Wide(Markup("<b>{}</b>").format(part.title), 1 + len(PRINTED_S)), "total group"
     if not part.target.name:
-        return head, mean
+        yield *mean, ""
+        return
     share = sa / target
-    rows = (
-        _ordinates(f"Target, {part.target.name} [g]", target),
-        mean,
-        _ordinates("Mean / target", share.mean(axis=0), decimals=2),
-        _ordinates("Smallest motion / target", share.min(axis=0), decimals=2),
-    )
-    # A component stays on one sheet.
-    return (
-        head,
-        *(replace(row, kind="group") for row in rows),
-        _ordinates("Largest motion / target", share.max(axis=0), decimals=2),
-    )
+    yield f"Target, {part.target.name} [g]", *_numbers(target, 3), "group"
+    yield *mean, "group"
+    yield "Mean / target", *_numbers(share.mean(axis=0), 2), "group"
+    yield "Smallest motion / target", *_numbers(share.min(axis=0), 2), "group"
+    yield "Largest motion / target", *_numbers(share.max(axis=0), 2), ""
 
 
-def _ordinates(name: str, values: Floats, *, decimals: int = 3) -> TableRow:
-    return TableRow(cells=(name, *(number(float(value), decimals) for value in values)))
+def _numbers(values: Floats, decimals: int) -> Sequence[str]:
+    return [number(float(value), decimals) for value in values]
 
 
 def achieved_table(spectra: Sequence[Spectra]) -> Table:
     """Return the ratios of the motions to the target over the band, a row per component."""
-    return Table(
-        columns=(
-            TableColumn(head="Component", align="left", share=1.7),
-            TableColumn(head="Motions", share=0.9),
-            TableColumn(head="Mean of motions", unit="min.", share=0.9),
-            TableColumn(head="Mean of motions", unit="max.", share=0.9),
-            TableColumn(head="Mean below 1.3 Hz", unit="min.", share=0.9),
-            TableColumn(head="Mean below 1.3 Hz", unit="max.", share=0.9),
-            TableColumn(head="Single motion", unit="min.", share=0.7),
-            TableColumn(head="Single motion", unit="motion, Hz", align="left", share=1.6),
-            TableColumn(head="Single motion", unit="max.", share=0.7),
-            TableColumn(head="Single motion", unit="motion, Hz", align="left", share=1.6),
+    ends = ("min.", "max.")
+    place = Shown(head="Single motion", unit="motion, Hz", align="left", share=1.6)
+    columns = by_place(
+        words("Component", 1.7),
+        text("Motions", share=0.9),
+        *(
+            text(head, end, 0.9)
+            for head in ("Mean of motions", "Mean below 1.3 Hz")
+            for end in ends
         ),
-        rows=tuple(_achieved(part) for part in spectra if part.in_band.any()),
-        kind="compact",
+        *(shown for end in ends for shown in (text("Single motion", end, 0.7), place)),
     )
+    rows = (_achieved(part) for part in spectra if part.in_band.any())
+    return listed(rows, columns, kind="compact")
 
 
-def _achieved(part: Spectra) -> TableRow:
+def _achieved(part: Spectra) -> Sequence[str]:
     periods = part.periods_s[part.in_band]
     each = (part.sa_g / part.target_g)[:, part.in_band]
     mean = each.mean(axis=0)
     slow = mean[periods >= 1 / 1.3]
-    return TableRow(
-        cells=(
-            part.title,
-            str(len(part.ids)),
-            *(_extreme(values, fold) for values in (mean, slow) for fold in (np.min, np.max)),
-            *(text for at in (each.argmin(), each.argmax()) for text in _single(part, each, at)),
-        )
+    return (
+        part.title,
+        str(len(part.ids)),
+        *(_extreme(values, fold) for values in (mean, slow) for fold in (np.min, np.max)),
+        *(text for at in (each.argmin(), each.argmax()) for text in _single(part, each, at)),
     )
 
 

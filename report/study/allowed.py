@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, text
 from report.study.page_parts import MOST_LINES, axis, some
@@ -24,28 +24,26 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
     slopes = [shown(s, SLOPE_DECIMALS) for s in (given.slopes_deg[0], given.slopes_deg[-1])]
     least = partial(_answer, end=given.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
     largest = partial(_answer, end=given.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
-    return Section(
+    return section(
+        "study/allowed",
+        f"Least friction and largest slope{on_building(results, building, ', building ')}",
         id=f"allowed-{building}",
-        title=f"Least friction and largest slope{on_building(results, building, ', building ')}",
-        template="study/allowed.html",
-        content={
-            "allowed_m": allowed_m,
-            "floor_alone": list(_floor_alone(results, allowed_m)),
-            "ibc": results.plan.design_rule.rules.values["ibc_max_slope_deg"].clause,
-            "axis": axis(results),
-            "frictions": frictions,
-            "slopes": slopes,
-            "answers": [
-                (
-                    name,
-                    _table(results, text("Slope", "deg"), given.slopes_deg, mus, least),
-                    _table(results, text("μ"), given.mus, slopes_deg, largest),
-                )
-                for name in dict.fromkeys((results.leading, MEAN))
-                for mus in [results.minimum_frictions(building, name, allowed_m)]
-                for slopes_deg in [results.largest_slopes(building, name, allowed_m)]
-            ],
-        },
+        allowed_m=allowed_m,
+        floor_alone=list(_floor_alone(results, allowed_m)),
+        ibc=results.plan.design_rule.rules.values["ibc_max_slope_deg"].clause,
+        axis=axis(results),
+        frictions=frictions,
+        slopes=slopes,
+        answers=[
+            (
+                name,
+                _table(results, text("Slope", "deg"), given.slopes_deg, mus, least),
+                _table(results, text("μ"), given.mus, slopes_deg, largest),
+            )
+            for name in dict.fromkeys((results.leading, MEAN))
+            for mus in [results.minimum_frictions(building, name, allowed_m)]
+            for slopes_deg in [results.largest_slopes(building, name, allowed_m)]
+        ],
     )
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed
 from report.entities.shown import text, words
 from report.study import figures
@@ -36,29 +36,27 @@ def fragility(results: StudyResults, one: ArrayStudyResult) -> Section:
     """Return the section on an array: its fragilities, and the probabilities where asked for."""
     name = f"{one.plan.array.id}{on_building(results, one.plan.building, ', building ')}"
     known = [state for state in one.states if state.fragility.fitted.is_known]
-    return Section(
+    return section(
+        "study/array",
+        f"Fragility of {name}",
         id=f"array-{slug(name)}",
-        title=f"Fragility of {name}",
-        template="study/array.html",
-        content={
-            "one": one,
-            "array": one.plan.array,
-            "counts": one.states[0].fragility,
-            "unknown": [state.name for state in one.states if state not in known],
-            "is_left_out": is_exportable(results) and not has_probabilities(one),
-            "axis": axis(results),
-            "states": _states(results, one),
-            "exported": _exported(results, one, known),
-            "no_center": math.isnan(one.center_m),
-            "ACCURACY": ACCURACY,
-            "CONFIDENCE": CONFIDENCE,
-            "HIGH": HIGH,
-            "LEVEL": LEVEL,
-            "LILLIEFORS_REPEATS": LILLIEFORS_REPEATS,
-            "LOW": LOW,
-            "MASS": MASS,
-            "REPEATS": REPEATS,
-        },
+        one=one,
+        array=one.plan.array,
+        counts=one.states[0].fragility,
+        unknown=[state.name for state in one.states if state not in known],
+        is_left_out=is_exportable(results) and not has_probabilities(one),
+        axis=axis(results),
+        states=_states(results, one),
+        exported=_exported(results, one, known),
+        no_center=math.isnan(one.center_m),
+        ACCURACY=ACCURACY,
+        CONFIDENCE=CONFIDENCE,
+        HIGH=HIGH,
+        LEVEL=LEVEL,
+        LILLIEFORS_REPEATS=LILLIEFORS_REPEATS,
+        LOW=LOW,
+        MASS=MASS,
+        REPEATS=REPEATS,
         charts=dict(_charts(results, one)),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import text, words
 from report.pages.symbols import with_symbols
@@ -21,19 +21,16 @@ _WARNING = (
 def basis(results: StudyResults) -> Section:
     """Return the section on how the study was run."""
     without, motions = results.curves.without_value, results.plan.motions.motions[0]
-    return Section(
-        id="basis",
-        title="Basis",
-        template="study/basis.html",
-        content={
-            "first": motions[0],
-            "lost": int(without.sum()),
-            "pairs": without.size * len(motions),
-            "models": _models(results),
-            "mats": _mats(results),
-            "motions": _motions(results),
-            "warnings": listed(results.plan.warnings, _WARNING),
-        },
+    return section(
+        "study/basis",
+        "Basis",
+        first=motions[0],
+        lost=int(without.sum()),
+        pairs=without.size * len(motions),
+        models=_models(results),
+        mats=_mats(results),
+        motions=_motions(results),
+        warnings=listed(results.plan.warnings, _WARNING),
     )
 
 
@@ -77,13 +74,10 @@ def _motions(results: StudyResults) -> Table:
 
 def limits(results: StudyResults) -> Section:
     """Return the section on what the study does not say."""
-    return Section(
-        id="limits",
-        title="Limits",
-        template="study/limits.html",
-        content={
-            "has_probabilities": any(one.exceedances for one in results.arrays),
-            "FREQ_HZ": FREQ_HZ,
-            "validation": explained(SHIPPED),
-        },
+    return section(
+        "study/limits",
+        "Limits",
+        has_probabilities=any(one.exceedances for one in results.arrays),
+        FREQ_HZ=FREQ_HZ,
+        validation=explained(SHIPPED),
     )

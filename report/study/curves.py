@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import text
 from report.study import figures
@@ -37,18 +37,16 @@ def curves(results: StudyResults, building: int) -> Section:
     shown = some(given.mus, MOST_FRICTIONS)
     sloped = shown if len(given.slopes_deg) > 1 else []
     sheets = list(_sheets(results, building))
-    return Section(
+    return section(
+        "study/curves",
+        f"Design curves{on_building(results, building, ', building ')}",
         id=f"curves-{building}",
-        title=f"Design curves{on_building(results, building, ', building ')}",
-        template="study/curves.html",
-        content={
-            "named": {m: friction_name(results, given.mus[m]) for m in shown},
-            "sheets": [(name, is_thick) for name, _, is_thick in sheets],
-            "LOW_G": LOW_G,
-            "place": results.plan.motions.buildings[building],
-            "middle": given.intensities[len(given.intensities) // 2],
-            "displacements": _displacements(results, building),
-        },
+        named={m: friction_name(results, given.mus[m]) for m in shown},
+        sheets=[(name, is_thick) for name, _, is_thick in sheets],
+        LOW_G=LOW_G,
+        place=results.plan.motions.buildings[building],
+        middle=given.intensities[len(given.intensities) // 2],
+        displacements=_displacements(results, building),
         charts={
             **{f"intensity-{m}": _against_intensity(results, building, m) for m in shown},
             **{f"slope-{m}": _against_slope(results, building, m) for m in sloped},

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from markupsafe import Markup
 
-from report.document.sections import Section, filled
+from report.document.sections import Section, filled, section
 from report.document.templates import rendered
 from report.figures.base import load_fonts
 from report.study.allowed import allowed
@@ -54,10 +54,9 @@ def study_html(results: StudyResults) -> str:
 def sections(results: StudyResults) -> tuple[Section, ...]:
     """Return all sections except the cover and the contents."""
     allowed_m = results.plan.input.study.allowed_m
-    first = Section(
-        id="results",
-        title="Results",
-        template="study/results.html",
+    first = section(
+        "study/results",
+        "Results",
         content={"headline": headline(results)},
     )
     found = [first, basis(results)]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from functools import partial
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import text
 from report.pages.symbols import with_symbols
@@ -31,11 +31,11 @@ _At = tuple[int, int, int, int]
 def formula(results: StudyResults, building: int) -> Section:
     """Return the section on the formula, or why there is none."""
     fit = results.fits[building]
-    return Section(
+    return section(
+        "study/formula",
+        f"Simplified formula{on_building(results, building, ', building ')}",
         id=f"formula-{building}",
-        title=f"Simplified formula{on_building(results, building, ', building ')}",
-        template="study/formula.html",
-        content=_content(results, building, fit) if isinstance(fit, Fit) else {"lacking": fit},
+        **(_content(results, building, fit) if isinstance(fit, Fit) else {"lacking": fit}),
     )
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from report.document.sections import Section
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import centered, text, words
 from report.pages.symbols import with_symbols
@@ -76,21 +76,18 @@ def prescribed(results: StudyResults, building: int, found: Prescribed) -> Secti
     given, rules = results.plan.input, results.plan.design_rule.rules
     names = {m: friction_name(results, given.mus[m]) for m in some(given.mus, MOST_FRICTIONS)}
     slopes, mus = _extent(results, found.unsafe_not_permitted)
-    return Section(
+    return section(
+        "study/prescribed",
+        "Beside the prescriptive displacement" + on_building(results, building, ", building "),
         id=f"prescribed-{building}",
-        title="Beside the prescriptive displacement"
-        + on_building(results, building, ", building "),
-        template="study/prescribed.html",
-        content={
-            "cases": found.ratio.size,
-            "unsafe": int(found.unsafe.sum()),
-            "outside": int(found.unsafe_not_permitted.sum()),
-            "slopes": slopes,
-            "mus": mus,
-            "steepest_mu": required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"])),
-            "names": names,
-            "margins": _table(results, found),
-        },
+        cases=found.ratio.size,
+        unsafe=int(found.unsafe.sum()),
+        outside=int(found.unsafe_not_permitted.sum()),
+        slopes=slopes,
+        mus=mus,
+        steepest_mu=required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"])),
+        names=names,
+        margins=_table(results, found),
         charts={f"prescribed-{m}": _chart(results, building, m) for m in names},
     )
 
