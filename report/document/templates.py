@@ -10,7 +10,7 @@ import hashlib
 import math
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,23 +19,31 @@ from jinja2 import pass_context
 from markupsafe import Markup
 
 from report.assessment.friction import mu_words
-from report.assessment.friction_rows import basis_words
-from report.assessment.precheck import limit_value
 from report.document.tables import Table, merged, stamp, table_of
 from report.entities.linked import ratio_up
 from report.entities.marks import dagger
 from report.typeset.equations import data_uri, fraction, symbol
-from report.words.counts import capitalized, counted, joined, lowered, named, ranged, spelled
+from report.words.counts import (
+    capitalized,
+    counted,
+    joined,
+    lowered,
+    named,
+    numbered,
+    ranged,
+    spelled,
+)
 from report.words.formats import general, percent, scientific, seconds, shortened
 from report.words.letters import below_mm, power_above
-from report.words.units import Quantity, digits_down, digits_up, number, ratio
-from solver.rules.limit import Limit
+from report.words.units import digits_down, digits_up, number, ratio
 
 if TYPE_CHECKING:
     from jinja2 import BytecodeCache, Environment
     from jinja2.runtime import Context
 
-    from report.sheet.schema import Array
+
+OF_PACKAGE = ("both", "clause", "friction_basis", "mark", "of_check", "rule_length")
+"""Filters that are methods of the data of a package."""
 
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
@@ -71,9 +79,7 @@ def _environment(folder: Path) -> Environment:
     )
     environment.filters |= {
         "below_mm": below_mm,
-        "both": _both,
         "capitalized": capitalized,
-        "clause": _clause,
         "counted": counted,
         "data_uri": data_uri,
         "degrees": lambda value_rad, decimals: number(math.degrees(value_rad), decimals),
@@ -81,28 +87,26 @@ def _environment(folder: Path) -> Environment:
         "digits_down": digits_down,
         "digits_up": digits_up,
         "friction": mu_words,
-        "friction_basis": _friction_basis,
         "general": general,
         "joined": joined,
         "lowered": lowered,
-        "mark": _mark,
         "merged": merged,
         "named": named,
         "needs_a_line": _needs_a_line,
         "number": number,
+        "numbered": numbered,
         "percent": percent,
         "power_above": power_above,
-        "of_check": _of_check,
         "ranged": ranged,
         "ratio": ratio,
         "ratio_up": ratio_up,
-        "rule_length": _rule_length,
         "scientific": scientific,
         "seconds": seconds,
         "shortened": shortened,
         "spelled": spelled,
         "stamp": stamp,
         "symbol": symbol,
+        **{name: _of_package(name) for name in OF_PACKAGE},
     }
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
     environment.globals |= {"fraction": fraction, "rows": _rows}
@@ -133,42 +137,14 @@ def _needs_a_line(numbers: Markup) -> bool:
     return any(len(row.striptags()) > SHORT_LETTERS for row in rows)
 
 
-@pass_context
-def _both(context: Context, value_si: float, quantity: str = "DISPLACEMENT") -> str:
-    """Return a value in both systems of units: `81.6 in (2072 mm)`."""
-    said: str = context["p"].fmt.both(value_si, Quantity[quantity])
-    return said
+def _of_package(name: str) -> Callable[..., Any]:
+    """Return the filter that is a method of the package."""
 
+    @pass_context
+    def found(context: Context, *given: object) -> Any:
+        return getattr(context["p"], name)(*given)
 
-@pass_context
-def _friction_basis(context: Context, array: Array) -> str:
-    return basis_words(context["p"].data, array)
-
-
-@pass_context
-def _mark(context: Context, key: str) -> str:
-    said: str = context["p"].mark(key)
-    return said
-
-
-@pass_context
-def _clause(context: Context, key: str) -> str:
-    """Return the clause of a provision with its marks."""
-    said: str = context["p"].clause(key)
-    return said
-
-
-@pass_context
-def _of_check(context: Context, value: float, check: Limit) -> str:
-    """Return a number of a check with the units of its measure."""
-    return limit_value(check, value, context["p"].fmt.us_first)
-
-
-@pass_context
-def _rule_length(context: Context, key: str) -> str:
-    """Return a length of the rule set in both systems of units, with its marks."""
-    said: str = context["p"].fmt.both(context["p"].assessment.rules.length_m(key))
-    return said + _mark(context, key)
+    return found
 
 
 @pass_context

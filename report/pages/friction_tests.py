@@ -14,7 +14,6 @@ from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import (
     LEAST_RUNS,
-    basis_words,
     friction_rows,
     has_enough_runs,
     runs_by_velocity,
@@ -59,7 +58,7 @@ def page(package: PackageData) -> Mapping[str, object]:
             for report in dict.fromkeys(one.report for one in found)
         ],
         "least_runs": LEAST_RUNS,
-        "compared": _compared(data, found) if found else {},
+        "compared": _compared(package, found) if found else {},
         "fits": [(one, fit, _scatter(one)) for one, fit in _fits(package)],
         "unsatisfied": dict.fromkeys(
             row.title for row in (*friction_rows(data), *beyond) if not row.is_satisfied
@@ -184,7 +183,7 @@ class _Compared:
         return round(self.used - self.tested, 3)
 
 
-def _compared(data: ProjectInput, found: Sequence[Series]) -> Mapping[_Compared, Sequence[str]]:
+def _compared(package: PackageData, found: Sequence[Series]) -> Mapping[_Compared, Sequence[str]]:
     """Return how the friction of the arrays compares with the tests, alike arrays together."""
 
     def compared(array: Array) -> _Compared:
@@ -194,10 +193,10 @@ def _compared(data: ProjectInput, found: Sequence[Series]) -> Mapping[_Compared,
             used=round(one.mean_of(array.friction), 3),
             tested=round(one.mean, 3),
             surface=one.surface,
-            basis=basis_words(data, array),
+            basis=package.friction_basis(array),
         )
 
-    return ids_by(data.arrays, compared)
+    return ids_by(package.data.arrays, compared)
 
 
 def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
-from report.assessment.precheck import findings, limit_value
+from report.assessment.precheck import findings
 from report.document.tables import Table, listed, table_of
 from report.entities.array import array_results
 from report.entities.marks import dagger
@@ -71,15 +71,14 @@ def check_table(
     outcomes: tuple[str, str] = (OK, NG),
 ) -> Table:
     """Return limits and values of the project; `outcomes` are satisfied and not satisfied."""
-    fmt = package.fmt
 
     def limit(check: Limit) -> str:
-        return limit_value(check, check.limit, fmt.us_first) + dagger(check.provision)
+        return package.of_check(check.limit, check) + dagger(check.provision)
 
     columns = (
         (words("Item", 0.9), lambda row: row[0]),
         (words("Quantity", 3.3), lambda row: row[1].title),
-        (text("Value", share=1.5), lambda row: limit_value(row[1], row[1].found, fmt.us_first)),
+        (text("Value", share=1.5), lambda row: package.of_check(row[1].found, row[1])),
         (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
         (text("Limit", share=1.6), lambda row: limit(row[1])),
         (words("Clause", 1.6), lambda row: row[1].provision.clause + dagger(row[1].provision)),
@@ -90,7 +89,7 @@ def check_table(
             ),
         ),
     )
-    return listed(checks, columns, fmt)
+    return listed(checks, columns, package.fmt)
 
 
 def limits(package: PackageData) -> Mapping[str, object]:

@@ -14,14 +14,16 @@ from markupsafe import Markup
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.friction_rows import basis_words
+from report.assessment.precheck import limit_value
 from report.assessment.verdict import Verdict
 from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.marks import Marked
 from report.provenance.files import fingerprint
-from report.sheet.schema import RecordedAt
+from report.sheet.schema import Array, RecordedAt
 from report.words.counts import ids_by
+from report.words.units import Quantity
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 
@@ -85,9 +87,7 @@ class PackageData(Marked):
     @property
     def friction_sources(self) -> Mapping[tuple[str, str], Sequence[str]]:
         """The arrays by the basis of their friction and the test report named for it."""
-        return ids_by(
-            self.data.arrays, lambda array: (basis_words(self.data, array), array.mu_report)
-        )
+        return ids_by(self.data.arrays, lambda array: (self.friction_basis(array), array.mu_report))
 
     @property
     def has_ground(self) -> bool:
@@ -121,6 +121,22 @@ class PackageData(Marked):
         options = self.data.options
         by = (options.peer_reviewer, options.peer_license, options.peer_date or "")
         return ", ".join(str(part) for part in by if part) or "reviewer not given"
+
+    def both(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return a value in both systems of units: `81.6 in (2072 mm)`."""
+        return self.fmt.both(value_si, Quantity[quantity])
+
+    def rule_length(self, key: str) -> str:
+        """Return a length of the rule set in both systems of units, with its marks."""
+        return self.fmt.both(self.assessment.rules.length_m(key)) + self.mark(key)
+
+    def of_check(self, value: float, check: Limit) -> str:
+        """Return a number of a check with the units of its measure."""
+        return limit_value(check, value, self.fmt.us_first)
+
+    def friction_basis(self, array: Array) -> str:
+        """Return where the friction of an array comes from."""
+        return basis_words(self.data, array)
 
     def bar(self, is_changed: bool, kind: str = "") -> str:
         """Return the style of a row, with a bar in the margin where it changed."""
