@@ -155,6 +155,15 @@ def by_place(*heads: Shown) -> Sequence[Column]:
     return [(head, itemgetter(at)) for at, head in enumerate(heads)]
 
 
+def headed(*columns: Sequence[Any], rows: Iterable[Sequence[Any]] = (), kind: str = "") -> Table:
+    """Return a table of a template: columns by heading, share and alignment, and rows of values."""
+    shown = [
+        Shown(head=head, share=share, align=align)
+        for head, share, align in ((*column, "left")[:3] for column in columns)
+    ]
+    return listed(rows, by_place(*shown), kind=kind)
+
+
 def listed(
     items: Iterable[Any],
     columns: Sequence[Column],

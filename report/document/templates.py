@@ -19,7 +19,7 @@ from jinja2 import pass_context
 from markupsafe import Markup
 
 from report.assessment.friction import mu_words
-from report.document.tables import Table, merged, stamp, table_of
+from report.document.tables import Table, headed, merged, stamp, table_of
 from report.entities.linked import ratio_up
 from report.entities.marks import dagger
 from report.typeset.equations import data_uri, fraction, symbol
@@ -109,7 +109,7 @@ def _environment(folder: Path) -> Environment:
         **{name: _of_package(name) for name in OF_PACKAGE},
     }
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
-    environment.globals |= {"fraction": fraction, "rows": _rows}
+    environment.globals |= {"fraction": fraction, "headed": headed, "rows": _rows}
     return environment
 
 

@@ -1,4 +1,4 @@
-"""The status of every feature, and the errors of released versions."""
+"""The status of every feature."""
 
 from __future__ import annotations
 
@@ -20,13 +20,6 @@ _FEATURE = (
     (words("Status", 1.8), lambda status: _status(status)),
     (words("Limits of the checks", 3.2), lambda status: _limits(status)),
 )
-
-_ERROR = (
-    (words("Error", 3.2), str),
-    (words("Effect on a package", 2.5), str),
-    (words("Corrective action", 2.7), str),
-)
-"""Its rows are in the template."""
 
 
 def features(verification: Verification) -> Section:
@@ -53,12 +46,3 @@ def _limits(status: FeatureStatus) -> str:
     found = [status.feature.only] if status.feature.only else []
     found += [f"Did not run: {', '.join(status.missing)}"] if status.missing else []
     return "; ".join(found)
-
-
-def known_errors() -> Section:
-    """Return the errors of released versions, with what to do about them."""
-    return section(
-        "manual/known-errors",
-        "Known errors of released versions",
-        columns=listed((), _ERROR, kind="compact"),
-    )

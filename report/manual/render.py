@@ -17,7 +17,7 @@ from report.document.sections import Section, filled, section
 from report.document.templates import rendered
 from report.figures.base import load_fonts
 from report.manual.building import building
-from report.manual.features import features, known_errors
+from report.manual.features import features
 from report.manual.machine import this_machine
 from report.manual.models import models
 from report.manual.precision import work
@@ -25,7 +25,7 @@ from report.manual.robustness import conditioning, stability
 from report.manual.shake_table import shake_table
 from report.manual.studies import convergence, curves, links
 from report.manual.summary import judged, summary
-from report.manual.tables import checks, methods, peers, software
+from report.manual.tables import checks, methods, peers
 from report.pages.symbols import with_symbols
 from report.typeset.pdf import TEMPLATES, lay_out
 from report.words.validation import validation
@@ -63,7 +63,7 @@ def files(
     machine = this_machine()
     load_fonts(TEMPLATES / "fonts")
     on_stage("Drawing the charts")
-    parts = sections(verification, machine)
+    parts = sections(verification)
     on_stage("Laying out the manual")
     pdf = lay_out(manual_html(verification, parts, machine, date))
     charts = {name: svg for part in parts for name, svg in part.charts.items()}
@@ -85,18 +85,18 @@ def manual_html(
         "verdict": judged(verification.passed and len(verification.checks) > 0),
         "n_passed": sum(row.passed for row in verification.checks),
         "validation": validation(verification.tables),
+        "machine": machine,
         "version": machine["Roofslip"],
     }
     cover = {
         "css": Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
         "date": date.isoformat(),
-        "machine": machine,
         "sections": list(filled(TEMPLATES, parts, context)),
     }
     return rendered(TEMPLATES, "verification.html", context | cover)
 
 
-def sections(verification: Verification, machine: Mapping[str, str]) -> tuple[Section, ...]:
+def sections(verification: Verification) -> tuple[Section, ...]:
     """Return all sections except cover and contents."""
     return (
         summary(verification),
@@ -113,9 +113,9 @@ def sections(verification: Verification, machine: Mapping[str, str]) -> tuple[Se
         *((models(verification),) if verification.models else ()),
         shake_table(verification),
         features(verification),
-        known_errors(),
+        section("manual/known-errors", "Known errors of released versions"),
         *((peers(verification.peers),) if verification.peers else ()),
-        software(machine),
+        section("manual/software", "Software and machine"),
     )
 
 

@@ -20,14 +20,6 @@ from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import Check, Verification
 from solver.verification.features import statuses
 
-_KEY_RESULTS = (
-    (words("Quantity", 2.6), str),
-    (words("Result", 2.9), str),
-    (words("Section", 0.7), str),
-)
-"""Its rows are in the template."""
-
-
 _TIME = "time per run [s]"
 
 
@@ -46,7 +38,6 @@ def summary(verification: Verification) -> Section:
     return section(
         "manual/summary",
         "Summary",
-        key_results=listed((), _KEY_RESULTS),
         floor=floor(verification),
         exact_s=work.loc[work["method"] == "exact", _TIME].median(),
         times_longer=(beside[f"{_TIME}_x"] / beside[f"{_TIME}_y"]).median(),

@@ -1,9 +1,9 @@
-"""Sections that consist of tables: checks, methods, other programs, software."""
+"""Sections that consist of tables: checks, methods, other programs."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from report.document.sections import Section, section
 from report.document.tables import grouped, listed
@@ -50,11 +50,6 @@ _PEER = (
     (text("Error in PRD"), lambda peer: _error(peer.prd_error_percent)),
 )
 
-_VERSION = (
-    (words("Item"), lambda row: row[0]),
-    (words("Version or description", 3.0), lambda row: row[1]),
-)
-
 
 def checks(verification: Verification) -> Section:
     """Return every check, a table for each section."""
@@ -97,12 +92,3 @@ def peers(points: Sequence[PeerPoint]) -> Section:
 
 def _error(value_percent: float) -> str:
     return "failed" if math.isnan(value_percent) else percent(value_percent)
-
-
-def software(machine: Mapping[str, str]) -> Section:
-    """Return versions and the machine."""
-    return section(
-        "manual/software",
-        "Software and machine",
-        versions=listed(machine.items(), _VERSION),
-    )

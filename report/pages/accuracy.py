@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, by_id
 from report.assessment.evidence import Evidence
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, Rivals
-from report.document.tables import Column, Table, listed
+from report.document.tables import Column, Table, by_place, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import length, text, words
 from report.pages.parts import PackageData
@@ -61,11 +60,11 @@ def _methods(package: PackageData, rivals: Rivals) -> Table:
         for run in rivals.runs
         if run.is_default
     ]
-    columns = (
-        (words("Method", 3.0), itemgetter(0)),
-        (words("Parameters", 2.4), itemgetter(1)),
-        (length("PRD", 0.9), itemgetter(2)),
-        (text("Error in PRD", "%", 1.1), itemgetter(3)),
+    columns = by_place(
+        words("Method", 3.0),
+        words("Parameters", 2.4),
+        length("PRD", 0.9),
+        text("Error in PRD", "%", 1.1),
     )
     return listed(
         (exact, *others),

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.friction import mu_words
@@ -21,7 +20,7 @@ from report.assessment.friction_rows import (
 )
 from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
 from report.assessment.verdict import NOT_GIVEN
-from report.document.tables import Table, Wide, listed, stamp
+from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
@@ -49,7 +48,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     beyond = (row for row in given.rows if row.id == VELOCITY_ROW)
     return {
         "is_reported": tests != FrictionTests(),
-        "report": _report(package),
+        "report": [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED],
         "missing": [label.lower() for label, field in _STATED if not getattr(tests, field)],
         "runs": _runs(package),
         "n_drawn": _n_drawn(data),
@@ -89,21 +88,14 @@ def _n_drawn(data: ProjectInput) -> int:
     return sum(not math.isnan(run.velocity_mps) for one in tested(data) for run in one.runs)
 
 
-def _report(package: PackageData) -> Table:
-    tests = package.data.friction_tests
-    values = [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED]
-    columns = ((words("Item"), itemgetter(0)), (words("As given", 3.0), itemgetter(1)))
-    return listed(values, columns, package.fmt)
-
-
 def _runs(package: PackageData) -> Table:
-    columns = (
-        (words("Report", 1.6), itemgetter(0)),
-        (words("Surface"), itemgetter(1)),
-        (text("Run", share=0.6), itemgetter(2)),
-        (Shown(head="Velocity", quantity=Quantity.VELOCITY), itemgetter(3)),
-        (text("Kinetic μ"), itemgetter(4)),
-        (text("Static μ"), itemgetter(5)),
+    columns = by_place(
+        words("Report", 1.6),
+        words("Surface"),
+        text("Run", share=0.6),
+        Shown(head="Velocity", quantity=Quantity.VELOCITY),
+        text("Kinetic μ"),
+        text("Static μ"),
     )
     return listed(
         (row for one in tested(package.data) for row in _run_rows(package.data, one)),
@@ -130,14 +122,14 @@ def _run_rows(data: ProjectInput, one: Series) -> Iterator[tuple[object, ...]]:
 
 
 def _velocities(package: PackageData) -> Table:
-    columns = (
-        (words("Array", 0.6), itemgetter(0)),
-        (text("μ", "as run", 1.5), itemgetter(1)),
-        (Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8), itemgetter(2)),
-        (Shown(head="Tested to", quantity=Quantity.VELOCITY, share=0.8), itemgetter(3)),
-        (text("μ beyond", "largest", 0.9), itemgetter(4)),
-        (text("μ tested", "smallest", 0.9), itemgetter(5)),
-        (centered("Verdict", 1.8), itemgetter(6)),
+    columns = by_place(
+        words("Array", 0.6),
+        text("μ", "as run", 1.5),
+        Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8),
+        Shown(head="Tested to", quantity=Quantity.VELOCITY, share=0.8),
+        text("μ beyond", "largest", 0.9),
+        text("μ tested", "smallest", 0.9),
+        centered("Verdict", 1.8),
     )
     rows = [_velocity(package.data, item) for item in package.assessment.arrays]
     return listed(rows, columns, package.fmt, kind="compact")

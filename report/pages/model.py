@@ -9,11 +9,10 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from operator import itemgetter
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import REQUESTED_MODELS, OrientedRun, nan_is_worst
-from report.document.tables import Table, Wide, listed
+from report.document.tables import Table, Wide, by_place, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import centered, length, plain, text, words
 from report.pages import links
@@ -137,12 +136,12 @@ _Neglected = tuple[str, str, float | Wide | str, float | str, str]
 
 
 def _neglected_table(package: PackageData) -> Table:
-    columns = (
-        (words("Array", 0.8), itemgetter(0)),
-        (words("Neglected", 3.1), itemgetter(1)),
-        (length("PRD, at most", 0.9), itemgetter(2)),
-        (length("Design displ., at most", 0.9), itemgetter(3)),
-        (words("Basis", 3.6), itemgetter(4)),
+    columns = by_place(
+        words("Array", 0.8),
+        words("Neglected", 3.1),
+        length("PRD, at most", 0.9),
+        length("Design displ., at most", 0.9),
+        words("Basis", 3.6),
     )
     effects = [row for array in package.assessment.arrays for row in _neglected(array)]
     return listed(effects, columns, package.fmt, kind="compact")

@@ -29,19 +29,11 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         (text("Value", share=0.8), lambda row: f"{row.value:.6g}†‡"),
         (words("Reason given in the workbook", 4.0), lambda row: row.reason),
     )
-    departure = (
-        (words("Departure", 3.0), str),
-        (words("Reason given in the workbook", 3.0), str),
-        (words("Reviewer", 1.6), str),
-        (words("License", 1.2), str),
-        (words("Date"), str),
-    )
     return {
         "table": listed(named, columns, fmt, kind="compact"),
         "noted": [(name, provision) for name, provision in named if provision.note],
         "unverified": UNVERIFIED,
         "overrides": listed(package.data.overrides, overridden, fmt),
-        "departure": listed((), departure),
     }
 
 

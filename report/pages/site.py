@@ -7,21 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from report.document.tables import listed
-from report.entities.shown import text, words
 from report.pages.parts import PackageData
 from report.sheet.schema import RiskCategory, Site
 from solver.building.periods import approximate_period_s
 from solver.rules import hazard
 from solver.rules.hazard import ComponentForce, component_force
-
-_COLUMNS = (
-    (words("Description", 3.55), str),
-    (words("Symbol", 0.7), str),
-    (text("Value", share=2.0), str),
-    (words("Reference", 2.55), str),
-    (words("Source", 0.9), str),
-)
 
 
 def site(package: PackageData) -> Mapping[str, object]:
@@ -35,7 +25,6 @@ def site(package: PackageData) -> Mapping[str, object]:
         is_essential=site.risk_category is RiskCategory.IV,
     )
     return {
-        "columns": listed((), _COLUMNS, kind="compact"),
         "i_p": tuple(dict.fromkeys((factors[0], factors[-1]))),
         "period_s": approximate_period_s(building.structure or "other", site.structure_height_m),
         "force": site_force(package),

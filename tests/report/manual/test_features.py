@@ -9,8 +9,9 @@ import pytest
 
 import printed
 import tables
+from report.document.sections import section
 from report.figures.base import load_fonts
-from report.manual.features import features, known_errors
+from report.manual.features import features
 from report.manual.shake_table import result, shake_table
 from report.typeset.pdf import TEMPLATES
 from report.words.validation import NOT_VALIDATED, explained
@@ -164,7 +165,7 @@ def test_the_chart_has_a_dot_for_each_test(table):
 
 
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():
-    said = page(known_errors())
+    said = page(section("manual/known-errors", "Known errors"))
     heads = [found for cells in said.table("Errors").cells if (found := RELEASE.match(cells[0]))]
     errors = [cells for cells in said.table("Errors").cells if cells[1]]
     assert sum(int(head["count"]) for head in heads) == len(errors) > 0
