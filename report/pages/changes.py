@@ -5,14 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from report.assessment.changes import ChangeKind, Changes
-from report.document.tables import listed
-from report.entities.shown import words
 from report.pages.parts import PackageData
-
-
-def title(changes: Changes) -> str:
-    """Return the heading of the page."""
-    return f"Changes since revision {changes.revision}"
 
 
 def counted(changes: Changes) -> str:
@@ -26,16 +19,9 @@ def counted(changes: Changes) -> str:
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the changes as a table."""
-    columns = (
-        (words("Kind", 1.2), lambda item: item.kind.value),
-        (words("Quantity", 2.6), lambda item: item.title),
-        (words("Cell", 1.1), lambda item: item.cell),
-        (words("Before", 2.2), lambda item: item.before),
-        (words("Now", 2.2), lambda item: item.now),
-    )
-    changes = package.changes
+    """Return the changes as rows of a table."""
+    items = package.changes.items
     return {
-        "counted": counted(changes),
-        "table": listed(changes.items, columns, package.fmt),
+        "counted": counted(package.changes),
+        "rows": [(item.kind.value, item.title, item.cell, item.before, item.now) for item in items],
     }

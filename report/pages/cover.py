@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.runs import nan_is_worst
-from report.document.tables import Table, listed
-from report.entities.shown import words
 from report.pages.parts import PackageData
 from report.pages.symbols import friction_standard
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
@@ -26,7 +24,7 @@ def cover(package: PackageData) -> Mapping[str, object]:
         "n_records": len(record_paths(records)),
         "has_records": holds_records(records),
         "records_mb": record_bytes(records) / 1e6,
-        "revisions": _revisions(package),
+        "revisions": list(_revisions(package)),
     }
 
 
@@ -45,7 +43,8 @@ def _governing_clearance(package: PackageData) -> ClearanceCheck | None:
     return max(gaps, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
 
 
-def _revisions(package: PackageData) -> Table:
+def _revisions(package: PackageData) -> Iterator[Sequence[object]]:
+    """Yield revision, date, description and author of each, or of the first issue."""
     project = package.data.project
     first = Revision(
         revision=project.revision,
@@ -53,10 +52,5 @@ def _revisions(package: PackageData) -> Table:
         description="First issue",
         by=project.prepared_by,
     )
-    columns = (
-        (words("Rev.", 0.6), lambda row: row.revision),
-        (words("Date", 1.2), lambda row: row.date),
-        (words("Description", 4.0), lambda row: row.description),
-        (words("By", 1.8), lambda row: row.by or "—"),
-    )
-    return listed(package.data.revisions or [first], columns, package.fmt)
+    for row in package.data.revisions or [first]:
+        yield row.revision, row.date, row.description, row.by or "—"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.precheck import findings
@@ -101,25 +101,17 @@ def limits(package: PackageData) -> Mapping[str, object]:
         "routes": package.routes,
         "arrays": tuple(array_results(package)),
         "requirements": _requirements(package),
-        "warnings": _warnings(package),
+        "warnings": list(_warnings(package)),
     }
 
 
-def _warnings(package: PackageData) -> Table:
-    """Return the warnings on the input with the reasons that the workbook gives.
+def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
+    """Yield cells, text and reason of each warning on the input.
 
     A contradiction of the plan is also among the requirements.
     """
     sheet = package.assessment.sheet
     found = findings(sheet, package.assessment.shaking)
     warnings = [finding for finding in found if finding.level is Level.WARNING]
-    columns = (
-        (words("Cell", 1.2), lambda line: line.cells),
-        (words("Warning", 5.6), lambda line: f"{line.finding.text}."),
-        (
-            words("Reason given in the workbook", 3.2),
-            lambda line: line.finding.reason or "not acknowledged",
-        ),
-    )
-    rows = lines(warnings, sheet.addresses)
-    return listed(rows, columns, package.fmt)
+    for line in lines(warnings, sheet.addresses):
+        yield line.cells, f"{line.finding.text}.", line.finding.reason or "not acknowledged"

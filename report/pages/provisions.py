@@ -16,7 +16,7 @@ from solver.rules.provisions import OVERRIDABLE, Provision
 
 def provisions(package: PackageData) -> Mapping[str, object]:
     """Return every number of the rule set with its status, and the overrides."""
-    rules, fmt = package.assessment.rules, package.fmt
+    rules = package.assessment.rules
     named = [(_sentence_case(OVERRIDABLE[key]), value) for key, value in rules.values.items()]
     columns = (
         (words("Provision", 5.2), lambda row: row[0]),
@@ -24,16 +24,14 @@ def provisions(package: PackageData) -> Mapping[str, object]:
         (words("Clause", 1.7), lambda row: row[1].clause),
         (words("Status", 1.5), lambda row: _standing(row[1])),
     )
-    overridden = (
-        (words("Provision", 3.0), lambda row: _sentence_case(OVERRIDABLE[row.provision])),
-        (text("Value", share=0.8), lambda row: f"{row.value:.6g}†‡"),
-        (words("Reason given in the workbook", 4.0), lambda row: row.reason),
-    )
     return {
-        "table": listed(named, columns, fmt, kind="compact"),
+        "table": listed(named, columns, package.fmt, kind="compact"),
         "noted": [(name, provision) for name, provision in named if provision.note],
         "unverified": UNVERIFIED,
-        "overrides": listed(package.data.overrides, overridden, fmt),
+        "overrides": [
+            (_sentence_case(OVERRIDABLE[row.provision]), f"{row.value:.6g}†‡", row.reason)
+            for row in package.data.overrides
+        ],
     }
 
 

@@ -96,7 +96,8 @@ CHANGES = Page("changes", "Changes", _alone(changes.page), is_appendix=True)
 
 def pages_of(since: Changes) -> tuple[Page, ...]:
     """Return the pages of a package: with the changes only where they are asked for."""
-    return (*PAGES, replace(CHANGES, title=changes.title(since))) if since.is_asked_for else PAGES
+    title = f"Changes since revision {since.revision}"
+    return (*PAGES, replace(CHANGES, title=title)) if since.is_asked_for else PAGES
 
 
 def package_data(assessment: Assessment, since: Changes = NO_FORMER) -> PackageData:

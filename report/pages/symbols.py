@@ -9,8 +9,6 @@ from itertools import zip_longest
 from markupsafe import Markup, escape
 
 from report.assessment.friction_rows import STANDARD
-from report.document.tables import listed
-from report.entities.shown import words
 from report.pages.parts import PackageData
 from report.typeset.equations import symbol
 
@@ -108,16 +106,10 @@ def friction_standard(package: PackageData) -> str:
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the list of symbols, and what the list of references needs beside the package."""
-    items = list(SYMBOLS.items())
+    items = [(symbol(name), with_symbols(meaning)) for name, meaning in SYMBOLS.items()]
     half = (len(items) + 1) // 2
-    rows = zip_longest(items[:half], items[half:], fillvalue=("", ""))
-    columns = (
-        (words("Symbol", 0.5), lambda row: symbol(row[0][0])),
-        (words("Meaning", 3.0), lambda row: with_symbols(row[0][1])),
-        (words("Symbol", 0.5), lambda row: row[1][0] and symbol(row[1][0])),
-        (words("Meaning", 3.0), lambda row: with_symbols(row[1][1])),
-    )
+    pairs = zip_longest(items[:half], items[half:], fillvalue=("", ""))
     return {
-        "table": listed(rows, columns, package.fmt, kind="compact"),
+        "rows": [[*left, *right] for left, right in pairs],
         "friction_standard": friction_standard(package),
     }

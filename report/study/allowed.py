@@ -11,7 +11,7 @@ import numpy as np
 from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, text
-from report.study.page_parts import MOST_LINES, axis, some
+from report.study.page_parts import MOST_LINES, some
 from report.study.results import FRICTION_DECIMALS, MEAN, SLOPE_DECIMALS, StudyResults
 from report.study.words import on_building, shown
 from solver.model import Floats
@@ -28,10 +28,7 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
         "study/allowed",
         f"Least friction and largest slope{on_building(results, building, ', building ')}",
         id=f"allowed-{building}",
-        allowed_m=allowed_m,
         floor_alone=list(_floor_alone(results, allowed_m)),
-        ibc=results.plan.design_rule.rules.values["ibc_max_slope_deg"].clause,
-        axis=axis(results),
         frictions=frictions,
         slopes=slopes,
         answers=[

@@ -27,9 +27,9 @@ from report.study.tables import length_unit
 from report.study.words import both, on_building
 from report.words.formats import slug
 from report.words.units import digits_down, digits_up, number, round_up
-from solver.studies.capacity import ACCURACY
-from solver.studies.fragility import CONFIDENCE, LEVEL, LILLIEFORS_REPEATS, REPEATS
-from solver.studies.uncertainty import HIGH, LOW
+from solver.studies import capacity, uncertainty
+from solver.studies import fragility as fits
+from solver.studies.fragility import CONFIDENCE
 
 
 def fragility(results: StudyResults, one: ArrayStudyResult) -> Section:
@@ -41,22 +41,13 @@ def fragility(results: StudyResults, one: ArrayStudyResult) -> Section:
         f"Fragility of {name}",
         id=f"array-{slug(name)}",
         one=one,
-        array=one.plan.array,
-        counts=one.states[0].fragility,
-        unknown=[state.name for state in one.states if state not in known],
         is_left_out=is_exportable(results) and not has_probabilities(one),
-        axis=axis(results),
         states=_states(results, one),
         exported=_exported(results, one, known),
-        no_center=math.isnan(one.center_m),
-        ACCURACY=ACCURACY,
-        CONFIDENCE=CONFIDENCE,
-        HIGH=HIGH,
-        LEVEL=LEVEL,
-        LILLIEFORS_REPEATS=LILLIEFORS_REPEATS,
-        LOW=LOW,
         MASS=MASS,
-        REPEATS=REPEATS,
+        capacity=capacity,
+        fits=fits,
+        uncertainty=uncertainty,
         charts=dict(_charts(results, one)),
     )
 

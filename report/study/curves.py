@@ -18,10 +18,10 @@ from report.study.page_parts import (
     MOST_FRICTIONS,
     MOST_LINES,
     axis,
+    by_intensity,
     design_length,
     friction_name,
     length,
-    low,
     some,
 )
 from report.study.results import STATISTICS, StudyResults
@@ -62,17 +62,9 @@ def _drawn(results: StudyResults, building: int) -> tuple[Floats, Floats]:
 
 
 def _against_intensity(results: StudyResults, building: int, m: int) -> str:
-    given = results.plan.input
-    shown = some(given.slopes_deg, MOST_LINES)
     values, mean = _drawn(results, building)
-    return figures.curves(
-        np.array(given.intensities),
-        [(f"{given.slopes_deg[s]:g}°", values[s, m]) for s in shown],
-        length_unit(results),
-        along=axis(results),
-        low=low(results),
-        beside=[mean[s, m] for s in shown],
-    )
+    shown = some(results.plan.input.slopes_deg, MOST_LINES)
+    return by_intensity(results, values, m, beside=[mean[s, m] for s in shown])
 
 
 def _against_slope(results: StudyResults, building: int, m: int) -> str:

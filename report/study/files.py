@@ -54,11 +54,7 @@ def study_html(results: StudyResults) -> str:
 def sections(results: StudyResults) -> tuple[Section, ...]:
     """Return all sections except the cover and the contents."""
     allowed_m = results.plan.input.study.allowed_m
-    first = section(
-        "study/results",
-        "Results",
-        content={"headline": headline(results)},
-    )
+    first = section("study/results", "Results", headline=headline(results))
     found = [first, basis(results)]
     for b in range(len(results.plan.motions.buildings)):
         found.append(curves(results, b))

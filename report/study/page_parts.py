@@ -1,14 +1,19 @@
-"""What several sections of study.pdf share: which cases are shown, and lengths."""
+"""What several sections of study.pdf share: which cases are shown, a chart, and lengths."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
+import numpy as np
+
+from report.study import figures
 from report.study.results import StudyResults
 from report.study.tables import length_unit
 from report.words.counts import joined
 from report.words.units import measured, no_less
+from solver.model import Floats
 
 MOST_LINES = 8
 """Lines of a chart."""
@@ -37,9 +42,25 @@ def axis(results: StudyResults) -> str:
     return results.plan.input.study.intensity.value
 
 
-def low(results: StudyResults) -> float:
-    """Return the intensity up to which curves are also drawn on a logarithmic axis."""
-    return LOW_G if results.plan.input.study.intensity.unit == "g" else -math.inf
+def by_intensity(results: StudyResults, values: Floats, m: int, **more: Any) -> str:
+    """Return displacements at a friction coefficient over intensity, a line for each slope.
+
+    Parameters
+    ----------
+    values : array, shape (slopes, frictions, intensities)
+        Displacements [m].
+    more : optional
+        As `figures.curves` has it.
+    """
+    given = results.plan.input
+    return figures.curves(
+        np.array(given.intensities),
+        [(f"{given.slopes_deg[s]:g}°", values[s, m]) for s in some(given.slopes_deg, MOST_LINES)],
+        length_unit(results),
+        along=axis(results),
+        low=LOW_G if given.study.intensity.unit == "g" else -math.inf,
+        **more,
+    )
 
 
 def length(results: StudyResults, value_m: float) -> str:

@@ -16,10 +16,8 @@ from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.entities.shown import centered, text, words
 from report.pages.symbols import with_symbols
-from report.study import figures
-from report.study.page_parts import MOST_FRICTIONS, MOST_LINES, axis, friction_name, low, some
+from report.study.page_parts import MOST_FRICTIONS, axis, by_intensity, friction_name, some
 from report.study.results import StudyResults
-from report.study.tables import length_unit
 from report.study.words import on_building
 from report.words.units import number, round_down
 from solver.model import Floats
@@ -80,9 +78,7 @@ def prescribed(results: StudyResults, building: int, found: Prescribed) -> Secti
         "study/prescribed",
         "Beside the prescriptive displacement" + on_building(results, building, ", building "),
         id=f"prescribed-{building}",
-        cases=found.ratio.size,
-        unsafe=int(found.unsafe.sum()),
-        outside=int(found.unsafe_not_permitted.sum()),
+        found=found,
         slopes=slopes,
         mus=mus,
         steepest_mu=required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"])),
@@ -102,18 +98,9 @@ def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> tuple[list[float
 
 
 def _chart(results: StudyResults, building: int, m: int) -> str:
-    given, rule = results.plan.input, results.plan.design_rule
-    return figures.curves(
-        np.array(given.intensities),
-        [
-            (f"{given.slopes_deg[s]:g}°", results.analysis_m[building, s, m])
-            for s in some(given.slopes_deg, MOST_LINES)
-        ],
-        length_unit(results),
-        along=axis(results),
-        low=low(results),
-        limits=((rule.rules.name, rule.prescriptive_m),),
-    )
+    rule = results.plan.design_rule
+    limits = ((rule.rules.name, rule.prescriptive_m),)
+    return by_intensity(results, results.analysis_m[building], m, limits=limits)
 
 
 def _table(results: StudyResults, found: Prescribed) -> Table:
