@@ -24,11 +24,6 @@ class Part:
     title: str
     parts: tuple[Part, ...] = field(default=())
 
-    @property
-    def set(self) -> str:
-        """Style of the list of its parts in the table of contents."""
-        return "many" if len(self.parts) > 6 else "few"
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Section:

@@ -36,7 +36,7 @@ class Wide:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TableRow:
-    """A row of formatted strings; `kind` is a style: total, counts or empty."""
+    """A row of formatted strings; `kind` is its style, such as total."""
 
     cells: tuple[str | Wide, ...]
     kind: str = ""
@@ -76,11 +76,6 @@ class Table:
     def hold(self) -> str:
         """Style that keeps a short table on one page and lets a long one break."""
         return "whole" if len(self.rows) <= self.whole_rows else "split"
-
-    @property
-    def has_units(self) -> bool:
-        """Whether any column has a unit."""
-        return any(column.unit for column in self.columns)
 
 
 def _placed(

@@ -34,7 +34,7 @@ from report.words.counts import (
     spelled,
 )
 from report.words.formats import general, percent, scientific, seconds, shortened
-from report.words.letters import below_mm, power_above
+from report.words.letters import below_mm, lettered, power_above
 from report.words.units import digits_down, digits_up, number, ratio
 
 if TYPE_CHECKING:
@@ -89,6 +89,7 @@ def _environment(folder: Path) -> Environment:
         "friction": mu_words,
         "general": general,
         "joined": joined,
+        "lettered": lettered,
         "lowered": lowered,
         "merged": merged,
         "named": named,

@@ -17,7 +17,6 @@ from report.document.sections import Section, filled, section
 from report.document.templates import rendered
 from report.figures.base import load_fonts
 from report.manual.building import building
-from report.manual.features import features
 from report.manual.machine import this_machine
 from report.manual.models import models
 from report.manual.precision import work
@@ -25,13 +24,15 @@ from report.manual.robustness import conditioning, stability
 from report.manual.shake_table import shake_table
 from report.manual.studies import convergence, curves, links
 from report.manual.summary import judged, summary
-from report.manual.tables import checks, methods, peers
+from report.manual.tables import checks, peers
 from report.pages.symbols import with_symbols
 from report.typeset.pdf import TEMPLATES, lay_out
 from report.words.validation import validation
+from solver.rivals.methods import METHODS
 from solver.verification import model_evidence, model_study, static_study
 from solver.verification import shake_table as accepted
 from solver.verification.evidence import Verification
+from solver.verification.features import statuses
 
 _CONSTANTS = {
     "building_rules": solver.building.roof,
@@ -84,6 +85,7 @@ def manual_html(
         "with_symbols": with_symbols,
         "verdict": judged(verification.passed and len(verification.checks) > 0),
         "n_passed": sum(row.passed for row in verification.checks),
+        "features": statuses(verification.checks, verification.tables),
         "validation": validation(verification.tables),
         "machine": machine,
         "version": machine["Roofslip"],
@@ -102,7 +104,7 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         summary(verification),
         section("manual/scope", "Scope and terms"),
         checks(verification),
-        methods(),
+        section("manual/methods", "Methods compared", methods=METHODS.values()),
         work(verification),
         stability(verification),
         convergence(verification),
@@ -112,7 +114,7 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         building(verification),
         *((models(verification),) if verification.models else ()),
         shake_table(verification),
-        features(verification),
+        section("manual/features", "Status of each feature"),
         section("manual/known-errors", "Known errors of released versions"),
         *((peers(verification.peers),) if verification.peers else ()),
         section("manual/software", "Software and machine"),

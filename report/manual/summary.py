@@ -18,7 +18,6 @@ from report.words.counts import grouped_by
 from report.words.formats import scientific
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import Check, Verification
-from solver.verification.features import statuses
 
 _TIME = "time per run [s]"
 
@@ -51,7 +50,6 @@ def summary(verification: Verification) -> Section:
         PAPER_WORST_PERCENT=studies.PAPER_WORST_PERCENT,
         PAPER_MEAN_PERCENT=studies.PAPER_MEAN_PERCENT,
         BY_HEIGHT=BY_HEIGHT,
-        features=statuses(verification.checks, verification.tables),
         by_section=_by_section(verification.checks),
     )
 

@@ -1,4 +1,4 @@
-"""Sections that consist of tables: checks, methods, other programs."""
+"""Sections that consist of tables: checks, other programs."""
 
 from __future__ import annotations
 
@@ -6,14 +6,12 @@ import math
 from collections.abc import Sequence
 
 from report.document.sections import Section, section
-from report.document.tables import grouped, listed
+from report.document.tables import grouped
 from report.entities.shown import centered, text, words
 from report.manual.summary import judged
 from report.words.counts import grouped_by
 from report.words.formats import percent, scientific, seconds, ten_digits, unbroken
 from report.words.letters import lettered
-from report.words.units import number
-from solver.rivals.methods import METHODS
 from solver.verification.evidence import Check, PeerPoint, Verification
 
 _CHECK = (
@@ -24,23 +22,6 @@ _CHECK = (
     (text("Error", share=1.1), lambda row: scientific(row.error)),
     (text("Tolerance", share=1.1), lambda row: scientific(row.tolerance)),
     (centered("Result", 0.7), lambda row: judged(row.passed)),
-)
-
-_KNOBS = {
-    "": "no setting",
-    "substeps": "sub-steps per interval",
-    "stiffness_per_m": "link stiffness [1/m]",
-    "tolerance": "relative tolerance",
-    "velocity_mps": "velocity v0 [m/s]",
-}
-
-_METHOD = (
-    (words("Method", 1.7), lambda method: lettered(method.title)),
-    (words("Accuracy set by", 1.5), lambda method: _KNOBS[method.knob]),
-    (centered("Order", 0.55), lambda method: number(method.order, 0)),
-    (centered("Vertical", 0.75), lambda method: "yes" if method.takes_vertical else "no"),
-    (words("Limitations", 3.6), lambda method: lettered(method.invalid_when)),
-    (words("Source", 2.6), lambda method: lettered(method.source)),
 )
 
 _PEER = (
@@ -69,15 +50,6 @@ def checks(verification: Verification) -> Section:
 
 def _quantity(row: Check) -> str:
     return row.quantity if row.unit == "1" else f"{row.quantity} [{lettered(row.unit)}]"
-
-
-def methods() -> Section:
-    """Return the table of methods."""
-    return section(
-        "manual/methods",
-        "Methods compared",
-        methods=listed(METHODS.values(), _METHOD, kind="compact"),
-    )
 
 
 def peers(points: Sequence[PeerPoint]) -> Section:

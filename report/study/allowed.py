@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
@@ -13,7 +12,7 @@ from report.document.tables import Table, listed
 from report.entities.shown import Shown, text
 from report.study.page_parts import MOST_LINES, some
 from report.study.results import FRICTION_DECIMALS, MEAN, SLOPE_DECIMALS, StudyResults
-from report.study.words import on_building, shown
+from report.study.words import answer, on_building, shown
 from solver.model import Floats
 
 
@@ -22,8 +21,8 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
     given = results.plan.input
     frictions = [shown(mu, FRICTION_DECIMALS) for mu in (given.mus[0], given.mus[-1])]
     slopes = [shown(s, SLOPE_DECIMALS) for s in (given.slopes_deg[0], given.slopes_deg[-1])]
-    least = partial(_answer, end=given.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
-    largest = partial(_answer, end=given.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
+    least = partial(answer, end=given.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
+    largest = partial(answer, end=given.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
     return section(
         "study/allowed",
         f"Least friction and largest slope{on_building(results, building, ', building ')}",
@@ -67,9 +66,3 @@ def _table(
     ]
     rows = zip(along, answers, strict=True)
     return listed(rows, [(head, lambda row: f"{row[0]:g}"), *columns], kind="compact")
-
-
-def _answer(value: float, end: float, mark: str, decimals: int) -> str:
-    if math.isnan(value):
-        return "none"
-    return f"{mark} {shown(end, decimals)}" if value == end else shown(value, decimals)

@@ -15,11 +15,11 @@ import numpy as np
 
 from report.document.templates import said
 from report.sheet.schema import RecordedAt
-from report.study.dispersion import MASS, dispersions, exported, is_refused
+from report.study.dispersion import MASS, NOT_DETERMINED, dispersions, exported, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
 from report.study.tables import Row, csv_text
-from report.study.words import NO_NUMBER, context, warning
+from report.study.words import context, warning
 from report.typeset.pdf import TEMPLATES
 from report.words.counts import capitalized
 from report.words.units import digits_down, digits_up, round_up
@@ -133,7 +133,7 @@ def _cells(results: StudyResults, one: ArrayStudyResult, state: LimitState) -> l
     """Return the columns of a limit state; an undetermined one has its description alone."""
     f = exported(results, one, state)
     if not f.is_known:
-        return ["", "", "", "", f"{_sentence(state.words)} {_sentence(NO_NUMBER)}"]
+        return ["", "", "", "", f"{_sentence(state.words)} {_sentence(NOT_DETERMINED)}"]
     about = f"{_sentence(state.words)}{_warned(results)}"
     return ["lognormal", digits_down(f.theta, 6), digits_up(f.beta, 6), "", about]
 

@@ -15,13 +15,12 @@ from report.entities.columns import UnitFormat
 from report.entities.marks import UNVERIFIED
 from report.pages.symbols import with_symbols
 from report.study.design import I_E, SDC
-from report.study.dispersion import is_refused, is_warned
+from report.study.dispersion import NOT_DETERMINED, is_refused, is_warned
 from report.study.results import MEAN, SLOPE_DECIMALS, StudyResults
 from report.typeset.pdf import TEMPLATES
 from report.words.units import no_less
 from solver.rules.provisions import SEPARATION_KEYS
 
-NO_NUMBER = "not determined"
 _SENTENCES = "study/sentences.html"
 
 
@@ -42,7 +41,7 @@ def context(results: StudyResults) -> dict[str, Any]:
         "is_warned": is_warned(results),
         "I_E": I_E,
         "MEAN": MEAN,
-        "NO_NUMBER": NO_NUMBER,
+        "NOT_DETERMINED": NOT_DETERMINED,
         "SDC": SDC,
         "UNVERIFIED": UNVERIFIED,
     }
@@ -106,8 +105,14 @@ def _steepest(results: StudyResults) -> Iterator[tuple[str, float, list[str]]]:
 def _slope(results: StudyResults, slope: float) -> str:
     if math.isnan(slope):
         return "none of the study"
-    least = "≥ " if slope == results.plan.input.slopes_deg[-1] else ""
-    return f"{least}{shown(slope, SLOPE_DECIMALS)} deg"
+    return f"{answer(slope, results.plan.input.slopes_deg[-1], '≥', SLOPE_DECIMALS)} deg"
+
+
+def answer(value: float, end: float, mark: str, decimals: int) -> str:
+    """Return an answer, marked where it is an end of the study; "none" for NaN."""
+    if math.isnan(value):
+        return "none"
+    return f"{mark} {shown(end, decimals)}" if value == end else shown(value, decimals)
 
 
 def shown(value: float, decimals: int) -> str:

@@ -11,7 +11,6 @@ import printed
 import tables
 from report.document.sections import section
 from report.figures.base import load_fonts
-from report.manual.features import features
 from report.manual.shake_table import result, shake_table
 from report.typeset.pdf import TEMPLATES
 from report.words.validation import NOT_VALIDATED, explained
@@ -42,7 +41,8 @@ def page(section):
 
 def features_of(checks, *found):
     """The rows of the table of features by name."""
-    table = page(features(only(checks=tuple(checks), tables=found))).table("Features")
+    given = only(checks=tuple(checks), tables=found)
+    table = printed.manual(given, section("manual/features", "Features")).table("Features")
     return {name: list(cells) for name, *cells in table.cells}
 
 
