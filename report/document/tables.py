@@ -151,12 +151,18 @@ def by_place(*heads: Shown) -> Sequence[Column]:
 
 
 def headed(*columns: Sequence[Any], rows: Iterable[Sequence[Any]] = (), kind: str = "") -> Table:
-    """Return a table of a template: columns by heading, share and alignment, and rows of values."""
-    shown = [
-        Shown(head=head, share=share, align=align)
-        for head, share, align in ((*column, "left")[:3] for column in columns)
-    ]
-    return listed(rows, by_place(*shown), kind=kind)
+    """Return a table of a template, with rows of values or none, which `framed` then has.
+
+    Parameters
+    ----------
+    columns : sequence
+        Heading and share of each; then its alignment if it is not left, and its unit if it has one.
+    """
+
+    def shown(head: str, share: float, align: str = "left", unit: str = "") -> Shown:
+        return Shown(head=head, share=share, align=align, unit=unit)
+
+    return listed(rows, by_place(*(shown(*column) for column in columns)), kind=kind)
 
 
 def listed(

@@ -10,13 +10,12 @@ import numpy as np
 import pandas as pd
 
 from report.document.sections import Section, section
-from report.document.tables import Column, Table, listed
+from report.document.tables import Column, listed
 from report.entities.shown import plain, text, words
 from report.figures import models as figures
 from report.figures.scales import power_of_ten
 from report.words.formats import general, percent, scientific, seconds, ten_digits, two_digits
 from report.words.letters import lettered
-from report.words.units import number
 from solver.verification.evidence import Verification
 from solver.verification.model_evidence import ModelEvidence, StaticEvidence
 
@@ -99,30 +98,12 @@ def _found(evidence: ModelEvidence) -> Mapping[str, Any]:
     study, static = evidence.study, evidence.static
     return {
         "changes": listed(study.changes, _CHANGE, kind="compact"),
-        "times": _times(evidence.times),
         "work": listed(_shown(evidence.work), _WORK, kind="compact"),
         "bounds": listed(evidence.bounds, _BOUND, kind="compact"),
         "stops": listed(evidence.stops.to_dict("records"), _STOP, kind="compact"),
         "pushed": listed(static.pushed.itertuples(), _PUSHED, kind="compact"),
         **(_static(static) if static.n_scenes else {}),
     }
-
-
-def _times(times: Mapping[str, float]) -> Table:
-    one_axis_s = next(iter(times.values()))
-
-    def ratio(time_s: float) -> str:
-        return number(time_s / one_axis_s, 0 if time_s >= 10.0 * one_axis_s else 1)
-
-    return listed(
-        times.items(),
-        (
-            (words("Model", 3.0), lambda time: time[0]),
-            (text("Time per run", share=1.2), lambda time: seconds(time[1])),
-            (text("Ratio to one axis", share=1.2), lambda time: ratio(time[1])),
-        ),
-        kind="compact",
-    )
 
 
 def _static(static: StaticEvidence) -> Mapping[str, Any]:

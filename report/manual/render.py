@@ -82,6 +82,7 @@ def manual_html(
     styles = (TEMPLATES / name for name in ("package.css", "verification.css"))
     context: dict[str, Any] = _CONSTANTS | {
         "v": verification,
+        "judged": judged,
         "with_symbols": with_symbols,
         "verdict": judged(verification.passed and len(verification.checks) > 0),
         "n_passed": sum(row.passed for row in verification.checks),

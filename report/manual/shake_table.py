@@ -6,10 +6,9 @@ import math
 from collections.abc import Iterator
 
 from report.document.sections import Section, section
-from report.document.tables import grouped, listed
-from report.entities.shown import centered, plain, text, words
+from report.document.tables import grouped
+from report.entities.shown import plain, text, words
 from report.figures.shake_table import computed_against_measured
-from report.manual.summary import judged
 from report.words.counts import grouped_by, joined
 from report.words.units import number
 from report.words.validation import NOT_VALIDATED, explained
@@ -33,13 +32,6 @@ _TEST = (
     (plain("Residual, computed", 1, "mm", 1.2), lambda run: 1e3 * run.residual_m),
 )
 
-_JUDGED = (
-    (words("Requirement", 3.0), lambda row: row[0]),
-    (text("Found", share=1.2), lambda row: row[1]),
-    (text("Accepted", share=1.4), lambda row: row[2]),
-    (centered("Result", 0.8), lambda row: judged(row[3])),
-)
-
 
 def shake_table(verification: Verification) -> Section:
     """Return the section."""
@@ -56,7 +48,7 @@ def shake_table(verification: Verification) -> Section:
             (
                 table,
                 grouped(grouped_by(table.runs, source), _TEST, kind="compact"),
-                listed(_rows(table), _JUDGED),
+                list(_rows(table)),
                 result(table),
             )
             for table in verification.tables

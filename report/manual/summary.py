@@ -9,13 +9,10 @@ import numpy as np
 from markupsafe import Markup
 
 from report.document.sections import Section, section
-from report.document.tables import Table, listed
-from report.entities.shown import centered, text, words
 from report.manual import studies
 from report.manual.precision import floor
 from report.pages.parts import verdict
 from report.words.counts import grouped_by
-from report.words.formats import scientific
 from solver.verification.building import BY_HEIGHT
 from solver.verification.evidence import Check, Verification
 
@@ -50,24 +47,8 @@ def summary(verification: Verification) -> Section:
         PAPER_WORST_PERCENT=studies.PAPER_WORST_PERCENT,
         PAPER_MEAN_PERCENT=studies.PAPER_MEAN_PERCENT,
         BY_HEIGHT=BY_HEIGHT,
-        by_section=_by_section(verification.checks),
-    )
-
-
-def _by_section(checks: Sequence[Check]) -> Table:
-    return listed(
-        grouped_by(checks, lambda row: row.section).items(),
-        (
-            (words("Section", 3.0), lambda group: group[0]),
-            (text("Checks"), lambda group: len(group[1])),
-            (text("Passed"), lambda group: sum(row.passed for row in group[1])),
-            (
-                text("Largest error", share=1.4),
-                lambda group: scientific(max(row.error for row in group[1])),
-            ),
-            (text("Tolerance used", share=1.4), lambda group: _used(group[1])),
-            (centered("Result"), lambda group: judged(all(row.passed for row in group[1]))),
-        ),
+        by_section=grouped_by(verification.checks, lambda row: row.section),
+        used=_used,
     )
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.document.sections import Section, section
-from report.document.tables import Column, Table, listed
+from report.document.tables import Column, listed
 from report.entities.shown import text, words
 from report.study import figures
 from report.study.dispersion import (
@@ -24,12 +24,11 @@ from report.study.page_parts import axis
 from report.study.plan import SLOPE
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.tables import length_unit
-from report.study.words import both, on_building
+from report.study.words import on_building
 from report.words.formats import slug
-from report.words.units import digits_down, digits_up, number, round_up
+from report.words.units import number, round_up
 from solver.studies import capacity, uncertainty
 from solver.studies import fragility as fits
-from solver.studies.fragility import CONFIDENCE
 
 
 def fragility(results: StudyResults, one: ArrayStudyResult) -> Section:
@@ -42,7 +41,6 @@ def fragility(results: StudyResults, one: ArrayStudyResult) -> Section:
         id=f"array-{slug(name)}",
         one=one,
         is_left_out=is_exportable(results) and not has_probabilities(one),
-        states=_states(results, one),
         exported=_exported(results, one, known),
         MASS=MASS,
         capacity=capacity,
@@ -59,38 +57,6 @@ def _charts(results: StudyResults, one: ArrayStudyResult) -> Iterator[tuple[str,
         yield "goodness", figures.goodness(tested, axis(results))
     if one.bars and not math.isnan(one.center_m):
         yield "tornado", figures.tornado(one.bars, one.center_m, length_unit(results))
-
-
-def _states(results: StudyResults, one: ArrayStudyResult) -> Table:
-    interval = f"{50 * (1 - CONFIDENCE):g} to {50 * (1 + CONFIDENCE):g} %"
-
-    def limit(state: LimitState) -> str:
-        return both(results, state.limit_m) if state.limit_m else "0"
-
-    columns = (
-        (words("State", 0.7), lambda state: state.name),
-        (words("Exceeded when", 2.4), lambda state: state.words),
-        (text("PRD above", share=1.7), limit),
-        (text("Median"), lambda state: _digits(state.fragility.fitted.theta, digits_down)),
-        (text(interval, share=1.5), lambda state: _outward(state.fragility.theta_range)),
-        (text("β"), lambda state: _digits(state.fragility.fitted.beta, digits_up)),
-        (text(f"{interval} of β", share=1.5), lambda state: _outward(state.fragility.beta_range)),
-        (text("p of fit"), lambda state: _p_value(state.fragility.p_value)),
-    )
-    return listed(one.states, columns)
-
-
-def _digits(value: float, show: Callable[[float, int], str]) -> str:
-    return "none" if math.isnan(value) else show(value, 3)
-
-
-def _outward(interval: tuple[float, float]) -> str:
-    low, high = interval
-    return "none" if math.isnan(low) else f"{digits_down(low, 3)} to {digits_up(high, 3)}"
-
-
-def _p_value(value: float) -> str:
-    return "—" if math.isnan(value) else digits_down(value, 2)
 
 
 def _exported(
