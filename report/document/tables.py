@@ -196,21 +196,18 @@ def listed(
     )
 
 
-def grouped(
-    groups: Mapping[str, Iterable[Any]], columns: Sequence[Column], kind: str = ""
-) -> Table:
-    """Return the same below a row that names each group of items."""
-    table, rows = listed((), columns, kind=kind), []
+def grouped(groups: Mapping[str, Iterable[Any]], columns: Sequence[Column]) -> Table:
+    """Return a compact table of the same, with a row that names each group of items."""
+    table, rows = listed((), columns, kind="compact"), []
     for name, items in groups.items():
         rows.append(TableRow(cells=(Wide(name, len(table.columns)),), kind="total"))
         rows += listed(items, columns).rows
     return replace(table, rows=tuple(rows))
 
 
-def with_total(table: Table, cells: Sequence[str], *, is_first: bool = False) -> Table:
-    """Return a table with a row that the others are compared with, first or last."""
-    row = TableRow(cells=tuple(cells), kind="total")
-    return replace(table, rows=(row, *table.rows) if is_first else (*table.rows, row))
+def compared_with(table: Table, cells: Sequence[str]) -> Table:
+    """Return a table whose first row is the one that the others are compared with."""
+    return replace(table, rows=(TableRow(cells=tuple(cells), kind="total"), *table.rows))
 
 
 def merged(table: Table, *fields: str) -> Table:

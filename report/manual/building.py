@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from report.document.sections import Section, section
-from report.document.tables import Column, Table, listed, with_total
+from report.document.tables import Column, Table, compared_with, listed
 from report.entities.shown import plain, text, words
 from report.figures import building as figures
 from report.words.counts import capitalized
@@ -61,7 +61,7 @@ def _properties(roof: RoofComparison) -> Table:
         ),
     )
     peak = number(float(np.abs(roof.roof_mps2).max()) / G_MPS2, 3)
-    return with_total(found, (_reference(roof), *["—"] * 5, peak, "—"), is_first=True)
+    return compared_with(found, (_reference(roof), *["—"] * 5, peak, "—"))
 
 
 def _bands(roof: RoofComparison) -> Table:
@@ -93,7 +93,7 @@ def _peaks(roof: RoofComparison) -> Table:
         ),
     )
     peaks = (number(1e3 * prd_m, 0) for prd_m in roof.prd_m)
-    return with_total(found, (_reference(roof), *peaks), is_first=True)
+    return compared_with(found, (_reference(roof), *peaks))
 
 
 def _peak(prd_m: Floats, roof: RoofComparison, at: int) -> str:

@@ -47,7 +47,7 @@ def shake_table(verification: Verification) -> Section:
         tables=[
             (
                 table,
-                grouped(grouped_by(table.runs, source), _TEST, kind="compact"),
+                grouped(grouped_by(table.runs, source), _TEST),
                 list(_rows(table)),
                 result(table),
             )

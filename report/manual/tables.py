@@ -42,7 +42,7 @@ def checks(verification: Verification) -> Section:
         "manual/checks",
         "Checks",
         by_section={
-            name: grouped(grouped_by(rows, source), _CHECK, kind="compact")
+            name: grouped(grouped_by(rows, source), _CHECK)
             for name, rows in grouped_by(verification.checks, lambda row: row.section).items()
         },
     )
@@ -58,7 +58,7 @@ def peers(points: Sequence[PeerPoint]) -> Section:
     return section(
         "manual/peers",
         "Other programs",
-        peers=grouped(groups, _PEER, kind="compact"),
+        peers=grouped(groups, _PEER),
     )
 
 

@@ -13,10 +13,8 @@ from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
 from report.assessment.uncertainty import TOLERANCE, Margin, ResponseSurface, Uncertainty
 from report.document.tables import Column, Table, listed
-from report.document.templates import sentence
 from report.entities.shown import length, text, words
 from report.pages.parts import PackageData
-from report.typeset.pdf import TEMPLATES
 from report.words.letters import power_of_ten
 from report.words.units import number
 from solver.rules.provisions import Neighbor
@@ -34,11 +32,6 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "turned": _turned_table(package, uncertainty) if uncertainty.turned else None,
         "sums": _sum_table(package, sums) if sums else None,
     }
-
-
-def dots(surface: ResponseSurface) -> str:
-    """Return which arrays are dots of the contours."""
-    return sentence(TEMPLATES, "dots", surface)
 
 
 def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import partial
+from typing import Any
 
 from report.document.sections import Section, section
 from report.document.tables import Table, listed
@@ -39,7 +40,7 @@ def formula(results: StudyResults, building: int) -> Section:
     )
 
 
-def _content(results: StudyResults, building: int, fit: Fit) -> Mapping[str, object]:
+def _content(results: StudyResults, building: int, fit: Fit) -> Mapping[str, Any]:
     low_deg, high_deg = map(math.degrees, fit.domain["slope_rad"])
     return {
         "lacking": "",

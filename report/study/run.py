@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -121,11 +121,11 @@ def run_study(
     identity, names = str(manifest["identity"]), plan.motions.buildings
     done = done_parts(folder, campaign, identity)
     missing = [number for number in range(len(campaign.parts)) if number not in done]
-    meter = _Meter(plan, missing, progress)
+    tell = _meter(plan, missing, progress)
 
     def on_done(part: Done) -> None:
         done[part.number] = part
-        meter(part)
+        tell(part)
 
     if scheduler:
         from report.study.cluster import connected, run_on_cluster
@@ -145,31 +145,24 @@ def run_study(
     return results
 
 
-class _Meter:
-    """Says how far the runs are: the rate, and the time left by the cost model."""
+def _meter(
+    plan: StudyPlan, missing: Sequence[int], progress: Callable[[str], None]
+) -> Callable[[Done], None]:
+    """Return what says how far the runs are: the rate, and the time left by the cost model."""
+    campaign, started = plan.campaign, time.monotonic()
+    parts = {number: campaign.parts[number] for number in missing}
+    rows = {n: (part.stop - part.start) * len(campaign.columns) for n, part in parts.items()}
+    costs = {n: float(campaign.seconds[part].sum()) for n, part in parts.items()}
+    ran, cost, all_rows, all_costs = 0, 0.0, sum(rows.values()), sum(costs.values())
+    if missing:
+        progress(f"running {all_rows:,} runs")
 
-    def __init__(
-        self, plan: StudyPlan, missing: list[int], progress: Callable[[str], None]
-    ) -> None:
-        campaign = plan.campaign
-        self._progress = progress
-        self._costs = {n: float(campaign.seconds[campaign.parts[n]].sum()) for n in missing}
-        self._rows = {
-            n: (campaign.parts[n].stop - campaign.parts[n].start) * len(campaign.columns)
-            for n in missing
-        }
-        self._started, self._ran, self._cost = time.monotonic(), 0, 0.0
-        if missing:
-            total = sum(self._rows.values())
-            progress(f"running {total:,} runs")
+    def tell(part: Done) -> None:
+        nonlocal ran, cost
+        ran, cost = ran + rows[part.number], cost + costs[part.number]
+        seconds = time.monotonic() - started
+        left = seconds * (all_costs / cost - 1.0)
+        rate = f"{ran / seconds:,.0f} a second"
+        progress(f"{ran:,} of {all_rows:,} runs, {rate}, {left:.0f} s left")
 
-    def __call__(self, part: Done) -> None:
-        """Count a part."""
-        self._ran += self._rows[part.number]
-        self._cost += self._costs[part.number]
-        seconds = time.monotonic() - self._started
-        left = seconds * (sum(self._costs.values()) / self._cost - 1.0)
-        self._progress(
-            f"{self._ran:,} of {sum(self._rows.values()):,} runs, {self._ran / seconds:,.0f} a "
-            f"second, {left:.0f} s left"
-        )
+    return tell

@@ -18,9 +18,10 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import ResponseSurface, surface
+from report.document.templates import sentence
 from report.entities.columns import UnitFormat
 from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
-from report.pages.uncertainty import dots as dots_sentence
+from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
 from report.web.plan import NO_VALUE
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
@@ -343,7 +344,7 @@ def _contour_texts(found: ResponseSurface, here_m: float, fmt: UnitFormat) -> Js
             "of their record: their PRD is not final."
         )
     if found.others:
-        notes.append(dots_sentence(found))
+        notes.append(sentence(TEMPLATES, "dots", found))
     return {
         "title": f"Mean PRD of {runs} motion{'s' if runs > 1 else ''} over friction and slope, "
         f"array {array.id}",
