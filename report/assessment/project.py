@@ -8,7 +8,6 @@ no code rule itself (`solver.rules.provisions`). Read `report.assessment.arrays`
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -90,13 +89,10 @@ class Assessment:
     rows : tuple of Requirement
         Requirements beside the numeric limits, of the project, its motions and its arrays.
     at_reduced_friction : Assessment or None
-        The same with less friction, from runs that tell whether clearances are satisfied
-        (`report.assessment.rough`); None in that one itself.
+        The same with less friction; None in that one itself.
     low_velocity : LowVelocityAssessment
         Arrays with their low-velocity coefficient alone; without any in `at_reduced_friction`,
         and in what `reassess` and `anticipate` give.
-    solver_seconds : float
-        Time of all runs [s].
     """
 
     sheet: Sheet
@@ -115,7 +111,6 @@ class Assessment:
     rows: tuple[Requirement, ...]
     at_reduced_friction: Assessment | None
     low_velocity: LowVelocityAssessment
-    solver_seconds: float
     # What many ask for, once; not when it is asked for first: nothing may change while it is sent.
     _rows_by_subject: Mapping[str, Sequence[Requirement]] = field(init=False, compare=False)
     _gaps_by_array: Mapping[str, Sequence[ClearanceCheck]] = field(init=False, compare=False)
@@ -344,12 +339,9 @@ def _assess(
         linked blocks, and the verdicts with those for less friction.
     """
     rules = rule_set_of(data)
-    started = time.perf_counter()
-    runs = [wait() for wait in begun]
-    seconds = time.perf_counter() - started
     arrays = tuple(
-        assess_array(data, rules, array, *pair, motions_qualify=acceptance.qualifies)
-        for array, pair in zip(data.arrays, runs, strict=True)
+        assess_array(data, rules, array, *wait(), motions_qualify=acceptance.qualifies)
+        for array, wait in zip(data.arrays, begun, strict=True)
     )
     links = data.links if reduced_friction else ()
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
@@ -385,7 +377,6 @@ def _assess(
         ),
         at_reduced_friction=reduced,
         low_velocity=slower,
-        solver_seconds=seconds,
     )
 
 
