@@ -55,45 +55,33 @@ def _verdict(given: dict[str, Any]) -> Verdict:
 
 
 class Requirement(BaseModel):
-    """A requirement compared with the project, as results.json has it.
-
-    Attributes
-    ----------
-    id : str
-        Kind of requirement.
-    title, found, limit : str
-        As printed.
-    subject : str
-        Id of the array or motion that it concerns; empty for the project.
-    basis : str
-        Document and clause, or whose practice it is.
-    is_satisfied : bool
-    consequence : Consequence
-        Where it is not satisfied.
-    remedy : str
-        What the engineer must do where it is not satisfied, as a sentence.
-    verdict : Verdict
-        Of this requirement alone.
-    cause : str
-        What the verdict of the subject calls it; empty for its title.
-    place : Place
-        The cell to look at.
-    """
+    """A requirement compared with the project, as results.json has it."""
 
     model_config = ConfigDict(frozen=True, json_schema_extra=_all_are_written)
 
     id: str
+    """Kind of requirement."""
     title: str
+    """As printed."""
     found: str
+    """As printed."""
     limit: str
+    """As printed."""
     basis: str
+    """Document and clause, or whose practice it is."""
     is_satisfied: bool
+    """Whether the project satisfies it."""
     consequence: Consequence
+    """Where it is not satisfied."""
     subject: str = ""
+    """Id of the array or motion that it concerns; empty for the project."""
     remedy: str = ""
+    """What the engineer must do where it is not satisfied, as a sentence."""
     verdict: Verdict = Field(default_factory=_verdict)
+    """Of this requirement alone."""
+    # what the verdict of the subject calls it; empty for its title
     cause: SkipJsonSchema[str] = Field(default="", exclude=True)
-    place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)
+    place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)  # to look at
 
     @property
     def said(self) -> tuple[str, ...]:

@@ -24,30 +24,16 @@ _FROM_SI: Mapping[str, Callable[[Any], Any]] = {
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column of a sheet; a field may have several.
+    """A column of a sheet; a field may have several."""
 
-    Attributes
-    ----------
-    head : str
-        Heading with its unit; the unit alone, or nothing, below the heading of the field.
-    decimals : int or None
-        Of a number; None to show it as it is.
-    formula : str
-        Live formula, with names of fields of the row and of other cells in braces; empty for none.
-    value : callable or None
-        Returns what a cell holds of the value of the field, where the unit does not say it.
-    is_always : bool
-        Whether the formula is written also where it gives no value.
-    is_input : bool
-        Whether what has no formula may be changed there.
-    """
-
-    head: str = ""
-    decimals: int | None = None
+    head: str = ""  # with its unit; the unit alone, or nothing, below the heading of the field
+    decimals: int | None = None  # of a number; None to show it as it is
+    # live, with names of fields of the row and of other cells in braces; empty for none
     formula: str = ""
+    # returns what a cell holds of the value of the field, where the unit does not say it
     value: Callable[[Any], Any] | None = None
-    is_always: bool = False
-    is_input: bool = False
+    is_always: bool = False  # whether the formula is written also where it gives no value
+    is_input: bool = False  # whether what has no formula may be changed there
 
     def __get_pydantic_json_schema__(self, schema: Any, schema_of: Any) -> dict[str, Any]:
         """Return the schema of a field, with its heading without unit as title if it has none."""
@@ -68,19 +54,10 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """A change of a field, which marks its row in the package and may be listed.
+    """A change of a field, which marks its row in the package and may be listed."""
 
-    Attributes
-    ----------
-    kind : ChangeKind or None
-        None if it is not listed.
-    title : str
-        What changed, with what it says of the `row` in braces.
-    of_new, of_gone : bool
-        Whether it is listed of a row that the former revision did not have, or that is gone.
-    """
-
-    kind: ChangeKind | None = None
-    title: str = ""
+    kind: ChangeKind | None = None  # None if it is not listed
+    title: str = ""  # what changed, with what it says of the `row` in braces
+    # whether it is listed of a row that the former revision did not have, or that is gone
     of_new: bool = True
     of_gone: bool = False

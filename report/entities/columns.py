@@ -26,17 +26,11 @@ class TableColumn:
 
 @dataclass(frozen=True, slots=True)
 class UnitFormat:
-    """Formats values, the preferred system of units first.
-
-    Attributes
-    ----------
-    systems : int
-        In how many systems a table has a quantity: a narrow one has the first alone.
-    """
+    """Formats values, the preferred system of units first."""
 
     us_first: bool
     none: str = NO_VALUE
-    systems: int = 2
+    systems: int = 2  # in which a table has a quantity: a narrow one has the first alone
 
     def both(
         self,

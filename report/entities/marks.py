@@ -33,15 +33,10 @@ def joined(marks: str, more: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Marked:
-    """An assessment with the marks of its numbers and its system of units.
-
-    Attributes
-    ----------
-    has_daggers : bool
-        Whether numbers that were not compared with the adopted document are marked.
-    """
+    """An assessment with the marks of its numbers and its system of units."""
 
     assessment: Assessment
+    # whether numbers that were not compared with the adopted document are marked
     has_daggers: bool = True
 
     @property

@@ -135,17 +135,7 @@ def unwritten(shown: Shown) -> Callable[[Callable[[Any], Any]], Any]:
 
 
 class Entity(BaseModel):
-    """A row of the results: complete and frozen.
-
-    Attributes
-    ----------
-    marks : mapping of str to str
-        What follows a value, by field: marks of provisions and overrides, the cause of a verdict.
-    rounds : mapping of str to callable
-        Rounding that keeps an order visible, by field.
-    style : str
-        Style of the row.
-    """
+    """A row of the results: complete and frozen."""
 
     model_config = ConfigDict(frozen=True, from_attributes=True, validate_by_name=True)
 
@@ -154,9 +144,11 @@ class Entity(BaseModel):
     across: ClassVar[str] = ""
     """Fields in the order of their columns on a sheet of results.xlsx; others follow."""
 
+    # what follows a value, by field: marks of provisions and overrides, the cause of a verdict
     marks: SkipJsonSchema[Mapping[str, str]] = Field(default={}, exclude=True)
+    # rounding that keeps an order visible, by field
     rounds: SkipJsonSchema[Mapping[str, Show]] = Field(default={}, exclude=True)
-    style: SkipJsonSchema[str] = Field(default="", exclude=True)
+    style: SkipJsonSchema[str] = Field(default="", exclude=True)  # of the row
 
     @classmethod
     def of(cls, item: object, **more: Any) -> Self:
