@@ -160,13 +160,9 @@ def _ranges(cells: Iterable[tuple[int, int]]) -> Iterator[str]:
 
 def _runs(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
     """Yield first and last of each run of successive numbers, which increase."""
-    first = last = 0
-    for number in numbers:
-        if last and number > last + 1:
-            yield first, last
-            first = number
-        first, last = first or number, number
-    yield first, last
+    for _, group in groupby(enumerate(numbers), key=lambda one: one[1] - one[0]):
+        run = [number for _, number in group]
+        yield run[0], run[-1]
 
 
 class _Sight:

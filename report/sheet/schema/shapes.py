@@ -53,8 +53,7 @@ class Polygon:
     @property
     def bounds(self) -> Rectangle:
         """The smallest rectangle around it."""
-        x, y = zip(*self.points, strict=True)
-        return Rectangle(min(x), max(x), min(y), max(y))
+        return around([self])
 
     @property
     def area_m2(self) -> float:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import groupby, product
 
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
@@ -98,16 +98,13 @@ def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
 
 
 def _runs(lost: Sequence[Overwritten]) -> Iterator[list[Overwritten]]:
-    run: list[Overwritten] = []
-    for item in lost:
+    def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
+        count, item = numbered
         at = item.position
-        follows = run and run[-1].position == CellPosition(at.sheet, at.row - 1, at.column)
-        if run and not (follows and run[-1].can_be_restored == item.can_be_restored):
-            yield run
-            run = []
-        run.append(item)
-    if run:
-        yield run
+        return at.sheet, at.column, at.row - count, item.can_be_restored
+
+    for _, run in groupby(enumerate(lost), key):
+        yield [item for _, item in run]
 
 
 def _text(item: Overwritten, count: int) -> str:
