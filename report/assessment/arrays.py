@@ -175,8 +175,6 @@ class ArrayAssessment(RouteLimits):
 
     def chosen_toward_m(self, direction: Direction) -> float:
         """Return the same with the adequate models [m]."""
-        if self.route is Route.PRESCRIPTIVE:
-            return self.design_m
         return self._floored(self.chosen[direction if self.by_direction else Direction.ANY])
 
     def directional_m(self, direction: Direction) -> float:
@@ -184,11 +182,11 @@ class ArrayAssessment(RouteLimits):
 
         The value from analysis, not less than the floor; a prescriptive value has no direction.
         """
-        if self.route is Route.PRESCRIPTIVE:
-            return self.design_m
         return self._floored(self.directions[direction])
 
     def _floored(self, analysis: AnalysisValue) -> float:
+        if self.route is Route.PRESCRIPTIVE:
+            return self.design_m
         return math.nan if math.isnan(analysis.value_m) else max(analysis.value_m, self.floor_m)
 
     def mark(self, value: Callable[[ArrayAssessment], float]) -> str:

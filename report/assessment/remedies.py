@@ -30,14 +30,11 @@ from report.assessment.trials import (
 )
 from report.assessment.verdict import Verdict
 from report.sheet.schema import Clearance
+from solver.friction_tests import MOST_MU
 from solver.rules.provisions import Basis
-
-MOST_MU = 1.5
-"""Largest friction coefficient tried: the largest that the workbook accepts."""
 
 LEAST_S_DS_G = 0.05
 """Smallest S_DS tried [g]."""
-
 
 S_DS_STRIDES = (20, 5, 1)
 """Hundredths of g between the values of each pass. Displacements fall with growing acceleration in

@@ -18,6 +18,7 @@ from openpyxl.styles.numbers import NumberFormat
 from openpyxl.worksheet.cell_range import CellRange
 from openpyxl.worksheet.worksheet import Worksheet
 
+from report.sheet.checking.usual import ROUNDING
 from report.sheet.schema.answers import STATUS
 from report.sheet.schema.fields import Entry, SheetSection, entries
 from report.sheet.schema.layout import LAST_ROW, BlockPlace, Layout, TablePlace
@@ -39,7 +40,6 @@ _UNDECIDED = DifferentialStyle(
     font=Font(color=UNDECIDED, bold=True),
     numFmt=NumberFormat(numFmtId=300, formatCode=f'"{SEE_CHECK}"'),
 )
-_EQUAL = 1e-9  # difference from a limit / limit that is rounding error of a conversion of units
 _IS_FORMULA = "_xlfn.ISFORMULA"  # Excel 2013 writes it so; LibreOffice reads it so
 
 
@@ -125,9 +125,9 @@ def _outside(value: str, entry: Entry) -> str:
     low, high = entry.expected.low, entry.expected.high
     parts = []
     if math.isfinite(low):
-        parts.append(f"{value}<{low - _EQUAL * abs(low):.12g}")
+        parts.append(f"{value}<{low - ROUNDING * abs(low):.12g}")
     if math.isfinite(high):
-        parts.append(f"{value}>{high + _EQUAL * abs(high):.12g}")
+        parts.append(f"{value}>{high + ROUNDING * abs(high):.12g}")
     return f"OR({','.join(parts)})" if parts else "FALSE"
 
 

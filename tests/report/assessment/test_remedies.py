@@ -6,8 +6,9 @@ import pytest
 import scenes
 import stand_in
 from one_by_one import prd_m, slid
-from report.assessment.remedies import MOST_MU, RemedyKind, remedies
+from report.assessment.remedies import RemedyKind, remedies
 from report.assessment.trials import above, below, search
+from solver.friction_tests import MOST_MU
 from solver.model import Friction, Status
 
 PEER = {"peer_reviewed": True}
