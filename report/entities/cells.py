@@ -35,12 +35,6 @@ class Column:
     is_always: bool = False  # whether the formula is written also where it gives no value
     is_input: bool = False  # whether what has no formula may be changed there
 
-    def __get_pydantic_json_schema__(self, schema: Any, schema_of: Any) -> dict[str, Any]:
-        """Return the schema of a field, with its heading without unit as title if it has none."""
-        found: dict[str, Any] = schema_of(schema)
-        head = self.head.partition("[")[0].strip()
-        return {"title": head} | found if head else found
-
     def heading(self, of_field: str) -> str:
         """Return the heading, from that of the field where it has none of its own."""
         is_unit = not self.head or self.head.startswith("[")

@@ -68,10 +68,3 @@ class UnitFormat:
     def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
         """Return the units of a quantity, the preferred one first."""
         return (quantity.us, quantity.si) if self.us_first else (quantity.si, quantity.us)
-
-    def columns(
-        self, head: str, quantity: Quantity = Quantity.DISPLACEMENT, share: float = 1.0
-    ) -> tuple[TableColumn, ...]:
-        """Return the columns of a quantity, one for each system."""
-        units = self.units(quantity)[: self.systems]
-        return tuple(TableColumn(head=head, unit=unit.symbol, share=share) for unit in units)

@@ -26,7 +26,7 @@ from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 
 from report.entities.cells import Column
 from report.entities.columns import TableColumn, UnitFormat
-from report.sheet.schema.fields import docstrings
+from report.sheet.schema.fields import Cell, docstrings
 from report.words.units import Quantity, Show, measured, number
 
 _Mark = TypeVar("_Mark")
@@ -61,15 +61,11 @@ class Shown:
     align: str = "right"
     share: float = 1.0
 
-    def __get_pydantic_json_schema__(self, schema: Any, schema_of: Any) -> dict[str, Any]:
-        """Return the schema of a field, with its heading as title."""
-        found: dict[str, Any] = schema_of(schema)
-        return found | {"title": self.head}
-
     def columns(self, fmt: UnitFormat, head: str, share: float) -> tuple[TableColumn, ...]:
         """Return its column, or one for each system of units."""
         if self.quantity:
-            return fmt.columns(head, self.quantity, share)
+            units = fmt.units(self.quantity)[: fmt.systems]
+            return tuple(TableColumn(head=head, unit=unit.symbol, share=share) for unit in units)
         return (TableColumn(head=head, unit=self.unit, align=self.align, share=share),)
 
     def cells(
@@ -191,16 +187,28 @@ class Entity(BaseModel):
         return self.marks.get(name, "")
 
 
+def _title(said: object) -> str:
+    match said:
+        case Shown(head=title) | Cell(label=title):
+            return title
+        case Column():
+            return said.head.partition("[")[0].strip()
+    return ""
+
+
 class WrittenSchema(GenerateJsonSchema):
     """The JSON schema of what is written: without fields that are only printed.
 
-    The docstring of a field is its description.
+    The heading of a field, or the label of its cell, is its title, its docstring its description.
     """
 
     def model_schema(self, schema: Any) -> dict[str, Any]:
         """Return the schema of a model, each field with its docstring or that of a base class."""
-        found = super().model_schema(schema)
-        for base in schema["cls"].__mro__[: schema["cls"].__mro__.index(BaseModel)]:
+        found, model = super().model_schema(schema), schema["cls"]
+        for name in found["properties"]:
+            if title := next(filter(None, map(_title, model.model_fields[name].metadata)), ""):
+                found["properties"][name]["title"] = title
+        for base in model.__mro__[: model.__mro__.index(BaseModel)]:
             said = docstrings(base)
             for name in said.keys() & found["properties"].keys():
                 found["properties"][name].setdefault("description", said[name])

@@ -95,11 +95,6 @@ class Cell:
     unit_from: tuple[str, Callable[[str], str]] | None = None
     is_rare: bool = False  # its column is folded at the right of a table
 
-    def __get_pydantic_json_schema__(self, schema: Any, schema_of: Any) -> dict[str, Any]:
-        """Return the schema of a field, with its label as title."""
-        found: dict[str, Any] = schema_of(schema)
-        return found | {"title": self.label}
-
 
 class Frozen(BaseModel):
     """Base of all models: frozen, complete, finite; the docstring of a field is its help."""
