@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from report.sheet.checking.conditions import MAX_SLOPE_DEG, REFERENCES, UNIQUE, missing
-from report.sheet.checking.drafts import column, repeated
+from report.sheet.checking.drafts import column, repeated, suggestion
 from report.sheet.checking.friction_checks import friction_faults
 from report.sheet.checking.motion_checks import motion_faults
 from report.sheet.checking.plan_checks import places_of, plan_faults, shapes_of, us_first
@@ -26,7 +26,6 @@ from report.sheet.schema import (
     slope_rad,
 )
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
-from report.sheet.schema.references import suggestion
 from report.sheet.schema.shapes import gap_m
 from report.words.letters import cut
 from report.words.units import Quantity, pair

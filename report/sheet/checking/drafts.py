@@ -1,14 +1,15 @@
-"""The cells of a draft that could be read, and those that repeat an earlier one.
+"""The cells of a draft that could be read, those that repeat an earlier one, and what a name means.
 
 Yields no fault of its own. `checks` and the checks that it runs use it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
 from typing import Any
 
 from report.sheet.schema.fields import Draft, Place
+from solver.meant import nearest
 
 
 def column(draft: Draft, sections: Iterable[str], field: str) -> Iterator[tuple[Place, Any]]:
@@ -28,3 +29,11 @@ def repeated(
         first = places.setdefault(key(value), place)
         if first is not place:
             yield place, value, first
+
+
+def suggestion(value: str, ids: Collection[str]) -> str:
+    """Return in words which id may have been meant, or which there are."""
+    if close := nearest(value, ids):
+        return f"did you mean '{close}'?"
+    names = ", ".join(list(ids)[:8])
+    return f"give one of {names}" if names else "add it there first"

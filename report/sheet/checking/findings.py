@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from report.sheet.checking.drafts import suggestion
 from report.sheet.checking.grouped import listed
 from report.sheet.schema import SECTIONS, ProjectInput
 from report.sheet.schema.fields import Finding, Level, Place
-from report.sheet.schema.references import suggestion
 
 
 def warning(name: str, place: Place, text: str) -> Finding:

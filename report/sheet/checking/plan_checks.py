@@ -10,9 +10,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from report.sheet.checking.conditions import ORDERED
+from report.sheet.checking.drafts import suggestion
 from report.sheet.schema import ROOF, SIDES, ObjectKind, Polygon, Rectangle, Shape, UnitsFirst
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
-from report.sheet.schema.references import suggestion
 from report.sheet.schema.shapes import NEAR_M, Point, crossing, gap_m, outside, ring
 from report.words.units import Quantity, pair
 
