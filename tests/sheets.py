@@ -27,7 +27,8 @@ from report.sheet.checking.findings import located
 from report.sheet.reading.parts import changed
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import Sheet, read
-from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.template import write_template
 from solver.model import InputError
 

@@ -19,7 +19,8 @@ from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.package.html import pages
 from report.sheet.reading.read import EchoRow, Sheet
-from report.sheet.schema import ProjectInput, RecordedAt
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import RecordedAt
 from report.typeset.pdf import lay_out
 from sheets import Book
 from solver.model import Motion

@@ -2,7 +2,7 @@
 
 from collections import Counter
 
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from sheets import blank, make, said, type_into
 from typed import typed_cells
 

@@ -13,7 +13,8 @@ from itertools import pairwise, product
 from pathlib import Path
 from runpy import run_path
 
-from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.rows import Row, clearance, issued, rectangle, roof_object
 from report.sheet.writing.template import write_template
 

@@ -10,7 +10,8 @@ from __future__ import annotations
 import datetime as dt
 from pathlib import Path
 
-from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.rows import (
     Range,
     Row,

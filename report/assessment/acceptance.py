@@ -12,7 +12,7 @@ from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets
-from report.sheet.schema import RecordedAt
+from report.sheet.schema.choices import RecordedAt
 from solver.records.acceptance import Acceptance, acceptance
 
 

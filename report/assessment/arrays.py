@@ -13,7 +13,9 @@ from enum import StrEnum
 
 from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
 from report.assessment.runs import REQUESTED_MODELS, MotionRun, OrientedRun, nan_is_worst
-from report.sheet.schema import Array, Direction, ProjectInput, Statistic
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import Direction, Statistic
+from report.sheet.schema.scene import Array
 from solver.rules import provisions
 from solver.rules.limit import Limit
 from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet

@@ -13,7 +13,11 @@ from report.assessment.arrays import statistic_basis
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import run_motion
 from report.motions.history import PreparedMotion, first_period_s, through_building
-from report.sheet.schema import Array, BuildingInput, Direction, MotionInput, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.building import BuildingInput
+from report.sheet.schema.choices import Direction
+from report.sheet.schema.motions import MotionInput
+from report.sheet.schema.scene import Array
 from solver.building.structure import MOST_PERIOD_S
 from solver.rules.provisions import AnalysisValue, analysis_value
 

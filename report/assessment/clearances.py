@@ -14,15 +14,9 @@ from report.assessment.neighbors import NearbyKind, PlanNeighbor
 from report.assessment.overrides import as_adopted, mark_of
 from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Verdict
-from report.sheet.schema import (
-    Array,
-    Clearance,
-    Direction,
-    DistanceBasis,
-    ObjectKind,
-    ProjectInput,
-    RoofObject,
-)
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import Direction, DistanceBasis, ObjectKind
+from report.sheet.schema.scene import Array, Clearance, RoofObject
 from report.words.units import ratio
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, RuleSet

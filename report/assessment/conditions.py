@@ -22,8 +22,10 @@ from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
-from report.sheet.schema import Array, ClearanceSource, DistanceBasis, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
+from report.sheet.schema.scene import Array
 from report.words.counts import lowered
 from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, number, pair
 from solver.records.acceptance import Acceptance

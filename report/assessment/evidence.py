@@ -15,7 +15,7 @@ from report.assessment.remedies import Remedy, remedies
 from report.assessment.sensitivity import Accuracy, accuracy
 from report.assessment.spectra import Spectra, spectra
 from report.assessment.uncertainty import Uncertainty, uncertainty
-from report.sheet.schema import BuildingInput
+from report.sheet.schema.building import BuildingInput
 from solver.model import SlideHistory
 from solver.rules.provisions import AnalysisValue
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from report.sheet.schema import Array, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.scene import Array
 from report.words.counts import ids_by, ranged
 from report.words.units import number
 from solver.model import Friction

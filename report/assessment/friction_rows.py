@@ -12,8 +12,9 @@ from functools import partial
 
 from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
 from report.sheet.checking.friction_checks import MU_TOLERANCE
-from report.sheet.schema import Array, ProjectInput
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
+from report.sheet.schema.scene import Array
 from report.words.counts import grouped_by, numbered
 from report.words.units import Quantity, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
-from report.sheet.schema import ProjectInput, Site
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
+from report.sheet.schema.project import Site
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
 

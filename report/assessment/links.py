@@ -13,7 +13,9 @@ from functools import partial
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import nan_is_worst
-from report.sheet.schema import Array, Direction, Links
+from report.sheet.schema.choices import Direction
+from report.sheet.schema.links import Links
+from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, SlideResult, Status
 from solver.rules import provisions
 from solver.rules.provisions import AnalysisValue, RuleSet

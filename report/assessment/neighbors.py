@@ -14,17 +14,11 @@ from itertools import combinations
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.verdict import Verdict
-from report.sheet.schema import (
-    Array,
-    Clearance,
-    DistanceBasis,
-    ObjectKind,
-    ProjectInput,
-    Rectangle,
-    Shape,
-)
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import DistanceBasis, ObjectKind
 from report.sheet.schema.fields import Place
-from report.sheet.schema.shapes import Point, Polygon, gap_m, sides, spans_near
+from report.sheet.schema.scene import Array, Clearance
+from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
 from report.words.units import Quantity, pair
 from solver.model import INCH_M
 

@@ -11,13 +11,8 @@ from collections.abc import Iterator
 from functools import partial
 
 from report.assessment.verdict import Requirement, condition
-from report.sheet.schema import (
-    Override,
-    ProjectInput,
-    Statistic,
-    provision_name,
-    provision_unit,
-)
+from report.sheet.schema import Override, ProjectInput, provision_name, provision_unit
+from report.sheet.schema.choices import Statistic
 from report.sheet.schema.fields import Place
 from report.words.counts import lowered
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet

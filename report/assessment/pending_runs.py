@@ -11,7 +11,9 @@ from functools import cache, partial
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import MotionRun, run_motion, scene_key
-from report.sheet.schema import Array, ModelChoice, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import ModelChoice
+from report.sheet.schema.scene import Array
 from solver.model import Motion
 
 RunMotion = Callable[[Array, Motion], MotionRun]

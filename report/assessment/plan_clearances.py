@@ -16,7 +16,8 @@ from report.sheet.reading.growing import DIGITS, GrowingTable
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import Sheet
-from report.sheet.schema import SECTION, ClearanceSource, Direction, ProjectInput
+from report.sheet.schema import SECTION, ProjectInput
+from report.sheet.schema.choices import ClearanceSource, Direction
 from report.sheet.schema.fields import Place, entries
 from report.words.counts import numbered
 from report.words.units import Quantity, pair, round_down

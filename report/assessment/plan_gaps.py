@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
-from report.sheet.schema import ObjectKind, RoofObject, Shape
-from report.sheet.schema.shapes import Point, closest
+from report.sheet.schema.choices import ObjectKind
+from report.sheet.schema.scene import RoofObject
+from report.sheet.schema.shapes import Point, Shape, closest
 from solver.rules.provisions import Neighbor
 
 

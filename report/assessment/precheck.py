@@ -24,8 +24,9 @@ from report.sheet.checking.grouped import listed
 from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import Sheet
 from report.sheet.reading.unseen import warnings
-from report.sheet.schema import Array, ProjectInput
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Place
+from report.sheet.schema.scene import Array
 from report.words.counts import lowered, numbered
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions

@@ -49,7 +49,8 @@ from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, wors
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, ac156, targets
 from report.sheet.reading.read import Sheet
-from report.sheet.schema import Array, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.scene import Array
 from report.words.counts import grouped_by
 from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance

@@ -29,7 +29,7 @@ from report.assessment.trials import (
     trials_of,
 )
 from report.assessment.verdict import Verdict
-from report.sheet.schema import Clearance
+from report.sheet.schema.scene import Clearance
 from solver.friction_tests import MOST_MU
 from solver.rules.provisions import Basis
 

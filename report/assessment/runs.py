@@ -11,7 +11,8 @@ from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from report.memoized import memoized
-from report.sheet.schema import Array, Direction, ModelChoice
+from report.sheet.schema.choices import Direction, ModelChoice
+from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from report.assessment.project import Assessment
 from report.memoized import memoized
 from report.motions.targets import TargetSpectrum
-from report.sheet.schema import RecordedAt
+from report.sheet.schema.choices import RecordedAt
 from report.words.units import G_MPS2
 from solver.model import Floats, Motion
 from solver.records.record import Record

@@ -17,7 +17,8 @@ from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import array_with_friction, at_low_velocity
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun, motion_run, run_oriented, scene_key
-from report.sheet.schema import Array, Clearance, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.scene import Array, Clearance
 from solver.model import Status
 
 HUNDREDTH = 0.01

@@ -29,7 +29,7 @@ from report.assessment.trials import (
     with_mu,
 )
 from report.memoized import memoized
-from report.sheet.schema import Array
+from report.sheet.schema.scene import Array
 from solver.model import (
     Floats,
     HorizontalComponent,

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from report.drawing.ballast import Load
     from report.drawing.plan_read import DrawnOutline, RoofPlan
     from report.drawing.read_dxf import RoofDrawing
-    from report.sheet.schema import LayerKind
+    from report.sheet.schema.choices import LayerKind
     from report.sheet.schema.fields import DraftRow
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")

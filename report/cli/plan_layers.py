@@ -12,7 +12,7 @@ from report.cli.terminal import plain
 
 if TYPE_CHECKING:
     from report.drawing.read_dxf import RoofDrawing
-    from report.sheet.schema import LayerKind
+    from report.sheet.schema.choices import LayerKind
 
 _MOST_ROWS, _MOST_LETTERS = 100, 60
 
@@ -21,7 +21,7 @@ def given_kinds(
     _: click.Context, __: click.Parameter, value: Sequence[str]
 ) -> dict[str, LayerKind]:
     """Return what each `--layer NAME=KIND` says, by the name."""
-    from report.sheet.schema import LayerKind
+    from report.sheet.schema.choices import LayerKind
 
     kinds = {}
     for text in value:
@@ -49,7 +49,7 @@ def choose(
     """
     from report.drawing.plan_read import known_layers
     from report.drawing.proposals import proposed
-    from report.sheet.schema import LayerKind
+    from report.sheet.schema.choices import LayerKind
     from report.words.counts import numbered
     from solver.meant import nearest
     from solver.model import InputError, Problem

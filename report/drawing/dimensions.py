@@ -16,8 +16,7 @@ from report.drawing.paper import BASE_IN, LINE_IN, Paper
 from report.drawing.placer import Frame, centered
 from report.drawing.sheet import Gap, PlanSheet
 from report.drawing.widths import TYPE_PT, width_in
-from report.sheet.schema import Rectangle
-from report.sheet.schema.shapes import Point, between
+from report.sheet.schema.shapes import Point, Rectangle, between
 from report.words.counts import grouped_by
 from report.words.units import compared
 

@@ -15,9 +15,10 @@ from report.sheet.reading.growing import DIGITS, GrowingTable
 from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition, found_at
-from report.sheet.schema import ROOF, SECTION, SIDES, LayerKind, Polygon, Rectangle
-from report.sheet.schema.scene import DRAWING
-from report.sheet.schema.shapes import Shape
+from report.sheet.schema import SECTION
+from report.sheet.schema.choices import LayerKind
+from report.sheet.schema.scene import DRAWING, ROOF, SIDES
+from report.sheet.schema.shapes import Polygon, Rectangle, Shape
 from report.sheet.writing.legacy_notes import MOVE
 from solver.model import InputError
 

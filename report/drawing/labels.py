@@ -17,8 +17,9 @@ from report.drawing.placer import Frame, centered
 from report.drawing.schedule import size_words
 from report.drawing.sheet import PlanSheet
 from report.drawing.widths import tick_text, width_in
-from report.sheet.schema import ObjectKind, Rectangle, RoofObject
-from report.sheet.schema.shapes import Point
+from report.sheet.schema.choices import ObjectKind
+from report.sheet.schema.scene import RoofObject
+from report.sheet.schema.shapes import Point, Rectangle
 from report.words.units import Quantity, number, pair
 
 ARROW_IN, SCREEN_ARROW_IN = 0.3, 0.2

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from report.drawing.read_dxf import Drawn
 from report.sheet.reading.locate_tables import MAX_ROWS
-from report.sheet.schema import LayerKind
+from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, solid
 from solver.model import INCH_M, InputError
 

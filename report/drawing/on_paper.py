@@ -36,8 +36,8 @@ from report.drawing.sheet import (
     PlanSize,
     unit_format,
 )
-from report.sheet.schema import PlanPaper, Rectangle
-from report.sheet.schema.shapes import around
+from report.sheet.schema.choices import PlanPaper
+from report.sheet.schema.shapes import Rectangle, around
 
 
 def is_wide(assessment: Assessment) -> bool:

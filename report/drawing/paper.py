@@ -13,8 +13,7 @@ from itertools import product
 from report.drawing.items import Arrow, Circle, Item, Lines, Look, Outline, Text
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.widths import TYPE_PT, width_in
-from report.sheet.schema import Rectangle, Shape
-from report.sheet.schema.shapes import Point, sides
+from report.sheet.schema.shapes import Point, Rectangle, Shape, sides
 from solver.model import INCH_M
 
 FOOT_M = 12.0 * INCH_M

@@ -23,7 +23,8 @@ from report.assessment.plan_gaps import parapet_note, plan_gaps
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
-from report.sheet.schema import ROOF, ObjectKind, RoofObject
+from report.sheet.schema.choices import ObjectKind
+from report.sheet.schema.scene import ROOF, RoofObject
 from report.sheet.schema.shapes import Point, label_point, mean
 from report.words.units import Quantity, Unit, compared_pairs, number, pair
 

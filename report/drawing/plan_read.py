@@ -17,7 +17,7 @@ from report.drawing.modules import GAP_M, MOST_TEXTS, Known, joined
 from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
 from report.drawing.written import first_height, read_line
 from report.sheet.checking.plan_checks import LEAST_VERTICES
-from report.sheet.schema import LayerKind
+from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import (
     Point,
     Polygon,

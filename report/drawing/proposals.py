@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 
-from report.sheet.schema import LayerKind
+from report.sheet.schema.choices import LayerKind
 
 _PATTERNS: tuple[tuple[str, LayerKind], ...] = (
     (r"-(ANNO|DIMS|IDEN|NPLT|PATT|TTLB)(-|$)", LayerKind.NOT_READ),

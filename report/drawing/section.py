@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from report.sheet.schema import Array
+from report.sheet.schema.scene import Array
 
 DRAWN_DEG = (8.0, 15.0)
 """Flatter roofs are drawn at the first slope, so that it shows; steeper ones at the second."""

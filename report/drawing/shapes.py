@@ -15,8 +15,7 @@ from report.drawing.placer import Frame, centered
 from report.drawing.plan import outlines
 from report.drawing.sheet import PlanSheet
 from report.drawing.widths import width_in
-from report.sheet.schema import Rectangle
-from report.sheet.schema.shapes import Point, sides
+from report.sheet.schema.shapes import Point, Rectangle, sides
 from report.words.units import Quantity, number
 
 _OVER = {

@@ -18,8 +18,9 @@ from report.drawing.layers import Layer
 from report.drawing.paper import Paper, text_size
 from report.drawing.placer import Frame
 from report.entities.columns import UnitFormat
-from report.sheet.schema import PlanPaper, RoofObject, Shape
-from report.sheet.schema.shapes import Point, room
+from report.sheet.schema.choices import PlanPaper
+from report.sheet.schema.scene import RoofObject
+from report.sheet.schema.shapes import Point, Shape, room
 
 LEADER_IN = 1.5  # farthest label
 

@@ -35,7 +35,7 @@ from report.entities.shown import (
     unwritten,
     words,
 )
-from report.sheet.schema import Direction, ModelChoice
+from report.sheet.schema.choices import Direction, ModelChoice
 from report.words.units import Quantity, compared, no_less, number, ratio, rounded_apart
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis

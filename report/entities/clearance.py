@@ -28,7 +28,7 @@ from report.entities.shown import (
     unwritten,
     words,
 )
-from report.sheet.schema import Direction, DistanceBasis
+from report.sheet.schema.choices import Direction, DistanceBasis
 from report.words.units import Quantity, compared, no_less, ratio, rounded_apart
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 

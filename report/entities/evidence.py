@@ -16,7 +16,7 @@ from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
 from report.entities.cells import Column
 from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, Shown, at, length, words
-from report.sheet.schema import BuildingInput
+from report.sheet.schema.building import BuildingInput
 from solver.model import Status
 from solver.rules.provisions import AnalysisValue
 

@@ -12,7 +12,8 @@ from report.assessment.arrays import ArrayAssessment, DesignBasis
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.entities.columns import UnitFormat
-from report.sheet.schema import Direction, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import Direction
 from solver.rules.provisions import PrescriptiveBasis, Provision
 
 UNVERIFIED = (

@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar
 from report.entities.cells import Column
 from report.entities.shown import Entity, at
 from report.motions.history import PreparedMotion
-from report.sheet.schema import RecordedAt
+from report.sheet.schema.choices import RecordedAt
 from solver.model import Motion
 from solver.records.measures import Measures
 

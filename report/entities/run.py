@@ -11,7 +11,7 @@ from typing import Annotated
 from report.assessment.runs import MotionRun, OrientedRun
 from report.entities.cells import Column
 from report.entities.shown import Entity, Number, at
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from solver.model import Status
 from solver.sliding.least_model import Model
 

@@ -25,7 +25,7 @@ from report.figures.base import (
 )
 from report.figures.levels import dot_name
 from report.memoized import memoized
-from report.sheet.schema import Array
+from report.sheet.schema.scene import Array
 from report.words.counts import ids_by
 from report.words.units import Quantity, Unit, number
 from solver.friction_tests import FittedLaw, FrictionRun, Surface

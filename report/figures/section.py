@@ -13,7 +13,7 @@ from report.assessment.friction import mu_words
 from report.drawing.section import drawn_slope_deg
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, canvas, style, svg_text
 from report.memoized import memoized
-from report.sheet.schema import Array
+from report.sheet.schema.scene import Array
 from report.words.units import Quantity, number, pair
 
 _HEIGHT_IN, _SPLIT_IN = 2.0, 3.75

@@ -18,9 +18,9 @@ from report.motions.spikes import spikes
 from report.sheet.checking.motion_checks import LABELS
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.unseen import Unseen
-from report.sheet.schema import MotionInput, Scaling
-from report.sheet.schema.choices import AccelUnit, Baseline
+from report.sheet.schema.choices import AccelUnit, Baseline, Scaling
 from report.sheet.schema.fields import Finding, Place
+from report.sheet.schema.motions import MotionInput
 from report.words.units import G_MPS2
 from solver.formats import read_motion_file
 from solver.model import InputError

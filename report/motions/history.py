@@ -15,14 +15,10 @@ import numpy as np
 from report.motions.components import Components, processing_of
 from report.motions.targets import targets
 from report.sheet.checking.motion_checks import LABELS
-from report.sheet.schema import (
-    BuildingInput,
-    MotionInput,
-    Polarity,
-    ProjectInput,
-    RecordedAt,
-    Scaling,
-)
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.building import BuildingInput
+from report.sheet.schema.choices import Polarity, RecordedAt, Scaling
+from report.sheet.schema.motions import MotionInput
 from report.words.units import G_MPS2
 from solver.building.periods import approximate_period_s
 from solver.building.roof import RoofMotion, shaking_to_roof

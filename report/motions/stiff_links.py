@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from report.sheet.schema import Links, ProjectInput
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Place
+from report.sheet.schema.links import Links
 from report.words.units import G_MPS2, Quantity
 from solver.model import Motion
 from solver.sliding.row import MOST_STEPS, BlockRow, minimum_steps

@@ -13,7 +13,9 @@ from functools import partial
 
 import numpy as np
 
-from report.sheet.schema import ProjectInput, RecordedAt, SpectrumPoint
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.building import SpectrumPoint
+from report.sheet.schema.choices import RecordedAt
 from solver.model import Floats
 from solver.records.scaling import Target, design_spectrum
 from solver.rules.spectra import (

@@ -14,7 +14,7 @@ from report.document.tables import Column, Table, listed, stamp
 from report.entities.marks import dagger
 from report.entities.shown import plain, text, words
 from report.pages.parts import MOTION_ROWS, PackageData
-from report.sheet.schema import MotionInput
+from report.sheet.schema.motions import MotionInput
 from report.typeset.equations import symbol
 from report.words.units import number
 from solver.records.acceptance import Acceptance, MotionStrength

@@ -11,7 +11,7 @@ from report.document.tables import Column, Table, listed
 from report.entities.shown import length, plain, text, words
 from report.motions.history import first_period_s
 from report.pages.parts import MOTION_ROWS, PackageData
-from report.sheet.schema import BuildingInput
+from report.sheet.schema.building import BuildingInput
 from report.words.counts import grouped_by
 from report.words.units import G_MPS2
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M

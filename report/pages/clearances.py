@@ -12,7 +12,7 @@ from report.entities.evidence import NeighborResult
 from report.entities.shown import length, words
 from report.pages.parts import PackageData
 from report.pages.remedies import answers
-from report.sheet.schema import ObjectKind
+from report.sheet.schema.choices import ObjectKind
 from solver.rules.provisions import Neighbor
 
 

@@ -10,7 +10,7 @@ from report.assessment.runs import nan_is_worst
 from report.pages.parts import PackageData
 from report.pages.symbols import friction_standard
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
-from report.sheet.schema import Revision
+from report.sheet.schema.project import Revision
 
 
 def cover(package: PackageData) -> Mapping[str, object]:

@@ -25,7 +25,9 @@ from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
 from report.sheet.checking.friction_checks import MU_TOLERANCE
-from report.sheet.schema import Array, FrictionTests, ProjectInput
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.friction import FrictionTests
+from report.sheet.schema.scene import Array
 from report.words.counts import grouped_by, ids_by, numbered
 from report.words.units import Quantity, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing

@@ -14,7 +14,8 @@ from report.entities.shown import Shown, length, plain, text, words
 from report.pages import friction_tests
 from report.pages.parts import PackageData
 from report.pages.site import site, unused_s_ds
-from report.sheet.schema import Array, Polygon, RoofObject, Shape
+from report.sheet.schema.scene import Array, RoofObject
+from report.sheet.schema.shapes import Polygon, Shape
 from report.words.units import Quantity, number
 from solver.rules.rulesets import LowProfileLength
 

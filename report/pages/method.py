@@ -12,7 +12,7 @@ from report.assessment.runs import nan_is_worst
 from report.drawing.section import drawn_slope_deg
 from report.pages.parts import PackageData, statistic
 from report.pages.site import site_force
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from report.words.units import Quantity
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 

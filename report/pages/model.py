@@ -17,7 +17,7 @@ from report.entities.columns import NO_VALUE
 from report.entities.shown import centered, length, plain, text, words
 from report.pages import links
 from report.pages.parts import PackageData, verdict
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from report.words.letters import below_mm
 from report.words.units import number, ratio
 from solver.model import INCH_M

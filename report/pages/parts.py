@@ -21,7 +21,8 @@ from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.marks import Marked
 from report.provenance.files import fingerprint
-from report.sheet.schema import Array, RecordedAt
+from report.sheet.schema.choices import RecordedAt
+from report.sheet.schema.scene import Array
 from report.words.counts import ids_by
 from report.words.units import Quantity
 from solver.rules.limit import Limit

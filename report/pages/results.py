@@ -19,7 +19,7 @@ from report.entities.columns import UnitFormat
 from report.entities.shown import Shown, length, text, words
 from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import PackageData, statistic
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from report.words.counts import named
 from report.words.units import number
 from solver.model import Orientation, SlideHistory, Status

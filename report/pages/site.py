@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from report.pages.parts import PackageData
-from report.sheet.schema import RiskCategory, Site
+from report.sheet.schema.choices import RiskCategory
+from report.sheet.schema.project import Site
 from solver.building.periods import approximate_period_s
 from solver.rules import hazard
 from solver.rules.hazard import ComponentForce, component_force

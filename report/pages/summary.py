@@ -20,7 +20,7 @@ from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
 from report.pages.registry import package_data, parts
 from report.sheet.checking.findings import lines
-from report.sheet.schema import ModelChoice
+from report.sheet.schema.choices import ModelChoice
 from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
 from report.words.counts import lowered, ranged

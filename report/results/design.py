@@ -19,7 +19,7 @@ from report.entities.shown import Number
 from report.results.directions import PeakRanges
 from report.results.inputs import InputCells
 from report.results.sheets import TOP, Cells, Pages, SheetRow, write_live
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from solver.model import INCH_M
 from solver.rules.provisions import Basis, PrescriptiveBasis
 

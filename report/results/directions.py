@@ -18,7 +18,7 @@ from report.entities.run import PeakResult, peak_result
 from report.entities.shown import Number
 from report.results.lists import RunRow
 from report.results.sheets import TOP, Cells, Pages, SheetRow, write_live
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 
 PeakRanges = Mapping[tuple[str, Direction], str]
 """Cells of the peaks of an array in a direction, one for each motion."""

@@ -20,7 +20,7 @@ from report.results.design import DesignRow
 from report.results.directions import DirectionRow
 from report.results.inputs import InputCells
 from report.results.sheets import TOP, Pages, SheetRow, fixed, write_live
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from solver.rules.provisions import SEPARATION_KEYS
 
 _DIFFERENCE = '=IF(ISTEXT({required_m}),"none",{required_m}-{by_roofslip_m})'

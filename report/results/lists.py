@@ -21,7 +21,7 @@ from report.entities.run import RunResult, run_result
 from report.entities.shown import Number
 from report.motions.prepare import Shaking
 from report.results.sheets import Pages, SheetRow, write_list, write_live, write_table
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from report.words.units import G_MPS2
 from solver.rules.limit import Limit
 

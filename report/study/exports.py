@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from report.document.templates import said
-from report.sheet.schema import RecordedAt
+from report.sheet.schema.choices import RecordedAt
 from report.study.dispersion import MASS, NOT_DETERMINED, dispersions, exported, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity

@@ -16,8 +16,8 @@ import numpy as np
 
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
-from report.sheet.schema import MotionInput
 from report.sheet.schema.fields import Finding, Place, entries
+from report.sheet.schema.motions import MotionInput
 from report.study.read import StudySheet
 from report.study.schema import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput
 from report.words.units import G_MPS2

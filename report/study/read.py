@@ -12,7 +12,7 @@ from report.sheet.checking.drafts import column, repeated
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.locate import is_absent
 from report.sheet.reading.read import SheetOf, read_as
-from report.sheet.schema import RecordedAt
+from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, sections_of
 from report.study.schema import (
     MOST_CASES,

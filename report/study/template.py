@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import sections_of
 from report.sheet.writing.template import book_of, save
 from report.study.schema import StudyInput

@@ -13,8 +13,10 @@ from typing import Any
 from report.assessment.friction import mu_words
 from report.sheet.reading.read import Sheet
 from report.sheet.reading.what_if import retyped
-from report.sheet.schema import Array, Polarity, ProjectInput, RuleSetName
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import Polarity, RuleSetName
 from report.sheet.schema.fields import Place
+from report.sheet.schema.scene import Array
 from report.web.opened import Opened
 from report.web.values import MUS, Values, trim_unit_m, typed
 from report.words.counts import ids_by, ranged

@@ -23,7 +23,8 @@ from measure import ROOT, SMOKE, command, figure, finished
 from report.assessment.cost import expected_s
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
-from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing import example
 from report.sheet.writing.template import write_template
 from solver.formats import read_record

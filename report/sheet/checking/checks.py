@@ -15,21 +15,16 @@ from report.sheet.checking.friction_checks import friction_faults
 from report.sheet.checking.motion_checks import motion_faults
 from report.sheet.checking.plan_checks import places_of, plan_faults, shapes_of, us_first
 from report.sheet.checking.site_checks import site_faults
-from report.sheet.schema import (
-    PROVISION_KEYS,
-    ModelChoice,
-    Rectangle,
-    Shape,
-    SlopeUnit,
-    coefficients,
-    factors,
-    slope_rad,
-)
+from report.sheet.schema import factors
+from report.sheet.schema.choices import ModelChoice, SlopeUnit
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
-from report.sheet.schema.shapes import gap_m
+from report.sheet.schema.links import coefficients
+from report.sheet.schema.scene import slope_rad
+from report.sheet.schema.shapes import Rectangle, Shape, gap_m
 from report.words.letters import cut
 from report.words.units import Quantity, pair
 from solver.model import INCH_M
+from solver.rules.provisions import OVERRIDABLE
 from solver.rules.rulesets import ALLOWED
 
 GAP_TOLERANCE = 0.01
@@ -210,10 +205,10 @@ def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
 def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
     given = list(column(draft, ("overrides",), "provision"))
     for place, key in given:
-        if key not in PROVISION_KEYS:
-            wanted = f"choose one of {', '.join(PROVISION_KEYS)}"
+        if key not in OVERRIDABLE:
+            wanted = f"choose one of {', '.join(OVERRIDABLE)}"
             yield Finding.error(place, f"provision is '{key}'", wanted)
-    for place, key, first in repeated(cell for cell in given if cell[1] in PROVISION_KEYS):
+    for place, key, first in repeated(cell for cell in given if cell[1] in OVERRIDABLE):
         found = f"provision is '{key}', already given at {where(first)}"
         yield Finding.error(place, found, "delete one")
     for place, value in column(draft, ("overrides",), "value"):

@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from report.sheet.schema import ROOF, SECTION, SIDES, WEIGHT_PARTS, ObjectKind, RecordedAt, Scaling
+from report.sheet.schema import SECTION
+from report.sheet.schema.choices import ObjectKind, RecordedAt, Scaling
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, YesNo
 from report.sheet.schema.layout import literal
+from report.sheet.schema.scene import ROOF, SIDES, WEIGHT_PARTS
 
 Refer = Callable[[str], str]
 """Returns the reference to a field of the row or block of a formula."""

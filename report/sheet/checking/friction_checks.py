@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from report.sheet.checking.drafts import column, repeated
-from report.sheet.schema import FrictionTestRow
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.sheet.schema.friction import FrictionTestRow
 from report.sheet.schema.scene import friction_law
 from solver.friction_tests import Series, governing, series
 from solver.model import Friction

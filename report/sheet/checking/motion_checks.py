@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from report.sheet.checking.site_checks import site_parameters
-from report.sheet.schema import RecordedAt, Scaling
+from report.sheet.schema.choices import RecordedAt, Scaling
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from solver.building.beam import MOST_STORIES
 

@@ -11,9 +11,20 @@ from dataclasses import dataclass
 
 from report.sheet.checking.conditions import ORDERED
 from report.sheet.checking.drafts import suggestion
-from report.sheet.schema import ROOF, SIDES, ObjectKind, Polygon, Rectangle, Shape, UnitsFirst
+from report.sheet.schema.choices import ObjectKind, UnitsFirst
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
-from report.sheet.schema.shapes import NEAR_M, Point, crossing, gap_m, outside, ring
+from report.sheet.schema.scene import ROOF, SIDES
+from report.sheet.schema.shapes import (
+    NEAR_M,
+    Point,
+    Polygon,
+    Rectangle,
+    Shape,
+    crossing,
+    gap_m,
+    outside,
+    ring,
+)
 from report.words.units import Quantity, pair
 
 LEAST_VERTICES = 3

@@ -12,19 +12,15 @@ from report.sheet.checking.checks import gap_tolerance_m
 from report.sheet.checking.findings import note, warning
 from report.sheet.checking.site_checks import ROUNDING_OF_COEFFICIENTS
 from report.sheet.checking.usual import spoken, unusual
-from report.sheet.schema import (
-    PROVISION_KEYS,
-    Array,
-    Clearance,
-    Direction,
-    ProjectInput,
-    Shape,
-    Site,
-)
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import Direction
 from report.sheet.schema.fields import Finding, Level, Place
-from report.sheet.schema.shapes import closest, gap_m
+from report.sheet.schema.project import Site
+from report.sheet.schema.scene import Array, Clearance
+from report.sheet.schema.shapes import Shape, closest, gap_m
 from report.words.counts import counted, numbered
 from report.words.units import LENGTHS, PRESSURES, Quantity, pair
+from solver.rules.provisions import OVERRIDABLE
 from solver.rules.rulesets import usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
@@ -184,7 +180,7 @@ def _overrides(data: ProjectInput) -> Iterator[Finding]:
         expected = usual(row.provision)
         if not expected.has(row.value):
             text = (
-                f"value is {row.value:g} for the {PROVISION_KEYS[row.provision]};"
+                f"value is {row.value:g} for the {OVERRIDABLE[row.provision]};"
                 f" {expected.span} is usual: correct the value or its unit"
             )
             yield warning(f"override {row.provision}", Place("overrides", index, "value"), text)

@@ -13,8 +13,8 @@ from itertools import product
 from report.sheet.checking.checks import GAP_TOLERANCE, GAP_TOLERANCES_M
 from report.sheet.checking.conditions import MAX_SLOPE_DEG, ORDERED, OTHER_NAMES, REFERENCES, UNIQUE
 from report.sheet.checking.site_checks import AGREES_G, LEAST_I_E, ROUNDING_OF_COEFFICIENTS
-from report.sheet.schema import ROOF, SIDES
 from report.sheet.schema.layout import literal
+from report.sheet.schema.scene import ROOF, SIDES
 from report.sheet.schema.shapes import NEAR_M
 from solver.building.beam import MOST_STORIES
 from solver.rules.hazard import EDITIONS, HazardBasis

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.sheet.schema import RiskCategory
+from report.sheet.schema.choices import RiskCategory
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.project import edition_of, site_class_or_default
 from solver.rules import hazard

@@ -8,17 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from report.sheet.checking.findings import warning
-from report.sheet.schema import (
-    SECTIONS,
-    Array,
-    Clearance,
-    Direction,
-    FrictionTestRow,
-    MotionInput,
-    ProjectInput,
-    RoofObject,
-)
+from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema.choices import Direction
 from report.sheet.schema.fields import Entry, Finding, Frozen, Place, SheetSection, entries
+from report.sheet.schema.friction import FrictionTestRow
+from report.sheet.schema.motions import MotionInput
+from report.sheet.schema.scene import Array, Clearance, RoofObject
 
 ROUNDING = 1e-9
 """Difference from a limit / limit that is rounding error of a conversion of units."""

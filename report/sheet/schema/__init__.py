@@ -15,101 +15,39 @@ from pydantic import AfterValidator, model_validator
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
     ClearanceSource,
-    Direction,
     DistanceBasis,
-    LayerKind,
-    ModelChoice,
-    ObjectKind,
     PlanPaper,
-    Polarity,
-    RecordedAt,
     RequiredText,
-    RiskCategory,
-    RuleSetName,
-    Scaling,
-    SlopeUnit,
     Statistic,
     Text,
-    UnitsFirst,
     decimals,
 )
 from report.sheet.schema.fields import Cell, Frozen, OnSheet, SheetSection, sections_of
 from report.sheet.schema.friction import FrictionTestRow, FrictionTests
 from report.sheet.schema.legacy_labels import PROVISIONS
-from report.sheet.schema.links import Links, coefficients
+from report.sheet.schema.links import Links
 from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site
-from report.sheet.schema.scene import (
-    ROOF,
-    SIDES,
-    WEIGHT_PARTS,
-    Array,
-    Clearance,
-    DrawingLayer,
-    Roof,
-    RoofObject,
-    Vertex,
-    slope_rad,
-)
-from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, ring
+from report.sheet.schema.scene import ROOF, Array, Clearance, DrawingLayer, Roof, RoofObject, Vertex
+from report.sheet.schema.shapes import Point, ring
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
-
-__all__ = [  # beside what is defined here
-    "ROOF",
-    "SIDES",
-    "WEIGHT_PARTS",
-    "Array",
-    "BuildingInput",
-    "Clearance",
-    "ClearanceSource",
-    "Direction",
-    "DistanceBasis",
-    "FrictionTestRow",
-    "FrictionTests",
-    "LayerKind",
-    "Links",
-    "ModelChoice",
-    "MotionInput",
-    "ObjectKind",
-    "PlanPaper",
-    "Polarity",
-    "Polygon",
-    "RecordedAt",
-    "Rectangle",
-    "Revision",
-    "RiskCategory",
-    "RoofObject",
-    "RuleSetName",
-    "Scaling",
-    "Shape",
-    "Site",
-    "SlopeUnit",
-    "SpectrumPoint",
-    "Statistic",
-    "UnitsFirst",
-    "coefficients",
-    "slope_rad",
-]
 
 MAX_EVENTS = 20
 """Most smaller events whose displacements are added."""
 
-PROVISION_KEYS = OVERRIDABLE
-"""Provisions that can be overridden, each with its meaning and unit."""
-
 
 def provision_name(key: str) -> str:
     """Return the name of a provision in words, as on the sheet Provisions; without its unit."""
-    words = PROVISION_KEYS[key].partition(" [")[0]
+    words = OVERRIDABLE[key].partition(" [")[0]
     return words[:1].upper() + words[1:]
 
 
 def provision_unit(key: str) -> str:
     """Return the unit of a provision; empty for none."""
-    return PROVISION_KEYS[key].partition(" [")[2].rstrip("]")
+    return OVERRIDABLE[key].partition(" [")[2].rstrip("]")
 
 
-_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in PROVISION_KEYS}
+_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in OVERRIDABLE}
 
 
 def _provision_key(text: str) -> str:
@@ -120,7 +58,7 @@ def _provision_key(text: str) -> str:
 
 def _unit_of_named(text: str) -> str:
     key = _provision_key(text)
-    return provision_unit(key) if key in PROVISION_KEYS else ""
+    return provision_unit(key) if key in OVERRIDABLE else ""
 
 
 def factors(text: str) -> tuple[float, ...]:

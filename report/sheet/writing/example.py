@@ -11,7 +11,8 @@ import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from report.sheet.schema import ProjectInput, UnitsFirst
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.rows import (
     Range,
     Row,

@@ -16,7 +16,7 @@ from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyl
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.checking.refused import UNDECIDED
-from report.sheet.schema import UnitsFirst, provision_name
+from report.sheet.schema import provision_name
 from report.sheet.schema.answers import (
     SITE_ANSWERS,
     SITE_FORMAT,
@@ -27,6 +27,7 @@ from report.sheet.schema.answers import (
     table_answers,
     written,
 )
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
 from report.sheet.writing import style

@@ -26,8 +26,9 @@ from report.sheet.reading.positions import (
     label_key,
     labels_of,
 )
-from report.sheet.schema import SECTIONS, UnitsFirst
+from report.sheet.schema import SECTIONS
 from report.sheet.schema.answers import SITE_ANSWERS, STATUS
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Finding, Level, Place, SheetSection
 from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell
 from report.sheet.writing.counts import START, write_counts

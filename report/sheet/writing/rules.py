@@ -13,10 +13,11 @@ from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.schema import PROVISION_KEYS, provision_name, provision_unit
+from report.sheet.schema import provision_name, provision_unit
 from report.sheet.schema.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
 from report.sheet.schema.layout import Layout, TablePlace, name_cell, name_range
 from report.sheet.writing import style
+from solver.rules.provisions import OVERRIDABLE
 from solver.rules.rulesets import ALLOWED, RULE_SETS, RuleSet, usual
 
 PROVISIONS = "Provisions"
@@ -69,9 +70,9 @@ def write_rules(book: Workbook, layout: Layout) -> None:
         sheet.column_dimensions[get_column_letter(column)].width = width
     sheet.row_dimensions[head].height = 32
     first = head + 1
-    for row, key in enumerate(PROVISION_KEYS, start=first):
+    for row, key in enumerate(OVERRIDABLE, start=first):
         _write_rule(sheet, layout.tables["overrides"], row, key)
-    last = first + len(PROVISION_KEYS) - 1
+    last = first + len(OVERRIDABLE) - 1
     name_range("rule_names", sheet, f"$A${first}:$A${last}")
     _write_facts(sheet, last + 2)
     sheet.freeze_panes = f"B{first}"

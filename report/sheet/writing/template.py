@@ -14,7 +14,8 @@ from typing import Any
 
 from openpyxl import Workbook
 
-from report.sheet.schema import SECTIONS, ProjectInput, UnitsFirst
+from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import SheetSection
 from report.sheet.schema.layout import Layout
 from report.sheet.writing import style

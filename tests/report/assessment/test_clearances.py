@@ -7,7 +7,7 @@ import pytest
 import scenes
 import stand_in
 from report.assessment.verdict import Verdict
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from solver.rules.provisions import Neighbor
 
 SEVEN = scenes.motions(7, 12.0)  # half a second less than those of eight seconds

@@ -16,8 +16,8 @@ from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pair
 from report.assessment.project import assess
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
-from report.sheet.schema import ProjectInput, Rectangle
-from report.sheet.schema.shapes import gap_m
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.shapes import Rectangle, gap_m
 from sheets import at, make, project
 
 OUTLINE = sides(0, 220, 0, 170)

@@ -20,7 +20,7 @@ from report.assessment.project import assess
 from report.cli.main import main
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
-from report.sheet.schema import ClearanceSource, Direction, ObjectKind, UnitsFirst
+from report.sheet.schema.choices import ClearanceSource, Direction, ObjectKind, UnitsFirst
 from sheets import SECTIONS, at, edit, make, parts, problems, put, type_into
 from solver.rules.provisions import RULE_SETS
 

@@ -18,7 +18,7 @@ from report.assessment.evidence import support
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import motion_run
 from report.assessment.verdict import Verdict
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from solver.model import InputError, Status
 from solver.rules.provisions import Basis
 from solver.sliding import least_model

@@ -10,7 +10,7 @@ import stand_in
 from printed import printed
 from report.assessment.spectra import Spectra, spectra
 from report.motions.targets import TargetSpectrum
-from report.sheet.schema import RecordedAt
+from report.sheet.schema.choices import RecordedAt
 from solver.records.spectrum import response_spectrum
 from solver.records.spectrum_acceptance import POINTS_HZ
 

@@ -9,7 +9,7 @@ from report.cli.main import main
 from report.drawing.ballast import MAX_BYTES, center_of_gravity, loads, read_map
 from report.sheet.checking.plausible import implausible
 from report.sheet.reading.read import read
-from report.sheet.schema import Polygon, Rectangle
+from report.sheet.schema.shapes import Polygon, Rectangle
 from sheets import arrays, edit, make, problems, project, type_into
 from solver.model import InputError
 

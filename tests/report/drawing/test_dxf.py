@@ -18,7 +18,7 @@ from report.assessment.envelopes import design_envelope
 from report.drawing.dxf import APPLICATION, write_dxf
 from report.drawing.layers import Layer
 from report.drawing.plan import gap_lines, plan_drawing
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,9 @@ from cells import cell
 from inputs import FT, NO_SIDES
 from report.cli.main import main
 from report.sheet.reading.read import read
-from report.sheet.schema import SIDES, ClearanceSource, Polygon, UnitsFirst
+from report.sheet.schema.choices import ClearanceSource, UnitsFirst
+from report.sheet.schema.scene import SIDES
+from report.sheet.schema.shapes import Polygon
 from report.sheet.writing.live import overwritten
 from sheets import at, blank, edit, make, parts, project, put, same, type_into
 from sketch import BOX_FT, L_FT, ROOF_FT, Sketch

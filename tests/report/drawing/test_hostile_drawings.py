@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from report.cli.main import main
 from report.drawing.read_dxf import MAX_ENTITIES, MAX_VALUES, read_dxf
 from report.sheet.reading.read import read
-from report.sheet.schema import LayerKind
+from report.sheet.schema.choices import LayerKind
 from sheets import make
 from sketch import BOX_FT, LIBRECAD_R12, UNIT_FT, Sketch, plan
 from solver.model import InputError

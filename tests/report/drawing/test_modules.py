@@ -12,7 +12,8 @@ from report.drawing.modules import GAP_M
 from report.drawing.plan_read import plan_of
 from report.drawing.read_dxf import read_dxf
 from report.sheet.reading.read import read
-from report.sheet.schema import LayerKind, Rectangle
+from report.sheet.schema.choices import LayerKind
+from report.sheet.schema.shapes import Rectangle
 from sheets import blank, edit, make, retitle
 from sketch import Sketch, plan
 from solver.model import InputError

@@ -21,7 +21,7 @@ from report.figures import plan as figures
 from report.package.html import part
 from report.pages.pictures import load_charts
 from report.pages.registry import package_data
-from report.sheet.schema import PlanPaper
+from report.sheet.schema.choices import PlanPaper
 from report.typeset.pdf import lay_out
 from stand_in import FOOT
 

@@ -14,7 +14,8 @@ from report.drawing.dxf import write_dxf
 from report.drawing.joined import OPEN
 from report.drawing.plan import plan_drawing
 from report.drawing.read_dxf import read_dxf
-from report.sheet.schema import LayerKind, Polygon, Rectangle
+from report.sheet.schema.choices import LayerKind
+from report.sheet.schema.shapes import Polygon, Rectangle
 from sketch import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
 
 

@@ -8,7 +8,7 @@ from report.drawing.dxf import write_dxf
 from report.drawing.plan import plan_drawing
 from report.drawing.plan_read import own_axes
 from report.drawing.read_dxf import read_dxf
-from report.sheet.schema import Polygon, Rectangle
+from report.sheet.schema.shapes import Polygon, Rectangle
 from sketch import L_FT
 
 

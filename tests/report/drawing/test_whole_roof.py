@@ -6,7 +6,7 @@ import pytest
 
 from commands import printed, refused
 from report.sheet.reading.read import read
-from report.sheet.schema import ClearanceSource
+from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.shapes import Polygon
 from sheets import type_into
 from sketch import Sketch

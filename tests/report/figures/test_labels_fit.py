@@ -15,7 +15,7 @@ import stand_in
 from report.assessment.evidence import support
 from report.figures import maps, records, work
 from report.pages.pictures import draw_assessment, draw_plotted, draw_uncertainty
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from report.study import figures as study
 from report.study.results import LimitState
 from report.suite.info import PERIODS_S, spectra_g

@@ -21,7 +21,7 @@ from report.drawing.sheet import LANDSCAPE, PORTRAIT, SMALL
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures.base import style
 from report.figures.plan import painted, paper_svg, roof_plan
-from report.sheet.schema import Roof
+from report.sheet.schema.scene import Roof
 from sketch import L_FT
 from solver.model import INCH_M
 from stand_in import FOOT

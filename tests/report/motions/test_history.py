@@ -9,7 +9,7 @@ import pytest
 import stand_in
 from report.motions.components import Components, processing_of
 from report.motions.history import first_period_s, shake
-from report.sheet.schema import MotionInput
+from report.sheet.schema.motions import MotionInput
 from solver.building.roof import shaking_to_roof
 from solver.building.structure import building_of_periods
 from solver.records.measures import measures

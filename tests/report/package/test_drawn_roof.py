@@ -11,7 +11,8 @@ from inputs import FT, NO_SIDES, clearance
 from places import ROOT
 from report.cli.main import main
 from report.sheet.reading.read import read
-from report.sheet.schema import Clearance, Roof, UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
+from report.sheet.schema.scene import Clearance, Roof
 from report.sheet.writing.template import write_template
 from sketch import Sketch
 

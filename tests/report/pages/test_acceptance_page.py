@@ -15,7 +15,8 @@ from report.assessment.spectra import spectra
 from report.motions.components import read_components
 from report.motions.targets import TargetSpectrum, targets
 from report.sheet.reading.archive import open_book
-from report.sheet.schema import MotionInput, RecordedAt
+from report.sheet.schema.choices import RecordedAt
+from report.sheet.schema.motions import MotionInput
 from solver.records.acceptance import Acceptance
 from solver.records.record import Record, write_record
 from solver.rules.limit import Limit

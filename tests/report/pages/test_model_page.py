@@ -8,7 +8,7 @@ import pytest
 import scenes
 import stand_in
 from printed import printed
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from solver.sliding.least_model import Model
 from solver.sliding.tipping import Supports, tipping
 from solver.sliding.uplift import uplift

@@ -9,7 +9,7 @@ import scenes
 import stand_in
 from report.assessment.evidence import support
 from report.results.json import results_json
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 
 
 def made(assessment):

@@ -20,7 +20,7 @@ from report.results.directions import PeakRow
 from report.results.lists import RunRow
 from report.results.sheets import Cells, Pages, write_live
 from report.results.xlsx import results_xlsx
-from report.sheet.schema import Direction
+from report.sheet.schema.choices import Direction
 from sheets import formula_cells
 
 GOVERNING = "Governing array, direction"

@@ -15,8 +15,8 @@ from inputs import FT, INCH, NO_SIDES
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
 from report.assessment.clearances import check_clearance
-from report.sheet.schema import ProjectInput, UnitsFirst
-from report.sheet.schema.choices import SiteClass
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import SiteClass, UnitsFirst
 from report.sheet.writing.template import write_template
 from report.words.units import PRESSURES, Quantity, number, ratio
 from sheets import formula_cells, project, retitle, site

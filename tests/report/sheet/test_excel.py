@@ -12,7 +12,7 @@ import sheets
 from cells import cell
 from recalculated import converted, recalculated_sheets
 from report.sheet.reading.read import read
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.marks import RED, VIOLET
 from report.sheet.writing.needs import WRONG
 from sheets import at, blank, edit, make, of, put, same, type_into

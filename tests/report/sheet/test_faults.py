@@ -9,9 +9,10 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from cells import address, cell
 from places import ROOT
 from report.sheet.reading.read import read
-from report.sheet.schema import PROVISION_KEYS, UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from sheets import at, edit, make, of, problems, read_workbook, said, type_into
 from solver.model import InputError
+from solver.rules.provisions import OVERRIDABLE
 
 
 def together(folder, cases, touched):
@@ -427,7 +428,7 @@ TYPED = [
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
      f"<Site/Height of the array z/Unit>: unit of height of the array z is missing; {LENGTHS}"),
     ({"Options/1/Provision": "parapet"},
-     "<Options/1/Provision>: provision is 'parapet'; choose one of " + ", ".join(PROVISION_KEYS)),
+     "<Options/1/Provision>: provision is 'parapet'; choose one of " + ", ".join(OVERRIDABLE)),
     ({"Arrays/heading/CG height": "CG height [yd]"},
      f"<Arrays/heading/CG height>: unit of CG height is 'yd'; {LENGTHS}"),
 ]  # fmt: skip

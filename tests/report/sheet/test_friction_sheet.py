@@ -7,7 +7,8 @@ from openpyxl import load_workbook
 
 from cells import cell
 from inputs import INCH
-from report.sheet.schema import FrictionTests, UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
+from report.sheet.schema.friction import FrictionTests
 from report.sheet.writing.grids import BLOCK_WIDTHS
 from sheets import arrays, at, make, problems, read_workbook, said, type_into
 

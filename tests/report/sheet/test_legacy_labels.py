@@ -11,17 +11,12 @@ from places import DATA, ROOT
 from report.cli.main import main
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.read import read
-from report.sheet.schema import (
-    PROVISION_KEYS,
-    SECTION,
-    SECTIONS,
-    ProjectInput,
-    legacy_labels,
-)
+from report.sheet.schema import SECTION, SECTIONS, ProjectInput, legacy_labels
 from report.sheet.schema.fields import entries
 from report.sheet.writing.legacy_notes import what_is_new
 from report.sheet.writing.live import overwritten
 from sheets import edit, make, project, same, type_into
+from solver.rules.provisions import OVERRIDABLE
 
 
 def test_the_workbook_of_0_1_is_read_as_what_it_was_made_from():
@@ -123,4 +118,4 @@ def test_every_earlier_name_belongs_to_a_present_one():
     for (section, field), earlier in legacy_labels.LABELS.items():
         for label in earlier:
             assert labels.get((section, label), field) == field
-    assert set(legacy_labels.PROVISIONS.values()) <= PROVISION_KEYS.keys()
+    assert set(legacy_labels.PROVISIONS.values()) <= OVERRIDABLE.keys()

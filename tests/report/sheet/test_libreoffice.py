@@ -7,7 +7,7 @@ from test_live import OVER, check, formulas, lost, typed_over
 from cells import cell
 from recalculated import converted
 from report.sheet.reading.read import read
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.template import write_template
 from sheets import arrays, blank, edit, make, project, said, same, site, type_into
 

@@ -9,7 +9,8 @@ from pydantic import ValidationError
 import inputs
 from cells import cell
 from inputs import INCH, LB
-from report.sheet.schema import Links, UnitsFirst, coefficients
+from report.sheet.schema.choices import UnitsFirst
+from report.sheet.schema.links import Links, coefficients
 from sheets import arrays, at, edit, make, problems, read_workbook, said, type_into
 from solver.sliding.row import MOST_STEPS, minimum_steps
 

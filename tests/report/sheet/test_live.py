@@ -11,7 +11,7 @@ from recalculated import recalculated_sheets
 from report.cli.main import main
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.formula_text import canonical, moved
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.live import findings, live_formulas, overwritten
 from sheets import at, blank, edit, formula_cells, make, pack, parts, put, retitle, said, type_into
 

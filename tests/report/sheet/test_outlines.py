@@ -5,7 +5,9 @@ from openpyxl import load_workbook
 
 from inputs import FT, NO_SIDES, SIDES, clearance, sides
 from report.sheet.reading.read import read
-from report.sheet.schema import ROOF, Polygon, Rectangle, UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
+from report.sheet.schema.scene import ROOF
+from report.sheet.schema.shapes import Polygon, Rectangle
 from sheets import arrays, at, blank, make, of, problems, project, read_workbook, same, type_into
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))

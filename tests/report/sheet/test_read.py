@@ -16,7 +16,7 @@ from openpyxl.worksheet.formula import ArrayFormula
 from cells import address, cell
 from inputs import FT
 from report.sheet import schema
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import Polarity, SlopeUnit, UnitsFirst
 from report.sheet.writing.template import write_template
 from sheets import (
     at,
@@ -65,7 +65,7 @@ def inputs(draw):
         | {
             "id": name,
             "slope_value": draw(st.floats(0, 11.9)),
-            "slope_unit": draw(st.sampled_from(schema.SlopeUnit)),
+            "slope_unit": draw(st.sampled_from(SlopeUnit)),
             "mu": draw(st.floats(0, 1.5)),
             "weight_n": draw(st.floats(1, 1e7)),
             "cg_height_m": draw(lengths),
@@ -79,7 +79,7 @@ def inputs(draw):
     motion = base.motions[0].model_dump() | {
         "scaling": draw(st.sampled_from(["factor", "PPA"])),
         "scale_value": draw(st.floats(0.01, 100)),
-        "polarity": draw(st.sampled_from(schema.Polarity)),
+        "polarity": draw(st.sampled_from(Polarity)),
         "source": draw(st.just("") | texts),
     }
     head = base.project.model_dump() | {
@@ -232,7 +232,7 @@ def test_a_blank_choice_takes_its_default(tmp_path):
     blank = (statistic, "Options/Peer review", "Motions/M2/Polarity")
     book = read_workbook(type_into(make(tmp_path), dict.fromkeys(blank)))
     assert book.input.options == schema.Options()
-    assert book.input.motions[1].polarity is schema.Polarity.BOTH
+    assert book.input.motions[1].polarity is Polarity.BOTH
     row = echo(book)[at(statistic)]
     assert (row.typed, row.value) == ("", "rule set (default)")
 

@@ -8,26 +8,16 @@ from pydantic import ValidationError
 
 import inputs
 from inputs import INCH
-from report.sheet.schema import (
-    PROVISION_KEYS,
-    SECTIONS,
-    Array,
-    MotionInput,
-    Options,
-    Project,
-    ProjectInput,
-    Rectangle,
-    RuleSetName,
-    Site,
-    SlopeUnit,
-    slope_rad,
-)
+from report.sheet.schema import SECTIONS, Options, ProjectInput
+from report.sheet.schema.choices import RuleSetName, SlopeUnit
 from report.sheet.schema.fields import Bounds, YesNo, entries
-from report.sheet.schema.shapes import gap_m
+from report.sheet.schema.motions import MotionInput
+from report.sheet.schema.project import Project, Site
+from report.sheet.schema.scene import Array, slope_rad
+from report.sheet.schema.shapes import Rectangle, gap_m
 from report.words.units import LENGTHS, WEIGHTS, Quantity
 from sheets import project
 from solver.formats import UNIT_CHOICES
-from solver.rules.provisions import OVERRIDABLE
 
 SITE = inputs.SITE | {"rule_set": "ASCE 7-16", "s_1_g": None, "site_class": None}
 SITE.pop("s_ds_g")
@@ -60,10 +50,6 @@ def test_input_messages_fit_into_excel():
 
 def test_record_units_are_those_that_records_are_read_in():
     assert entry(MotionInput, "units").choices == ("from file", *UNIT_CHOICES)
-
-
-def test_provisions_to_override_are_those_of_the_solver():
-    assert PROVISION_KEYS is OVERRIDABLE
 
 
 def test_a_field_has_its_type_requirement_and_range():

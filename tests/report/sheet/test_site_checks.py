@@ -4,8 +4,8 @@ import pytest
 
 from inputs import SITE
 from report.sheet.checking.site_checks import site_faults
-from report.sheet.schema import Site
 from report.sheet.schema.choices import SiteClass
+from report.sheet.schema.project import Site
 from solver.rules.hazard import HazardBasis
 
 GIVEN = SITE | {

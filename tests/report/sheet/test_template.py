@@ -5,11 +5,13 @@ from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 
 from cells import address, cell
-from report.sheet.schema import PROVISION_KEYS, SECTIONS, UnitsFirst, provision_name
+from report.sheet.schema import SECTIONS, provision_name
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import entries
 from report.sheet.writing import style
 from report.sheet.writing.template import write_template
 from sheets import arrays, formula_cells, make, project
+from solver.rules.provisions import OVERRIDABLE
 
 SHEETS = [
     "Start", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
@@ -146,7 +148,7 @@ def test_overrides_offer_the_provisions(blank):
     assert validation(blank, "Options/1/Provision").formula1 == "rule_names"
     cells = blank.defined_names["rule_names"].attr_text.partition("!")[2].replace("$", "")
     names = [row[0].value for row in blank["Provisions"][cells]]
-    assert names == [provision_name(key) for key in PROVISION_KEYS]
+    assert names == [provision_name(key) for key in OVERRIDABLE]
 
 
 def test_no_cell_has_two_validations(blank):

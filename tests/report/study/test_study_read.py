@@ -18,7 +18,7 @@ from cells import address, addressed, cell
 from places import ROOT
 from report.cli.main import main
 from report.sheet.reading.read import read
-from report.sheet.schema import UnitsFirst
+from report.sheet.schema.choices import UnitsFirst
 from report.study.motions import study_motions
 from report.study.plan import plan_study
 from report.study.read import read_study

@@ -15,7 +15,7 @@ from starlette.testclient import TestClient
 
 from places import ROOT
 from report.sheet.reading.read import read
-from report.sheet.schema import ClearanceSource
+from report.sheet.schema.choices import ClearanceSource
 from report.web import receiving
 from report.web.access import Gate
 from report.web.app import made

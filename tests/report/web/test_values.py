@@ -12,7 +12,7 @@ from places import ROOT
 from report.assessment.project import anticipate, assess
 from report.sheet.reading.parts import changed
 from report.sheet.reading.what_if import cells, retyped
-from report.sheet.schema import Scaling
+from report.sheet.schema.choices import Scaling
 from report.web import jobs
 from report.web.answers import answer
 from report.web.controls import controls, shown
