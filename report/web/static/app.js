@@ -174,9 +174,9 @@ function show({ phase, answer: next }) {
 
 // Until the next verdict its box keeps its height: no slider moves from under the pointer.
 function keepHeight(isFinal) {
-  const { style, offsetHeight } = part("verdict");
-  if (isFinal) style.minHeight = "";
-  else if (!style.minHeight) style.minHeight = `${offsetHeight}px`;
+  const box = part("verdict");
+  if (isFinal) box.style.minHeight = "";
+  else box.style.minHeight ||= `${box.offsetHeight}px`;
 }
 
 // What the values shown are: final, provisional, or former, which are not of what is asked now.

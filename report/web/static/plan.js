@@ -9,12 +9,12 @@ import { replace, svg } from "./make.js";
 export function mountPlan(element, ask) {
   let latest = null;
   let room = 0;
-  const look = () => {
-    if (element.clientWidth === 0) return; // another tab is open
-    room = element.clientWidth;
-    if (latest && !isFor(latest, room)) ask();
-  };
-  new ResizeObserver(look).observe(element);
+  const look = () => latest && room && !isFor(latest, room) && ask();
+  // Read where the browser has laid out the page: asked for beside a change, it would do so once more.
+  new ResizeObserver(() => {
+    room = element.clientWidth || room; // none while another tab is open
+    look();
+  }).observe(element);
   return {
     room: () => room,
     show(plan) {
