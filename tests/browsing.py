@@ -1,5 +1,6 @@
 """Chromium for tests of the page, and the page's own scripts without a server."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -80,7 +81,9 @@ def serve_scripts(page):
 def served(root=ROOT):
     """Yield a server's address with its token, and its process, which ends with the test."""
     command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=root) as server:
+    # Its processes import what it does, whatever version is installed or asks.
+    env = os.environ | {"PYTHONPATH": str(root)}
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=root, env=env) as server:
         try:
             yield server.stdout.readline().strip(), server.pid
         finally:
