@@ -102,11 +102,6 @@ class WorkerProcess(Executor):
         there.close()
         self._asking = ThreadPoolExecutor(1)
 
-    @property
-    def pid(self) -> int | None:
-        """Number of the process."""
-        return self._process.pid
-
     def submit(self, fn: Callable[_P, _R], /, *args: _P.args, **kwargs: _P.kwargs) -> Future[_R]:
         """Have a function run after those submitted before."""
         return self._asking.submit(self._ask, fn, args, kwargs)

@@ -275,12 +275,11 @@ def _pairs(
 ) -> Iterator[PlanNeighbor]:
     rows = _rows(data, addresses)
     kinds = {item.id: item.kind.value for item in data.objects}
-    for array, other, kind, far, reach_m in _candidates(data, reaches):
+    for array, other, kind, (near, far), reach_m in _candidates(data, reaches):
         is_bare = kind is NearbyKind.BARE_EDGE
         table = "objects" if is_bare else "clearances"
-        near = array.shape
         yield PlanNeighbor(
-            array=array.id,
+            array=array,
             other=other,
             kind=kind,
             what=kinds.get(other, kind.value),
@@ -288,24 +287,23 @@ def _pairs(
             far=far,
             gap_m=gap_m(near, far),
             reach_m=reach_m,
-            given=() if is_bare else rows.get(frozenset((array.id, other)), ()),
+            given=() if is_bare else rows.get(frozenset((array, other)), ()),
             to_add=addresses.get(Place(table), table.capitalize()),
         )
 
 
 def _candidates(
     data: ProjectInput, reaches: Sequence[tuple[Array, float]]
-) -> Iterator[tuple[Array, str, NearbyKind, Shape, float]]:
-    """Yield each array with what may be near it: its name, kind, shape and reach [m]."""
-    edges = bare_edges(data)
-    for (a, reach_m), (b, other_m) in combinations(reaches, 2):
-        yield a, b.id, NearbyKind.ARRAY, b.shape, max(reach_m, other_m)
-    for a, reach_m in reaches:
-        for item in data.objects:
-            if item.placed is not None:
-                yield a, item.id, NearbyKind.OBJECT, item.placed, reach_m
-        for edge in edges:
-            yield a, f"the {edge.name}", NearbyKind.BARE_EDGE, edge.line, reach_m
+) -> Iterator[tuple[str, str, NearbyKind, tuple[Shape, Shape], float]]:
+    """Yield each array with what may be near it: their names, its kind, their shapes, reach [m]."""
+    arrays = [(array.id, array.shape, reach_m) for array, reach_m in reaches]
+    others = [(row.id, NearbyKind.OBJECT, row.placed) for row in data.objects if row.placed]
+    others += [(f"the {e.name}", NearbyKind.BARE_EDGE, e.line) for e in bare_edges(data)]
+    for (a, near, reach_m), (b, far, other_m) in combinations(arrays, 2):
+        yield a, b, NearbyKind.ARRAY, (near, far), max(reach_m, other_m)
+    for a, near, reach_m in arrays:
+        for name, kind, far in others:
+            yield a, name, kind, (near, far), reach_m
 
 
 def reaches_of(arrays: Sequence[ArrayAssessment]) -> Sequence[tuple[Array, float]]:

@@ -169,7 +169,7 @@ async def _open_new(
 
 
 async def _open(request: Request, workbook: Path) -> None:
-    """Open a workbook in place of another project, with the package that is made of it."""
+    """Open a workbook in place of another project, and end what is being made."""
     session = session_of(request)
     former = session.open(workbook)
     await desk_of(request).packages.cancel_unfinished(session)

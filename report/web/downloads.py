@@ -79,7 +79,7 @@ async def _motions(request: Request) -> Response:
     folder = session.folder / f"package-{secrets.token_hex(8)}"
     folder.mkdir()
     workbook = await received(request, folder)
-    await packages.cancel_unfinished(session, motions_made)
+    await packages.cancel_unfinished(session, [motions_made])
     return JSONResponse(packages.about(packages.begin(session, workbook, {}, motions_made)))
 
 

@@ -10,7 +10,7 @@ import asyncio
 import os
 import secrets
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from enum import StrEnum
@@ -165,10 +165,11 @@ class Packages:
         if package.worker is not None:
             package.worker.shutdown()
 
-    async def cancel_unfinished(self, session: Session, task: Task = made) -> None:
-        """Cancel the package of a session that waits or is made."""
-        if (package := self.unfinished(session, task)) is not None:
-            await self.cancel(package)
+    async def cancel_unfinished(self, session: Session, tasks: Iterable[Task] = _STEPS) -> None:
+        """Cancel what waits or is made for a session: its package, its suite."""
+        for task in tasks:
+            if (package := self.unfinished(session, task)) is not None:
+                await self.cancel(package)
 
     async def forget(self, owner: str) -> None:
         """End and forget the packages of a session."""

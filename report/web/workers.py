@@ -73,13 +73,7 @@ class Workers:
         self._arrived = asyncio.Condition()
         self._orders = count()
         self._tasks: list[asyncio.Task[None]] = []
-        self._workers: set[WorkerProcess] = set()
         self._warmed = asyncio.Event()
-
-    @property
-    def pids(self) -> list[int | None]:
-        """Numbers of the processes that run."""
-        return [worker.pid for worker in self._workers]
 
     def start(self, warm: Mapping[str, Any]) -> None:
         """Start every process with a first job, whose answer nobody waits for."""
@@ -123,11 +117,7 @@ class Workers:
         while True:
             try:
                 with self._start(is_quick) as worker:
-                    self._workers.add(worker)
-                    try:
-                        await self._serve(worker, warm, is_quick)
-                    finally:
-                        self._workers.discard(worker)
+                    await self._serve(worker, warm, is_quick)
             except Exception:  # such as of a system that starts no process
                 traceback.print_exc()
                 self._warmed.set()

@@ -36,14 +36,13 @@ STEPS = {"friction": (0.69, 0.01), "slope": (0.1, 0.1), "intensity": (0.7, 0.02)
 MEASURED = """
 async ([slider, values, isLetGo]) => {
   const input = document.querySelector(`#slider-${slider}`);
-  const table = document.querySelector("#arrays");
-  const drawn = (phase, event) => new Promise((done) => {
+  const drawn = (values, event) => new Promise((done) => {
     const observer = new MutationObserver(() => {
-      if (document.body.dataset.phase !== phase) return;
+      if (document.body.dataset.values !== values) return;
       observer.disconnect();
       requestAnimationFrame(() => done(performance.now() - start));
     });
-    observer.observe(table, { childList: true });
+    observer.observe(document.body, { attributes: true, attributeFilter: ["data-values"] });
     const start = performance.now();
     input.dispatchEvent(event);
   });
@@ -51,8 +50,8 @@ async ([slider, values, isLetGo]) => {
   for (const value of values) {
     await new Promise((done) => setTimeout(done, 500));
     input.value = value;
-    const moving = await drawn("moving", new InputEvent("input", { bubbles: true }));
-    const letGo = () => drawn("rest", new PointerEvent("pointerup", { bubbles: true }));
+    const moving = await drawn("provisional", new InputEvent("input", { bubbles: true }));
+    const letGo = () => drawn("final", new PointerEvent("pointerup", { bubbles: true }));
     times.push(isLetGo ? await letGo() : moving);
   }
   return times;
@@ -147,7 +146,8 @@ async ([slider, value]) => {
       isProvisional ||= verdict.textContent.includes("Values while a slider moves");
       if (document.body.dataset.phase !== "rest") return;
       observer.disconnect();
-      requestAnimationFrame(() => setTimeout(() => done([performance.now() - start, isProvisional])));
+      const finish = () => done([performance.now() - start, isProvisional]);
+      requestAnimationFrame(() => setTimeout(finish));
     });
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-phase"] });
     observer.observe(verdict, { childList: true });

@@ -1,6 +1,6 @@
 // Peak relative displacements of one array, a bar for each motion, as a table with drawn cells.
 
-import { headings, html, replace, svg } from "./make.js";
+import { headings, html, svg, update } from "./make.js";
 
 const WIDE = 100; // units of the drawing; it stretches with its cell
 
@@ -15,7 +15,7 @@ export function showBars(element, { heads, scale_m: scale, arrays }, id) {
     const drawing = svg("svg", { viewBox: `0 0 ${WIDE} 10`, preserveAspectRatio: "none" }, bar, drawn());
     return html("tr", {}, html("th", { scope: "row" }, motion), html("td", { class: "bar", "aria-hidden": "true" }, drawing), html("td", { class: "numbers" }, text));
   };
-  replace(
+  update(
     element,
     html("caption", {}, caption),
     headings(heads, { class: "visually-hidden" }),

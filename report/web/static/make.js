@@ -32,6 +32,23 @@ export function replace(element, ...children) {
   element.replaceChildren(...nodes(children));
 }
 
+/**
+ * Replace what differs from new elements; what is the same stays, with its listeners, and is not laid
+ * out again.
+ */
+export function update(element, ...children) {
+  const former = [...element.childNodes];
+  const next = nodes(children);
+  next.forEach((node, k) => {
+    const old = former[k];
+    if (!old) element.append(node);
+    else if (old.isEqualNode(node)) return;
+    else if (node.firstElementChild && old.cloneNode().isEqualNode(node.cloneNode())) update(old, [...node.childNodes]);
+    else old.replaceWith(node);
+  });
+  for (const old of former.slice(next.length)) old.remove();
+}
+
 /** Return words with their subscripts: S_DS is an S with a small DS. */
 export function words(text) {
   const parts = text.split(/\b([A-Z])_(\w{1,3})\b/);

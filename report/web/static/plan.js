@@ -1,6 +1,6 @@
 // The roof plan, as the server places it on a sheet that fits; a gap that is NG says so.
 
-import { replace, svg } from "./make.js";
+import { svg, update } from "./make.js";
 
 /**
  * Draw plans into an element; returns `show(plan)` and `room()`, the width that there is for one.
@@ -19,7 +19,7 @@ export function mountPlan(element, ask) {
     room: () => room,
     show(plan) {
       latest = plan;
-      replace(element, drawing(plan));
+      update(element, drawing(plan));
       look();
     },
     /** Take out what is a verdict, of values that stay while others are computed. */

@@ -1,6 +1,6 @@
 // The verdict, the arrays and the clearances, as the server words them.
 
-import { button, headings, html, note, replace, words } from "./make.js";
+import { button, headings, html, note, replace, update, words } from "./make.js";
 
 /** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
 function tag(verdict) {
@@ -58,7 +58,7 @@ export function showTable(element, { caption, heads, rows }, { named = 0, picked
     html("th", { scope: "row", title: cell.text }, pick ? pickButton(cell.text, cell.text === picked, pick) : between(cell), cell.note ? html("small", {}, cell.note) : null);
   const row = (cells) =>
     html("tr", { class: cells[named].text === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
-  replace(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
+  update(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
   if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();
 }
 

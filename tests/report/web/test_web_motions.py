@@ -93,6 +93,13 @@ def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(cli
     assert client.post("/api/motions", files=[("files", ("../x.xlsx", b""))]).status_code == 422
 
 
+def test_a_suite_that_is_being_made_ends_where_another_project_is_opened(client, tmp_path):
+    files = [("files", ("p/input.xlsx", without_motions(tmp_path).read_bytes()))]
+    ticket = client.post("/api/motions", files=files).json()["ticket"]
+    client.post("/api/example")
+    assert client.get(f"/api/package/{ticket}").json()["state"] == "canceled"
+
+
 @pytest.mark.nightly("report/web/")
 def test_motions_are_offered_again_where_the_server_no_longer_tells_of_them(browser, tmp_path):
     path = without_motions(tmp_path)
