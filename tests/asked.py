@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from difflib import get_close_matches
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -42,8 +44,25 @@ def tests_of(asked: str) -> list[str]:
         files = sorted(_of_module(inside))
         if files:
             return files
+    return [_folder_of(inside)]
+
+
+def tests_of_changed(paths: Iterable[str]) -> tuple[str, ...]:
+    """Return the test files and folders that belong to files, with the folders of their tests."""
+    found = set()
+    for path in paths:
+        if path.startswith(("tests/", *(f"{name}/" for name in PACKAGES))):
+            with suppress(LookupError):  # it is deleted
+                found |= set(tests_of(path))
+                if path.count("/") > 1 and not path.startswith("tests/"):
+                    found.add(_folder_of(Path(path)))
+    return tuple(found)
+
+
+def _folder_of(inside: Path) -> str:
+    """Return the nearest folder of tests of a file or folder of the product."""
     folder = next(here for here in (inside, *inside.parents) if (ROOT / "tests" / here).is_dir())
-    return [f"tests/{folder.as_posix()}"]
+    return f"tests/{folder.as_posix()}"
 
 
 def _of_module(module: Path) -> Iterator[str]:
@@ -54,6 +73,7 @@ def _of_module(module: Path) -> Iterator[str]:
             yield f"tests/{inside.as_posix()}"
 
 
+@cache
 def imported(file: Path) -> set[str]:
     """Return the modules that a file imports; names imported from a module count as modules too."""
     found = set()

@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import csv
 import difflib
+import os
 import subprocess
 import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Generator, Iterable, Mapping
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import pytest
 
+from asked import tests_of_changed
 from places import GOLDEN, ROOT
 
 DURATIONS = Path(__file__).with_name("durations.csv")
@@ -24,6 +26,9 @@ KEPT_S = 0.02
 
 QUICK_S = 0.1
 """Longest quick test; of a file whose tests all take longer, the shortest one is quick."""
+
+DEAR_S = 0.7
+"""Longest case that runs on every day; quick tests and those marked `by_day` run all the same."""
 
 
 COUNT = pytest.StashKey[int]()
@@ -49,9 +54,15 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     which = config.getoption("--which")
     if which == "all" or any("::" in argument for argument in config.args):
         return
-    quick = is_quick(read(DURATIONS), {function_of(i.nodeid): tuple(i.fixturenames) for i in items})
-    is_all_changed = config.getoption("--all-changed")
-    nights = nightly(items, changed_files(), is_all_changed=is_all_changed)
+    functions = {function_of(item.nodeid): item.fixturenames for item in items}
+    cases = Counter(function_of(item.nodeid) for item in items)
+    durations = read(DURATIONS)
+    quick = is_quick(durations, functions)
+    changed, is_all_changed = changed_files(), config.getoption("--all-changed")
+    nights = nightly(items, changed, is_all_changed=is_all_changed)
+    if not is_all_changed:
+        dear = is_dear(durations, functions, cases) - quick
+        nights |= dear_and_apart(items, dear, (*tests_of_changed(changed), *named(config)))
     left_out = []
     for item in items:
         is_nightly = item in nights
@@ -66,6 +77,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     config.stash[COUNT] = len(left_out)
     gone = set(left_out)
     items[:] = [item for item in items if item not in gone]
+
+
+def named(config: pytest.Config) -> list[str]:
+    """Return the files and folders of the command line, which are all there are without one."""
+    paths = (os.path.relpath(argument, ROOT) for argument in config.args)
+    return [path for path in paths if path not in ("tests", ".")]
 
 
 def nightly(
@@ -94,6 +111,26 @@ def nightly(
     return found
 
 
+def dear_and_apart(
+    items: list[pytest.Item], dear: set[str], belonging: tuple[str, ...]
+) -> set[pytest.Item]:
+    """Return the tests of dear functions that neither are marked nor belong to what changed.
+
+    Parameters
+    ----------
+    belonging : tuple of str
+        The test files and folders that belong to it.
+    """
+    return {
+        item
+        for item in items
+        if function_of(item.nodeid) in dear
+        and not item.nodeid.startswith(belonging)
+        and not item.get_closest_marker("nightly")
+        and not item.get_closest_marker("by_day")
+    }
+
+
 def changed_files() -> set[str]:
     """Return the files that differ from the last commit but one; none where git does not say."""
     command = ["git", "diff", "--name-only", "HEAD~1"]
@@ -116,16 +153,36 @@ def is_quick(durations: Mapping[str, float], functions: Mapping[str, Iterable[st
     """
     of_file = defaultdict(list)
     for name, fixtures in functions.items():
-        file = name.partition("::")[0]
-        keys = (fixture_key(place, each) for each in fixtures for place in (file, "tests", ""))
-        dear = sum(s for s in (durations.get(key, 0.0) for key in keys) if s > QUICK_S)
-        of_file[file].append((durations.get(name, 0.0) + dear, name))
+        seconds = durations.get(name, 0.0) + dear_fixtures_s(durations, name, fixtures)
+        of_file[name.partition("::")[0]].append((seconds, name))
     return {
         name
         for tests in of_file.values()
         for seconds, name in tests
         if seconds <= max(QUICK_S, min(tests)[0])
     }
+
+
+def is_dear(
+    durations: Mapping[str, float],
+    functions: Mapping[str, Iterable[str]],
+    cases: Mapping[str, int],
+) -> set[str]:
+    """Return the functions of which a case takes longer than a test of every day, with fixtures."""
+    return {
+        name
+        for name, fixtures in functions.items()
+        if durations.get(name, 0.0) / cases[name] + dear_fixtures_s(durations, name, fixtures)
+        > DEAR_S
+    }
+
+
+def dear_fixtures_s(durations: Mapping[str, float], name: str, fixtures: Iterable[str]) -> float:
+    """Return the seconds of the fixtures of a test that are not quick."""
+    file = PurePosixPath(name.partition("::")[0])
+    places = (str(file), *(str(folder).replace(".", "") for folder in file.parents))
+    keys = (fixture_key(place, fixture) for fixture in fixtures for place in places)
+    return sum(s for s in (durations.get(key, 0.0) for key in keys) if s > QUICK_S)
 
 
 def fixture_key(place: str, name: str) -> str:
@@ -209,10 +266,12 @@ class Clock:
                     self._seconds[name] -= seconds
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
-        """Write what was run; what was not, stays as it was."""
-        if hasattr(session.config, "workerinput"):
+        """Write what was run; where only a part was asked for, the others stay as they were."""
+        config = session.config
+        if hasattr(config, "workerinput"):
             return
-        known = {name: s for name, s in read(DURATIONS).items() if name not in self._seconds}
+        is_part = named(config) or config.option.keyword or config.option.markexpr
+        known = read(DURATIONS) if is_part else {}
         rows = sorted((known | dict(self._seconds)).items())
         with DURATIONS.open("w", encoding="utf-8", newline="") as lines:
             table = csv.writer(lines, lineterminator="\n")

@@ -34,6 +34,14 @@ def test_a_module_that_no_test_imports_stands_for_its_folder():
     assert asked.tests_of("report/cli/__main__.py") == ["tests/report/cli"]
 
 
+def test_to_a_changed_module_belong_its_folder_and_the_files_that_import_it():
+    found = asked.tests_of_changed(
+        ["report/cli/terminal.py", "report/cli/gone.py", "docs/index.md"]
+    )
+    assert {"tests/report/cli", "tests/report/cli/test_terminal.py"} <= set(found)
+    assert asked.tests_of_changed(["tests/test_asked.py"]) == ("tests/test_asked.py",)
+
+
 def test_options_and_their_values_stay_as_they_are():
     words = ["--which", "quick", "solver/rules", "-k", "solver", "-x"]
     assert asked.words_for_pytest(words) == [*words[:2], "tests/solver/rules", *words[3:]]
