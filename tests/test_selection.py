@@ -32,6 +32,7 @@ def test_so_many_cases_run_by_day_evenly_spaced(n, cases, kept):
     items = of("f", pytest.mark.by_day(n), cases=cases)
     left = selection.nightly(items, set())
     assert [item for item in items if item not in left] == [items[k] for k in kept]
+    assert selection.nightly(items, set(), is_all_changed=True) == set()
 
 
 def test_a_nightly_test_runs_by_day_where_one_of_its_files_changed():

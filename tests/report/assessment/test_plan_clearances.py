@@ -50,7 +50,6 @@ def without_rows(name, folder):
 
 
 @pytest.mark.parametrize("name", ["example", "school", "campus"])
-@pytest.mark.by_day(1)
 def test_a_shipped_project_without_rows_has_none_missing_after_the_command(tmp_path, name):
     folder = without_rows(name, tmp_path / name)
     was = {

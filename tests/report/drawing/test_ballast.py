@@ -78,7 +78,6 @@ def ran(*words, exit_code=0):
     return done.output
 
 
-@pytest.mark.by_day(1)
 def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     book = make(tmp_path, arrays=arrays(modules=320, module_weight_n=75 * LB))
     type_into(book, {"Arrays/A1/Weight": None})

@@ -151,7 +151,6 @@ def test_the_chords_of_a_flat_arc_stay_within_3_mm_of_it(tmp_path):
 
 
 @pytest.mark.parametrize("letter", ["\u202e", "\x00", "\x07", "\ufffe", "\u2028"])
-@pytest.mark.by_day(1)
 def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter):
     book = make(tmp_path)
     sketch = Sketch()

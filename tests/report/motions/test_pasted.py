@@ -123,7 +123,7 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
           " the record as a file"]),
     ],
 )  # fmt: skip
-@pytest.mark.by_day(6)
+@pytest.mark.by_day(3)
 def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
     assert problems(paste(cells)) == said(*(f"{PASTED} {line}" for line in lines))
 

@@ -73,6 +73,7 @@ def example(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "example", by_script=True))
 
 
+@pytest.mark.by_day(1)
 def test_the_example_has_at_most_32_sheets(example):
     assert len(example.pdf.pages) <= 32
 
@@ -103,6 +104,7 @@ def script(name):
 
 
 @pytest.mark.parametrize("name", ["school", "campus", "conditions"])
+@pytest.mark.by_day(1)
 def test_the_script_writes_the_workbook_again_byte_for_byte(name, tmp_path):
     """All but the file that says when it was written."""
     module = script(name)

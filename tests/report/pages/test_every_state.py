@@ -84,6 +84,7 @@ def package(state):
 
 
 @pytest.mark.parametrize("state", STATES)
+@pytest.mark.by_day(5)
 def test_every_page_is_whole(state):
     made = package(state)
     with packages.undrawn():

@@ -246,7 +246,6 @@ def test_a_signature_that_does_not_fit_is_a_difference(signed, found):
 
 
 @pytest.mark.parametrize("entry", ["/AA", "/A", "/Lock"])
-@pytest.mark.by_day(1)
 def test_a_hidden_field_with_an_action_is_found_though_it_is_signed(sign, updated, found, entry):
     name, text = generic.NameObject, generic.pdf_string
     script = {name("/S"): name("/JavaScript"), name("/JS"): text("app.alert(1)")}

@@ -43,7 +43,7 @@ def test_other_versions_are_named_and_the_same_drawings_are_still_the_same(tampe
 
 
 @pytest.mark.parametrize("change", tampering.REFUSED, ids=lambda change: change.__name__)
-@pytest.mark.by_day(2)
+@pytest.mark.by_day(1)
 def test_what_no_report_writes_is_refused_whatever_software_is_named(tampered, few_sheets, change):
     found = tampered(few_sheets, tampering.of_other_software, change)
     assert found.versions

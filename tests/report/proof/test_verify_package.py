@@ -175,7 +175,7 @@ def test_an_attachment_that_is_no_json_of_ours_makes_no_package(few_sheets, give
      {"sbom_sha256": "OK"}, {"schema_version": "1"}, {"schema_version": 99}, {"has_records": "no"}],
     ids=str,
 )  # fmt: skip
-@pytest.mark.by_day(2)
+@pytest.mark.by_day(1)
 def test_an_entry_of_another_type_makes_no_package(few_sheets, given, entries):
     done = run(given(few_sheets, tampering.of_manifest(lambda manifest: manifest.update(entries))))
     assert done.exit_code == 2, done.output
@@ -219,6 +219,7 @@ def test_drawings_that_cannot_be_compared_end_with_a_code_of_their_own(data, giv
     assert "Same" not in done.output
 
 
+@pytest.mark.by_day(1)
 def test_a_file_that_was_only_written_again_has_the_same_content(proof, data):
     again = tampering.rewritten(data, lambda pdf: None)
     assert again != data
@@ -228,7 +229,7 @@ def test_a_file_that_was_only_written_again_has_the_same_content(proof, data):
 
 
 @pytest.mark.parametrize("kind", tampering.OF_THE_FILE, ids=lambda kind: kind.__name__)
-@pytest.mark.by_day(3)
+@pytest.mark.by_day(1)
 def test_tampering_is_found(proof, data, few_sheets, kind):
     # Every sheet after one that is missing is compared by its words.
     whole = few_sheets if kind is tampering.without_sheet else data

@@ -180,6 +180,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("case", CASES)
+@pytest.mark.by_day(3)
 def test_every_formula_gives_the_value_written_with_it(case):
     _, formulas, values = made(**CASES[case])
     assert check_formulas(formulas, values) > 50

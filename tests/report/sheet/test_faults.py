@@ -363,7 +363,7 @@ def formatted(path, formats):
 
 
 @pytest.mark.parametrize(("name", "code", "what", "wish"), MISLEADING)
-@pytest.mark.by_day(3)
+@pytest.mark.by_day(1)
 def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
     tmp_path, name, code, what, wish
 ):
@@ -387,11 +387,13 @@ def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
         ("SI", {"Arrays/A1/CG height": '0.0" mm"', "Site/Structure height h": '0.0" m"'}),
     ],
 )  # fmt: skip
+@pytest.mark.by_day(1)
 def test_a_number_format_may_name_the_unit_of_its_cell(tmp_path, units, formats):
     read_workbook(formatted(make(tmp_path, UnitsFirst(units)), formats))
 
 
 @pytest.mark.parametrize(("key", "noun"), [("arrays", "array"), ("motions", "motion")])
+@pytest.mark.by_day(1)
 def test_at_least_one_row_is_required(tmp_path, key, noun):
     assert problems(make(tmp_path, **{"clearances": [], key: []})) == said(
         f"<{key.title()}/heading/ID>: no {noun} is given; fill in at least one row"
@@ -435,6 +437,7 @@ TYPED = [
 
 
 @pytest.mark.parametrize("case", TYPED, ids=[" ".join(cells) for cells, *_ in TYPED])
+@pytest.mark.by_day(3)
 def test_what_is_typed_is_reported_with_what_to_write(tmp_path, case):
     cells, *lines = case
     assert problems(type_into(make(tmp_path), cells)) == said(*lines)
@@ -507,6 +510,7 @@ EDITED = [
 
 
 @pytest.mark.parametrize(("change", "line"), EDITED, ids=[line[:40] for _, line in EDITED])
+@pytest.mark.by_day(2)
 def test_what_is_missing_or_in_percent_is_reported_once(tmp_path, change, line):
     assert problems(edit(make(tmp_path), change)) == said(line)
 
@@ -517,6 +521,7 @@ def test_what_is_missing_or_in_percent_is_reported_once(tmp_path, change, line):
      ("Site/Structure height h", (0, 1)), ("Site/Structure height h", (0, -1))],
     ids=["table", "below", "unit", "label"],
 )  # fmt: skip
+@pytest.mark.by_day(2)
 def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, name, to):
     sheet, first = at(name).split("!")
     row, column = coordinate_to_tuple(first)

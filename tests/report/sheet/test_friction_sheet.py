@@ -41,6 +41,7 @@ def path(tmp_path):
 
 
 @pytest.mark.parametrize("units", UnitsFirst)
+@pytest.mark.by_day(1)
 def test_report_and_runs_are_read_in_the_units_of_the_sheet(tmp_path, units):
     path = make(tmp_path, units, friction_tests=REPORT, friction_runs=runs())
     opened = load_workbook(path)
@@ -80,7 +81,7 @@ CELLS = [
 
 
 @pytest.mark.parametrize(("name", "value", "line"), CELLS)
-@pytest.mark.by_day(3)
+@pytest.mark.by_day(1)
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, name, value, line):
     (reported,) = problems(type_into(path, {f"{SHEET}/{name}": value}))
     assert reported.startswith(at(f"<{SHEET}/{name}>: {line}"))

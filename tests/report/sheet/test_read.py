@@ -375,6 +375,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("start", range(0, len(REFUSED), 3))
+@pytest.mark.by_day(3)
 def test_a_record_must_be_a_file_within_the_folder(tmp_path, start):
     """Three at a time: the workbook has three motions."""
     folder = tmp_path / "job"
@@ -444,6 +445,7 @@ FAULTS = [
 
 
 @pytest.mark.parametrize("case", FAULTS, ids=[lines[0][:70] for _, _, *lines in FAULTS])
+@pytest.mark.by_day(3)
 def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
     texts, cells, *lines = case
     assert problems(type_into(recorded(make(tmp_path), **texts), cells)) == said(*lines)
@@ -465,6 +467,7 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
          {"ID": "", "Horizontal record": "does not exist", "Record units": "furlongs"}),
     ],
 )  # fmt: skip
+@pytest.mark.by_day(2)
 def test_what_does_not_suit_a_record_is_reported_at_its_cell(tmp_path, cells, wanted):
     path = type_into(recorded(make(tmp_path), all=CHANNELS), of("Motions/M1", cells))
     for line, (heading, words) in zip(problems(path), wanted.items(), strict=True):
@@ -486,6 +489,7 @@ def test_components_of_different_length_are_trimmed(tmp_path):
 
 
 @pytest.mark.parametrize("names", [("East", "north", " UP "), ("1", "2", "3")])
+@pytest.mark.by_day(1)
 def test_channels_of_one_file_are_components(tmp_path, names):
     channels = dict(zip(("Horizontal", "Transverse", "Vertical"), names, strict=True))
     cells = {f"Motions/M1/{c} record": f"records/all.csv | {n}" for c, n in channels.items()}

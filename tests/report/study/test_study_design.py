@@ -81,6 +81,7 @@ def test_the_floor_governs_in_some_cases_and_the_analysis_in_others(results):
     ("motions", "rule_set"),
     [(7, "SEAOC PV1-2012"), (7, "ASCE 7-16"), (5, "ASCE 7-22"), (3, "SEAOC PV1-2012")],
 )
+@pytest.mark.by_day(2)
 def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_set):
     found = run(tmp_path, motions=motions, rule_set=RuleSetName(rule_set), mus="")
     rules, mu = RULE_SETS[rule_set], found.plan.input.mus[0]
@@ -100,6 +101,7 @@ def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_s
 
 
 @pytest.mark.parametrize("motions", [1, 2])
+@pytest.mark.by_day(1)
 def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, motions):
     found = run(tmp_path, motions=motions, allowed_m=0.3)
     assert np.isnan(found.design_m).all()

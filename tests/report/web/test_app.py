@@ -91,6 +91,7 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
         ({f"x{k}": 1.0 for k in range(1000)}, "The request is not one of the page"),
     ],
 )
+@pytest.mark.by_day(3)
 def test_values_that_no_page_sends_are_refused(client, values, sentence):
     assert error_of(asked(client, values)).startswith(sentence)
 
@@ -273,7 +274,7 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
 
 
 @pytest.mark.parametrize("name", ["assess", "slide", "contour", "paths", "workbook", "package"])
-@pytest.mark.by_day(2)
+@pytest.mark.by_day(1)
 def test_a_page_that_shows_another_project_than_is_open_is_told(client, name):
     shown = sent(client, folder_of(EXAMPLE)).json()["opened"]
     body = {"values": {}, "array": "A1", "motion": "RM1"}

@@ -76,7 +76,7 @@ def rows(table):
         ("school", {"friction": 0.9, "intensity": 1.04, "clearance": 50.0}),
     ],
 )
-@pytest.mark.by_day(2)
+@pytest.mark.by_day(1)
 def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     project, values, tmp_path
 ):
@@ -205,6 +205,7 @@ def test_a_polarity_without_the_governing_heading_runs_all_that_it_has():
 
 
 @pytest.mark.parametrize("shortages", [1, 2])
+@pytest.mark.by_day(1)
 def test_where_memory_ends_what_is_kept_goes_and_the_job_is_done_again_once(shortages, monkeypatch):
     at_rest("school")
     begun = []
