@@ -91,8 +91,8 @@ def nightly(
     """Return the tests that are left out by day.
 
     A test marked `nightly(*paths)` runs by day where one of these files, or a file in one of these
-    folders, changed. Of a function marked `by_day(n)`, n cases run by day, evenly spaced, and all as
-    if every file had changed: other cases may run other lines.
+    folders, changed. Of a function marked `by_day(n)`, n cases run by day, evenly spaced; where
+    every file is taken as changed, all: each may run lines of its own.
     """
     found, cases = set(), defaultdict(list)
     for item in items:

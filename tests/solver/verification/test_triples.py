@@ -9,27 +9,31 @@ from places import RECORDS, SAMPLES
 from solver.verification.scenes import own_records
 from solver.verification.triples import RECORDED, cut, own_triples, recorded_triples, scale_to
 
-(TRIPLE,) = own_triples(True)
+
+@pytest.fixture(scope="module")
+def own():
+    (only,) = own_triples(True)
+    return only
 
 
-def test_the_own_motions_are_those_of_the_records():
-    assert np.shares_memory(TRIPLE.ax_mps2, own_records(True)[0].a_mps2)
-    assert TRIPLE.source != RECORDED
-    assert not np.array_equal(TRIPLE.ax_mps2, TRIPLE.ay_mps2)
+def test_the_own_motions_are_those_of_the_records(own):
+    assert np.shares_memory(own.ax_mps2, own_records(True)[0].a_mps2)
+    assert own.source != RECORDED
+    assert not np.array_equal(own.ax_mps2, own.ay_mps2)
 
 
-def test_a_scene_has_the_larger_horizontal_peak_and_one_factor_for_all():
-    scale = scale_to(TRIPLE, 0.5)
-    peaks = [np.abs(a).max() * scale for a in (TRIPLE.ax_mps2, TRIPLE.ay_mps2)]
+def test_a_scene_has_the_larger_horizontal_peak_and_one_factor_for_all(own):
+    scale = scale_to(own, 0.5)
+    peaks = [np.abs(a).max() * scale for a in (own.ax_mps2, own.ay_mps2)]
     assert max(peaks) == pytest.approx(0.5 * 9.80665)
 
 
-def test_a_part_is_the_strongest_and_sampled_alike():
-    part = cut(TRIPLE, 101)
+def test_a_part_is_the_strongest_and_sampled_alike(own):
+    part = cut(own, 101)
     assert part.ax_mps2.size == part.ay_mps2.size == part.az_mps2.size == 101
     assert not part.ax_mps2.flags.writeable
     energy = np.sum(part.ax_mps2**2 + part.ay_mps2**2)
-    assert energy >= np.sum((TRIPLE.ax_mps2**2 + TRIPLE.ay_mps2**2)[:101])
+    assert energy >= np.sum((own.ax_mps2**2 + own.ay_mps2**2)[:101])
 
 
 def test_files_of_three_components_are_found_and_what_is_not_one_is_passed_over(tmp_path):
