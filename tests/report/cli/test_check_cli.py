@@ -90,7 +90,6 @@ def lines(reported):
     return reported.output.splitlines()
 
 
-@pytest.mark.nightly("report/cli/")
 def test_report_exits_with_3_only_where_that_is_asked_for(steep, reported):
     assert reported.exit_code == 3
     quiet = run("report", steep, "--quiet", "--out", steep.parent / "other")

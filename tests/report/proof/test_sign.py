@@ -196,7 +196,6 @@ def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
     assert found(content).others == ()
 
 
-@pytest.mark.nightly("report/proof/")
 def test_what_is_appended_after_the_signature_is_found(signed, found):
     _, content = signed
     for more in (b"\n", b"% more\n", b"1 0 obj\n<<>>\nendobj\n"):

@@ -74,7 +74,6 @@ def test_words_and_numbers_are_compared_whatever_software_is_named(proof, few_sh
     assert found.differences
 
 
-@pytest.mark.nightly("report/proof/")
 def test_a_text_that_is_copied_as_another_one_differs(tampered, few_sheets):
     found = tampered(few_sheets, tampering.of_other_software, tampering.meant_otherwise)
     assert any("where the input gives" in text for text in found.differences)

@@ -42,7 +42,6 @@ def test_a_page_of_another_site_changes_nothing(client, headers):
     assert client.post("/api/example", headers=headers).status_code == 403
 
 
-@pytest.mark.nightly("report/web/")
 def test_a_reverse_proxy_that_asks_under_the_name_of_the_server_is_answered(client):
     headers = {"origin": "https://roofslip.firm.example", "sec-fetch-site": "same-origin"}
     assert client.post("/api/example", headers=headers).status_code == 200

@@ -171,7 +171,6 @@ def test_a_folder_and_its_zip_give_the_same_state(client):
     assert client.post("/api/example").json()["project"]["is_example"]
 
 
-@pytest.mark.nightly("report/web/")
 def test_of_two_uploads_the_last_is_open_whichever_arrives_first(client, monkeypatch):
     store = receiving.store
 
@@ -338,7 +337,6 @@ def over(client, ticket):
     raise AssertionError(about)
 
 
-@pytest.mark.nightly("report/web/")
 def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, sessions):
     files = dict(folder_of(EXAMPLE))
     content = files.pop("example/input.xlsx")

@@ -115,7 +115,6 @@ SHOWN = """() => {
 }"""
 
 
-@pytest.mark.nightly("report/web/")
 def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(page):
     page.evaluate(SHOWN)
     # It goes on moving until its values are shown, as under a finger.
@@ -203,7 +202,6 @@ def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, 
     assert page.locator("#verdict .tag").inner_text() in ("OK", "NG", "OK with conditions")
 
 
-@pytest.mark.nightly("report/web/")
 def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, address):
     moved(page, "slope", 1.0)
     page.wait_for_url("**/#slope=1")
@@ -254,7 +252,6 @@ def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
     assert verdicts(page)[0] == "OK with conditions"
 
 
-@pytest.mark.nightly("report/web/")
 def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     project, name = tmp_path / "yours", "Arrays/A2/CG height"
     shutil.copytree(EXAMPLE, project, ignore=shutil.ignore_patterns("out"))
@@ -315,7 +312,6 @@ def test_names_of_40_characters_are_cut_with_the_whole_as_a_tooltip(page, tmp_pa
         assert name.evaluate("(one) => one.scrollWidth > one.clientWidth"), size
 
 
-@pytest.mark.nightly("report/web/")
 def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
     workbook = base64.b64encode((EXAMPLE / "input.xlsx").read_bytes()).decode()
     page.evaluate(
@@ -460,7 +456,6 @@ def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back
         page.wait_for_selector("#error", state="hidden")
 
 
-@pytest.mark.nightly("report/web/")
 def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(page, tmp_path):
     other = page.context.new_page()
     other.goto(page.url)
