@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 
 import pytest
 
@@ -90,3 +91,20 @@ def test_what_is_left_out_is_counted_at_the_end(tmp_path, workers):
     )
     assert "roofslip: 3 nightly tests are left out: ./roofslip test --nightly" in done.stdout
     assert "1 passed" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("args", "kept"), [(["tests"], {"a::f"}), (["tests/b.py"], {"a::f", "gone"})]
+)
+def test_durations_of_tests_that_are_gone_are_dropped_where_all_are_run(
+    tmp_path, monkeypatch, args, kept
+):
+    monkeypatch.setattr(selection, "DURATIONS", tmp_path / "durations.csv")
+    selection.DURATIONS.write_text("test,seconds\ngone,1.00\n")
+    clock = selection.Clock()
+    report = SimpleNamespace(nodeid="a::f[0]", duration=0.5, when="call")
+    clock.pytest_runtest_logreport(report)
+    asked = SimpleNamespace(keyword="", markexpr="")
+    args = [str(ROOT / path) for path in args]
+    clock.pytest_sessionfinish(SimpleNamespace(config=SimpleNamespace(args=args, option=asked)))
+    assert set(selection.read(selection.DURATIONS)) == kept
