@@ -30,6 +30,9 @@ QUICK_S = 0.1
 DEAR_S = 0.6
 """Longest case that runs on every day; quick tests and those marked `by_day` run all the same."""
 
+TOGETHER_S = 1.2
+"""Longest time of the cases of a function that run on every day."""
+
 
 COUNT = pytest.StashKey[int]()
 """How many tests are left out."""
@@ -61,8 +64,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     changed, is_all_changed = changed_files(), config.getoption("--all-changed")
     nights = nightly(items, changed, is_all_changed=is_all_changed)
     if not is_all_changed:
-        dear = is_dear(durations, functions, cases) - quick
-        nights |= dear_and_apart(items, dear, (*tests_of_changed(changed), *named(config)))
+        counts = counts_of_every_day(durations, functions, cases)
+        counts |= {name: max(counts[name], 1) for name in quick}
+        nights |= dear_and_apart(items, counts, (*tests_of_changed(changed), *named(config)))
     left_out = []
     for item in items:
         is_nightly = item in nights
@@ -105,31 +109,35 @@ def nightly(
         elif item.get_closest_marker("by_day") and not is_all_changed:
             cases[function_of(item.nodeid)].append(item)
     for of in cases.values():
-        n = of[0].get_closest_marker("by_day").args[0]
-        found.update(
-            item for k, item in enumerate(of) if k * n // len(of) == (k - 1) * n // len(of)
-        )
+        found |= beyond(of, of[0].get_closest_marker("by_day").args[0])
     return found
 
 
+def beyond(cases: list[pytest.Item], n: int) -> set[pytest.Item]:
+    """Return the cases of a function that are left out where n run, evenly spaced."""
+    return {
+        case for k, case in enumerate(cases) if k * n // len(cases) == (k - 1) * n // len(cases)
+    }
+
+
 def dear_and_apart(
-    items: list[pytest.Item], dear: set[str], belonging: tuple[str, ...]
+    items: list[pytest.Item], counts: Mapping[str, int], belonging: tuple[str, ...]
 ) -> set[pytest.Item]:
-    """Return the tests of dear functions that neither are marked nor belong to what changed.
+    """Return the cases beyond a count that neither are marked nor belong to what changed.
 
     Parameters
     ----------
+    counts : mapping of str to int
+        How many cases of a function run on every day.
     belonging : tuple of str
-        The test files and folders that belong to it.
+        The test files and folders that belong to what changed.
     """
-    return {
-        item
-        for item in items
-        if function_of(item.nodeid) in dear
-        and not item.nodeid.startswith(belonging)
-        and not item.get_closest_marker("nightly")
-        and not item.get_closest_marker("by_day")
-    }
+    cases = defaultdict(list)
+    for item in items:
+        is_marked = item.get_closest_marker("nightly") or item.get_closest_marker("by_day")
+        if not is_marked and not item.nodeid.startswith(belonging):
+            cases[function_of(item.nodeid)].append(item)
+    return {left for name, of in cases.items() for left in beyond(of, counts[name])}
 
 
 def changed_files() -> set[str]:
@@ -164,18 +172,18 @@ def is_quick(durations: Mapping[str, float], functions: Mapping[str, Iterable[st
     }
 
 
-def is_dear(
+def counts_of_every_day(
     durations: Mapping[str, float],
     functions: Mapping[str, Iterable[str]],
     cases: Mapping[str, int],
-) -> set[str]:
-    """Return the functions of which a case takes longer than a test of every day, with fixtures."""
-    return {
-        name
-        for name, fixtures in functions.items()
-        if durations.get(name, 0.0) / cases[name] + dear_fixtures_s(durations, name, fixtures)
-        > DEAR_S
-    }
+) -> dict[str, int]:
+    """Return how many cases of each function are short, alone with fixtures, and together."""
+    counts = {}
+    for name, fixtures in functions.items():
+        case_s = durations.get(name, 0.0) / cases[name]
+        is_dear = case_s + dear_fixtures_s(durations, name, fixtures) > DEAR_S
+        counts[name] = 0 if is_dear else int(TOGETHER_S / max(case_s, KEPT_S / cases[name]))
+    return counts
 
 
 def dear_fixtures_s(durations: Mapping[str, float], name: str, fixtures: Iterable[str]) -> float:

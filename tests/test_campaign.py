@@ -25,7 +25,6 @@ made = settings(max_examples=200, derandomize=True)
 
 @pytest.mark.parametrize("share", [0.1, pytest.param(1.0, marks=pytest.mark.nightly)])
 @pytest.mark.parametrize("kind", CASES)
-@pytest.mark.by_day(3)
 def test_hostile_inputs_are_read_or_refused(kind, share):
     seeds = range(round(share * CASES[kind]))
     ended = {seed: told for seed in seeds if (told := trouble(kind, seed))}

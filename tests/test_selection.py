@@ -43,14 +43,18 @@ def test_a_nightly_test_runs_by_day_where_one_of_its_files_changed():
     assert selection.nightly(items, set(), is_all_changed=True) == {items[1]}
 
 
-def test_a_dear_test_runs_by_day_where_it_belongs_to_what_changed_or_is_marked():
-    durations = {"a/b.py::f": 1.5, "a/b.py::g": 0.5, "a::@made": 0.3, "c.py::f": 9.0}
+def test_as_many_cases_run_every_day_as_are_short_alone_and_together():
+    durations = {"a/b.py::f": 2.0, "a/b.py::g": 0.5, "a::@made": 0.3, "c.py::f": 9.0}
     functions = {"a/b.py::f": (), "a/b.py::g": ["made"], "c.py::f": (), "c.py::g": ()}
-    dear = selection.is_dear(durations, functions, {**dict.fromkeys(functions, 1), "a/b.py::f": 3})
-    assert dear == {"a/b.py::g", "c.py::f"}
-    items = of("a/b.py::g") + of("c.py::f", pytest.mark.by_day(1)) + of("c.py::g")
-    assert selection.dear_and_apart(items, dear, ()) == {items[0]}
-    assert selection.dear_and_apart(items, dear, ("c", "a/b.py")) == set()
+    cases = {**dict.fromkeys(functions, 1), "a/b.py::f": 4}
+    counts = selection.counts_of_every_day(durations, functions, cases)
+    assert [counts[name] for name in list(functions)[:3]] == [2, 0, 0]
+    assert counts["c.py::g"] > 1
+    items = of("a/b.py::f", cases=4) + of("c.py::f") + of("c.py::g")
+    assert selection.dear_and_apart(items, counts, ()) == {items[1], items[3], items[4]}
+    assert selection.dear_and_apart(items, counts, ("c", "a/b.py")) == set()
+    items = of("c.py::f", pytest.mark.by_day(1))
+    assert selection.dear_and_apart(items, counts, ()) == set()
 
 
 def test_of_each_file_the_shortest_test_is_quick_and_every_one_that_is_short():

@@ -60,7 +60,6 @@ def test_between_arrays_the_larger_displacement_governs_for_both():
         (SAME_SLOPE, Neighbor.LIKE),
     ],
 )
-@pytest.mark.by_day(3)
 def test_like_arrays_slide_alike(change, neighbor):
     arrays = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=120) | change]
     (gap,) = assessed(arrays=arrays, clearances=[stand_in.clearance("A1", "A2", 3.0)]).clearances

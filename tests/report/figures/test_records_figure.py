@@ -27,7 +27,6 @@ def test_spectra_are_those_of_each_record_in_g(channels):
 
 
 @pytest.mark.parametrize("count", [1, 3, 12])
-@pytest.mark.by_day(1)
 def test_any_number_of_channels_is_drawn_each_with_room_and_a_line_of_its_own(channels, count):
     some = channels[:count]
     svg = figures.records_svg(some, PERIODS_S, spectra_g(some))
@@ -40,7 +39,6 @@ def test_any_number_of_channels_is_drawn_each_with_room_and_a_line_of_its_own(ch
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-9, 1e3])
-@pytest.mark.by_day(1)
 def test_records_of_any_size_are_drawn_without_a_warning(noise, size):
     records = [Record(name="r" * 200, dt_s=0.01, a_mps2=noise * size)]
     png = figures.records_png(records, PERIODS_S, spectra_g(records))

@@ -53,7 +53,6 @@ CASES = {
 
 
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES)
-@pytest.mark.by_day(3)
 def test_a_motion_that_is_given_again_is_refused_with_both_cells(tmp_path, case):
     motions, records, line = case
     (problem,) = problems(book(tmp_path, *motions, **records))

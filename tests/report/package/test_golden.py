@@ -47,6 +47,7 @@ PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
 
 
 @pytest.mark.parametrize(("name", "key"), PAGES, ids=lambda word: word or "usual")
+@pytest.mark.by_day(len(PAGES))
 def test_a_page_has_the_words_that_it_had(golden, name, key):
     text = printed.printed(SETS[name](), key)
     for pattern, placeholder in CHANGING:

@@ -186,7 +186,6 @@ def test_thirty_motions_are_listed():
 
 
 @pytest.mark.parametrize("edition", ["ASCE 7-16", "ASCE 7-22"])
-@pytest.mark.by_day(1)
 def test_other_editions_say_their_own_name_and_clauses(edition):
     site = stand_in.project().site.model_dump() | {"rule_set": edition, "s_ds_g": None}
     is_new = edition == "ASCE 7-22"

@@ -104,7 +104,6 @@ def script(name):
 
 
 @pytest.mark.parametrize("name", ["school", "campus", "conditions"])
-@pytest.mark.by_day(1)
 def test_the_script_writes_the_workbook_again_byte_for_byte(name, tmp_path):
     """All but the file that says when it was written."""
     module = script(name)

@@ -153,7 +153,6 @@ SPOILED = {
 
 
 @pytest.mark.parametrize("case", SPOILED.values(), ids=SPOILED)
-@pytest.mark.by_day(5)
 def test_a_workbook_with_a_spoiled_part_is_refused(tmp_path, case):
     part, change, line = case
     assert problems(rewritten(make(tmp_path), part, change)) == (line,)
@@ -226,7 +225,6 @@ OUTSIDE = """<!DOCTYPE x [<!ENTITY a SYSTEM "file:///etc/passwd">]>"""
     [("xl/sharedStrings.xml", LAUGHS), ("xl/odd.bin", OUTSIDE), (BOOK, LAUGHS),
      (RELATIONS, OUTSIDE)],
 )  # fmt: skip
-@pytest.mark.by_day(8)
 def test_xml_entities_are_rejected(tmp_path, part, declaration, encoding, before):
     text = f"{before}{declaration}<x>&a;</x>".encode(encoding)
     path = rewritten(make(tmp_path), part, to(text))
@@ -341,7 +339,6 @@ def test_a_part_is_found_by_every_legal_spelling_of_its_target(tmp_path, prefix)
 
 
 @pytest.mark.parametrize("prefix", [b"/xl/./", b"/./xl/", b"/xl/worksheets/../"])
-@pytest.mark.by_day(1)
 def test_a_part_is_found_where_openpyxl_keeps_the_dots_of_its_target(tmp_path, prefix):
     path = spelled(make(tmp_path), prefix)
     assert [array.id for array in read_workbook(path).input.arrays] == ["A1", "A2"]
@@ -349,7 +346,6 @@ def test_a_part_is_found_where_openpyxl_keeps_the_dots_of_its_target(tmp_path, p
 
 @pytest.mark.parametrize("change", [bytes.upper, replaced(b"s", b"%73"), to(b"gone.xml")])
 @pytest.mark.parametrize("title", ["Arrays", "Clearances", "Building", "Spectrum", "Links"])
-@pytest.mark.by_day(5)
 def test_a_sheet_whose_part_is_not_there_is_refused_by_name(tmp_path, change, title):
     path = make(tmp_path)
     target = sheet_part(path, title).removeprefix("xl/").encode()

@@ -55,7 +55,6 @@ def test_without_a_document_none_is_read(workbook):
         ("missing.pdf", "does not exist; give a file in the workbook's folder, such as"),
     ],
 )
-@pytest.mark.by_day(3)
 def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):
     folder = workbook.parent
     (folder.parent / "letter.pdf").write_bytes(PDF)

@@ -437,7 +437,6 @@ TYPED = [
 
 
 @pytest.mark.parametrize("case", TYPED, ids=[" ".join(cells) for cells, *_ in TYPED])
-@pytest.mark.by_day(3)
 def test_what_is_typed_is_reported_with_what_to_write(tmp_path, case):
     cells, *lines = case
     assert problems(type_into(make(tmp_path), cells)) == said(*lines)
@@ -510,7 +509,6 @@ EDITED = [
 
 
 @pytest.mark.parametrize(("change", "line"), EDITED, ids=[line[:40] for _, line in EDITED])
-@pytest.mark.by_day(2)
 def test_what_is_missing_or_in_percent_is_reported_once(tmp_path, change, line):
     assert problems(edit(make(tmp_path), change)) == said(line)
 
@@ -521,7 +519,6 @@ def test_what_is_missing_or_in_percent_is_reported_once(tmp_path, change, line):
      ("Site/Structure height h", (0, 1)), ("Site/Structure height h", (0, -1))],
     ids=["table", "below", "unit", "label"],
 )  # fmt: skip
-@pytest.mark.by_day(2)
 def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, name, to):
     sheet, first = at(name).split("!")
     row, column = coordinate_to_tuple(first)

@@ -227,7 +227,6 @@ def of_records(path, **changes):
          "x.csv has 200 samples, and 11 of them are trimmed"),
     ],
 )  # fmt: skip
-@pytest.mark.by_day(2)
 def test_a_coarse_or_long_record_or_one_that_is_cut_gives_a_warning(
     tmp_path, step, counts, names, words
 ):

@@ -375,7 +375,6 @@ REFUSED = [
 
 
 @pytest.mark.parametrize("start", range(0, len(REFUSED), 3))
-@pytest.mark.by_day(3)
 def test_a_record_must_be_a_file_within_the_folder(tmp_path, start):
     """Three at a time: the workbook has three motions."""
     folder = tmp_path / "job"
@@ -445,7 +444,6 @@ FAULTS = [
 
 
 @pytest.mark.parametrize("case", FAULTS, ids=[lines[0][:70] for _, _, *lines in FAULTS])
-@pytest.mark.by_day(3)
 def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
     texts, cells, *lines = case
     assert problems(type_into(recorded(make(tmp_path), **texts), cells)) == said(*lines)
@@ -467,7 +465,6 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, case):
          {"ID": "", "Horizontal record": "does not exist", "Record units": "furlongs"}),
     ],
 )  # fmt: skip
-@pytest.mark.by_day(2)
 def test_what_does_not_suit_a_record_is_reported_at_its_cell(tmp_path, cells, wanted):
     path = type_into(recorded(make(tmp_path), all=CHANNELS), of("Motions/M1", cells))
     for line, (heading, words) in zip(problems(path), wanted.items(), strict=True):

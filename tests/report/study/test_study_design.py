@@ -81,7 +81,6 @@ def test_the_floor_governs_in_some_cases_and_the_analysis_in_others(results):
     ("motions", "rule_set"),
     [(7, "SEAOC PV1-2012"), (7, "ASCE 7-16"), (5, "ASCE 7-22"), (3, "SEAOC PV1-2012")],
 )
-@pytest.mark.by_day(2)
 def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_set):
     found = run(tmp_path, motions=motions, rule_set=RuleSetName(rule_set), mus="")
     rules, mu = RULE_SETS[rule_set], found.plan.input.mus[0]

@@ -245,7 +245,6 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
     ],
     ids=lambda value: str(value)[:40] if isinstance(value, dict) else "",
 )  # fmt: skip
-@pytest.mark.by_day(8)
 def test_errors_name_the_cell_and_what_to_do(tmp_path, changes, wanted):
     found = problems(write(tmp_path, given(**changes)))
     assert all(at(text) in found for text in wanted), found

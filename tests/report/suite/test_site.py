@@ -125,7 +125,6 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
 
 
 @pytest.mark.parametrize("place", ["../other", "link", "a!b", "a|b"])
-@pytest.mark.by_day(1)
 def test_a_suite_outside_the_folder_of_the_workbook_is_refused(tmp_path, quick, place):
     path, outside = make(tmp_path / "p"), tmp_path / "outside"
     outside.mkdir()

@@ -74,7 +74,6 @@ def test_a_cell_with_letters_without_a_font_is_named(tmp_path, fonts, command, c
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
 @pytest.mark.parametrize("name", [b"a\x01.xlsx", b"a\xff.xlsx", "a\ufffe.xlsx".encode()])
 @pytest.mark.parametrize("command", ["check", "report"])
-@pytest.mark.by_day(2)
 def test_a_file_name_that_cannot_be_printed_is_refused_before_the_runs(tmp_path, command, name):
     book = make(tmp_path).rename(tmp_path / os.fsdecode(name))
     done = CliRunner().invoke(main, [command, str(book)])

@@ -91,7 +91,6 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
         ({f"x{k}": 1.0 for k in range(1000)}, "The request is not one of the page"),
     ],
 )
-@pytest.mark.by_day(3)
 def test_values_that_no_page_sends_are_refused(client, values, sentence):
     assert error_of(asked(client, values)).startswith(sentence)
 

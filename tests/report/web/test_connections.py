@@ -81,7 +81,6 @@ def read_to(client, end):
 
 
 @pytest.mark.parametrize("begun", [b"", b"GET / HT", HEAD % 9, HEAD % 9 + b"body"])
-@pytest.mark.by_day(2)
 def test_a_request_that_does_not_come_whole_ends_its_connection(address, begun):
     with connected(address) as client:
         began = time.monotonic()

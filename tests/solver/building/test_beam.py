@@ -58,7 +58,6 @@ def test_modes_agree_with_finite_elements(alpha0):
 
 @pytest.mark.parametrize("alpha0", ALPHAS[:-1])
 @pytest.mark.parametrize("n", [1, 2, 7])
-@pytest.mark.by_day(7)
 def test_modes_solve_their_equation_to_rounding(alpha0, n):
     """Shape, frequency and participation with 40 digits, from the boundary conditions alone."""
     modes = beam_modes(alpha0, n, [0.37, 1.0])

@@ -23,7 +23,6 @@ ARRAYS = [(np.array(values), np.array(flags, dtype=bool)) for values, flags in S
 
 
 @pytest.mark.parametrize("one", ARRAYS)
-@pytest.mark.by_day(2)
 def test_fits_without_the_compiler_agree(one):
     fit = kernel.fit_censored
     plain = getattr(fit, "py_func", fit)

@@ -112,7 +112,6 @@ def test_a_curve_that_falls_again_counts_the_first_crossing_and_says_so(center):
 
 @pytest.mark.parametrize("letters", ["x", "xz", "xyz"])
 @pytest.mark.parametrize(("slope", "mu"), [(0.0, 0.3), (3.0, 0.5)])
-@pytest.mark.by_day(2)
 def test_slip_begins_where_the_forces_at_a_sample_reach_the_cone(letters, slope, mu):
     """Per sample a quadratic in the intensity, |shear|^2 = (mu N)^2, solved in closed form."""
     one = motion(2, letters)
