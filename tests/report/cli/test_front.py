@@ -115,7 +115,6 @@ def test_an_error_names_the_option_as_it_was_given_and_its_unit(options, told):
 
 
 @pytest.mark.parametrize("typed", ["roofslip", "./roofslip", "'my programs/roofslip'"])
-@pytest.mark.by_day(1)
 def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typed):
     monkeypatch.setenv("ROOFSLIP_COMMAND", typed.strip("'"))
     assert f"then run: {typed} check {tmp_path}" in printed("new", tmp_path)

@@ -159,7 +159,6 @@ def later(seconds, action):
 
 
 @pytest.mark.parametrize("start", ["half saved", "gone", "empty"])
-@pytest.mark.by_day(1)
 def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, start):
     path = make(tmp_path)
     whole = path.read_bytes()

@@ -387,13 +387,11 @@ def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
         ("SI", {"Arrays/A1/CG height": '0.0" mm"', "Site/Structure height h": '0.0" m"'}),
     ],
 )  # fmt: skip
-@pytest.mark.by_day(1)
 def test_a_number_format_may_name_the_unit_of_its_cell(tmp_path, units, formats):
     read_workbook(formatted(make(tmp_path, UnitsFirst(units)), formats))
 
 
 @pytest.mark.parametrize(("key", "noun"), [("arrays", "array"), ("motions", "motion")])
-@pytest.mark.by_day(1)
 def test_at_least_one_row_is_required(tmp_path, key, noun):
     assert problems(make(tmp_path, **{"clearances": [], key: []})) == said(
         f"<{key.title()}/heading/ID>: no {noun} is given; fill in at least one row"

@@ -41,7 +41,6 @@ def path(tmp_path):
 
 
 @pytest.mark.parametrize("units", UnitsFirst)
-@pytest.mark.by_day(1)
 def test_report_and_runs_are_read_in_the_units_of_the_sheet(tmp_path, units):
     path = make(tmp_path, units, friction_tests=REPORT, friction_runs=runs())
     opened = load_workbook(path)

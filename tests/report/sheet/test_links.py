@@ -111,7 +111,6 @@ def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, name, 
 @pytest.mark.parametrize(
     "friction", [{"mu_fast": 0.5, "mu_rate_s_per_m": 20.0}, {"mu_static": 0.5}]
 )
-@pytest.mark.by_day(1)
 def test_a_row_takes_one_coefficient_for_each_block(tmp_path, friction):
     path = make(tmp_path, arrays=arrays(**friction), links=[links(), links("A2")])
     assert problems(path) == said(

@@ -44,7 +44,6 @@ def test_a_rectangular_roof_is_read_back_as_written_and_without_one_north_is_up(
 
 
 @pytest.mark.parametrize("units", list(UnitsFirst))
-@pytest.mark.by_day(1)
 def test_outlines_are_read_back_as_written(tmp_path, units):
     changes = outlined(roof=ROOF_FT)
     data = read_workbook(make(tmp_path, units, **changes)).input

@@ -486,7 +486,6 @@ def test_components_of_different_length_are_trimmed(tmp_path):
 
 
 @pytest.mark.parametrize("names", [("East", "north", " UP "), ("1", "2", "3")])
-@pytest.mark.by_day(1)
 def test_channels_of_one_file_are_components(tmp_path, names):
     channels = dict(zip(("Horizontal", "Transverse", "Vertical"), names, strict=True))
     cells = {f"Motions/M1/{c} record": f"records/all.csv | {n}" for c, n in channels.items()}

@@ -41,7 +41,6 @@ def hide_options(path, state):
     ("state", "said"),
     [("hidden", "hidden"), ("veryHidden", "hidden so that Excel's menu does not list it")],
 )
-@pytest.mark.by_day(1)
 def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
     path = make(tmp_path)
     sheet, column, row = cell_of("Options/1/Value")
@@ -101,7 +100,6 @@ def filter_sheet(book, sheet):
 
 
 @pytest.mark.parametrize("change", [filter_table, filter_sheet])
-@pytest.mark.by_day(1)
 def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
     sheet, _, row = cell_of("Arrays/A2/ID")
 

@@ -100,7 +100,6 @@ def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_s
 
 
 @pytest.mark.parametrize("motions", [1, 2])
-@pytest.mark.by_day(1)
 def test_too_few_motions_give_no_design_displacement_and_it_is_said(tmp_path, motions):
     found = run(tmp_path, motions=motions, allowed_m=0.3)
     assert np.isnan(found.design_m).all()

@@ -205,7 +205,6 @@ def test_a_polarity_without_the_governing_heading_runs_all_that_it_has():
 
 
 @pytest.mark.parametrize("shortages", [1, 2])
-@pytest.mark.by_day(1)
 def test_where_memory_ends_what_is_kept_goes_and_the_job_is_done_again_once(shortages, monkeypatch):
     at_rest("school")
     begun = []

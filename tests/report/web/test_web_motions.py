@@ -31,7 +31,6 @@ def without_motions(folder, **cells):
 
 
 @pytest.mark.parametrize("cells", [{}, {"S_DS": None, "S_MS": None, "S_S": None}])
-@pytest.mark.by_day(1)
 def test_a_workbook_without_motions_is_offered_some(tmp_path, cells):
     answer = perform({"do": "state", "workbook": str(without_motions(tmp_path, **cells))})["answer"]
     assert answer["lacks_motions"]
