@@ -234,7 +234,7 @@ class TestSynthesis:
 
 @pytest.fixture(scope="module")
 def record():
-    return synthesize(HORIZONTAL, rng=rng(1), dt_s=0.005, duration_s=12.0, name="x")
+    return synthesize(make_frame(HORIZONTAL, 0.005, 12.0), NOISE, rng(1), "x")[0]
 
 
 class TestFit:
