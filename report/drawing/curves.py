@@ -50,7 +50,7 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
     no_number = f"a {kind} with a value that is no number up to {MAX_COORDINATE:g}"
     if not _are_numbers((*vertices, entity.knots if kind == "SPLINE" else ())):
         return no_number
-    is_closed = kind == "CIRCLE" or (kind.endswith("POLYLINE") and bool(entity.is_closed))
+    is_closed = bool(entity.is_closed) if kind.endswith("POLYLINE") else _is_circle(entity, kind)
     if kind == "ELLIPSE":
         exact = entity.flattening(sagitta)
     else:
@@ -76,7 +76,7 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
         else:
             at = entity.control_points if len(entity.control_points) else entity.fit_points
         return [(float(p[0]), float(p[1]), 0.0) for p in at]
-    if kind == "CIRCLE":
+    if _is_circle(entity, kind):
         (x, y, _), radius = entity.dxf.center, entity.dxf.radius
         found = [(x - radius, y, 1.0), (x + radius, y, 1.0)]
     elif kind == "ARC":
@@ -96,6 +96,15 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
     # The plane of the curve may look down: then x and the turn of arcs are mirrored.
     way = 1.0 if entity.dxf.get("extrusion", (0.0, 0.0, 1.0))[2] > 0.0 else -1.0
     return [(way * float(x), float(y), way * float(bulge)) for x, y, bulge in found]
+
+
+def _is_circle(entity: Any, kind: str) -> bool:
+    """Whether a curve is a circle, also one that is drawn as an arc of a whole turn."""
+    from ezdxf.math import arc_angle_span_deg
+
+    if kind != "ARC":
+        return kind == "CIRCLE"
+    return arc_angle_span_deg(entity.dxf.start_angle, entity.dxf.end_angle) == 360.0
 
 
 def _spline(entity: Any, sagitta: float) -> Iterable[Any]:

@@ -60,6 +60,18 @@ def test_an_arc_that_looks_down_is_mirrored():
     assert points[-1] == pytest.approx((-1.0, 5.0))
 
 
+@pytest.mark.parametrize("angles", [(0, 360), (90, 450), (-180, 180)])
+def test_an_arc_of_a_whole_turn_is_the_circle(angles):
+    def read(draw):
+        space = Sketch(unit="m").space
+        draw(space)
+        return curve(space[0], 0.003)
+
+    arc = read(lambda s: s.add_arc((1, 2), 5, *angles))
+    assert arc == read(lambda s: s.add_circle((1, 2), 5))
+    assert arc[1]
+
+
 def test_a_closed_spline_stays_within_the_hull_of_its_control_points():
     # It is not clamped: the knots before its first point would lead to the origin.
     corners = ((100, 100), (110, 100), (110, 110), (100, 110))

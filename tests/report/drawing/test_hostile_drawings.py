@@ -218,7 +218,7 @@ OPEN_LINE = "an open line that closes no outline"
         (lambda s: s.add_ellipse((0, 0), (5, 0), 0.5, 1, 1), f"an ELLIPSE {NO_AREA}"),
         (lambda s: s.add_arc((0, 0), 1e13, 0, 90), f"an ARC {NO_NUMBER}"),
         (lambda s: s.add_arc((0, 0), 5, NAN, 90), f"an ARC {NO_NUMBER}"),
-        (lambda s: s.add_arc((0, 0), 0, 0, 360), OPEN_LINE),
+        (lambda s: s.add_arc((0, 0), 0, 0, 360), f"an ARC {NO_AREA}"),
         (lambda s: s.add_line((0, 0), (NAN, 1)), f"a LINE {NO_NUMBER}"),
     ],
 )  # fmt: skip
