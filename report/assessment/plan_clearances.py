@@ -1,4 +1,4 @@
-"""The clearances that a plan calls for before any run, and the rows that a workbook lacks.
+"""The clearances that a plan calls for, before any run or after it, and rows that a workbook lacks.
 
 Writes nothing (`report.sheet.writing.filled`). Read `pairs_before_runs`, then `missing_rows`.
 """
@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import separation_m
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind, PlanNeighbor, plan_pairs
 from report.assessment.overrides import rule_set_of
@@ -34,46 +35,52 @@ _WAYS = (Direction.DOWN, Direction.ACROSS, Direction.UP, Direction.ACROSS)  # by
 def pairs_before_runs(
     data: ProjectInput,
     addresses: Mapping[Place, str],
-    designs_m: Mapping[str, float] | None = None,
+    arrays: Sequence[ArrayAssessment] = (),
 ) -> tuple[PlanNeighbor, ...]:
     """Return the pairs of the plan as a package has them at the prescriptive displacement.
 
     Parameters
     ----------
-    designs_m : mapping of str to float, optional
-        Design displacements [m] by array, where runs have given larger ones.
+    arrays : sequence of ArrayAssessment, optional
+        As run, whose design displacements count where they are larger.
     """
-    rules, least_m, known = rule_set_of(data), design_before_runs_m(data), designs_m or {}
-    # NaN is no larger one.
-    slides = {array.id: max(least_m, known.get(array.id, 0.0)) for array in data.arrays}
-    arrays = {array.id: array for array in data.arrays}
-    rows = {item.id: item for item in data.objects} | arrays
+    rules, least_m = rule_set_of(data), design_before_runs_m(data)
+    slides = {array.id: least_m for array in data.arrays} | _larger_m(arrays, least_m)
+    known = {array.id: array for array in data.arrays}
+    rows = {item.id: item for item in data.objects} | known
 
     def required(near: PlanNeighbor) -> tuple[float, str]:
         design_m = max(slides[near.array], slides.get(near.other, 0.0))
         other = None if near.kind is NearbyKind.BARE_EDGE else rows[near.other]
-        return separation_m(data, rules, design_m, arrays[near.array], other), ""
+        return separation_m(data, rules, design_m, known[near.array], other), ""
 
     reaches = [(array, REACH_FACTOR * slides[array.id]) for array in data.arrays]
     return plan_pairs(data, reaches, addresses, required)
 
 
 def design_before_runs_m(data: ProjectInput) -> float:
-    """Return the design displacement that is taken before any run [m]: the prescriptive one."""
-    rules, site = rule_set_of(data), data.site
-    prescriptive = provisions.prescriptive_displacement(
-        rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
-    )
-    return max(prescriptive.value_m, provisions.analysis_floor_m(rules, prescriptive))
+    """Return the design displacement that is taken before any run [m]: the prescriptive one.
+
+    No floor on the displacement from analysis exceeds it, overridden or not.
+    """
+    site = data.site
+    return provisions.prescriptive_displacement(
+        rule_set_of(data), s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
+    ).value_m
+
+
+def _larger_m(arrays: Sequence[ArrayAssessment], least_m: float) -> dict[str, float]:
+    """Return the design displacements by array that are larger; NaN, not permitted, is none."""
+    return {array.id: array.permitted_m for array in arrays if array.permitted_m > least_m}
 
 
 def missing_rows(
-    sheet: Sheet, designs_m: Mapping[str, float] | None = None
+    sheet: Sheet, arrays: Sequence[ArrayAssessment] = ()
 ) -> tuple[dict[CellPosition, Value], tuple[str, ...]]:
     """Return the cells of a row for each pair that a package would name as missing, and lines.
 
     A line for each new row, for each that differs from the plan, and for each pair that still lacks
-    a row; at last their counts.
+    a row; at last their counts. `arrays` are as run, none where nothing is.
 
     Raises
     ------
@@ -82,18 +89,23 @@ def missing_rows(
     """
     data = _without_motions(sheet)
     us_first = data.project.units_first.is_us
-    pairs = pairs_before_runs(data, sheet.addresses, designs_m)
+    pairs = pairs_before_runs(data, sheet.addresses, arrays)
     missing = [near for near in pairs if near.is_missing]
     new = [near for near in missing if _has_row(near)]
     cells, written = _written(sheet, data, new)
-    reach = _size(REACH_FACTOR * design_before_runs_m(data), us_first)
+    design_m, basis = design_before_runs_m(data), "the prescriptive displacement"
+    if larger := _larger_m(arrays, design_m):
+        farthest = max(larger, key=larger.__getitem__)
+        design_m, basis = larger[farthest], f"the design displacement of {farthest}"
+    elif arrays:
+        basis += ", which no design displacement exceeds"
     lines = [
         *written,
         *_differing(pairs, us_first),
         *(f"not added: {near.names}, {_size(near.gap_m, us_first)}; correct the plan, or give the "
           "roof edge as an object" for near in missing if not _has_row(near)),
-        f"{numbered(len(new), 'clearance')} added, {len(data.clearances)} kept; reach {reach}, "
-        "twice the prescriptive displacement, as nothing is run",
+        f"{numbered(len(new), 'clearance')} added, {len(data.clearances)} kept; reach"
+        f" {_size(REACH_FACTOR * design_m, us_first)}, twice {basis}",
     ]  # fmt: skip
     return cells, tuple(lines)
 

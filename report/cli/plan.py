@@ -14,7 +14,7 @@ import click
 
 from report.cli.groups import SectionedGroup
 from report.cli.plan_layers import choose, given_kinds
-from report.cli.terminal import SOURCE, input_errors, plain, say_next
+from report.cli.terminal import SOURCE, Progress, input_errors, plain, say_next
 from report.cli.values import Number
 from report.words.command import called
 from report.words.counts import grouped_by, numbered
@@ -119,8 +119,8 @@ def read(
 def clearances(project: Path) -> None:
     """Add a row to the sheet Clearances for each pair of the plan that a package would require.
 
-    Arrays, objects and roof edges within reach of an array: twice the prescriptive displacement,
-    as nothing is run. Distances are those of the plan, rounded down, and say so in the column
+    Arrays, objects and roof edges within reach of an array: twice the prescriptive displacement, or
+    the design displacement where the motions can be run and give more. Distances are those of the plan, rounded down, and say so in the column
     Distance from: a condition of the package until they are confirmed. Rows that stand are kept.
     """
     with input_errors(project):
@@ -131,11 +131,22 @@ def clearances(project: Path) -> None:
 def _with_clearances(project: Path) -> bool:
     """Add the rows that a workbook lacks; return whether formulas keep their former values."""
     from report.assessment.plan_clearances import missing_rows
+    from report.assessment.project import assess
+    from report.motions.prepare import prepare
     from report.sheet.reading.read import read as read_sheet
     from report.sheet.writing.filled import fill_cells
+    from solver.model import InputError
 
-    sheet = read_sheet(project)
-    cells, lines = missing_rows(sheet)
+    sheet, arrays, not_run = read_sheet(project), (), []
+    with Progress(1) as progress:
+        try:
+            shaking = prepare(sheet)
+            progress("running the motions")
+            arrays = assess(sheet, shaking).arrays
+        except InputError as error:
+            not_run = [f"the motions are not run: {error.problems[0]}"]
+    cells, found = missing_rows(sheet, arrays)
+    lines = [*not_run, *found]
     has_formulas = bool(cells) and fill_cells(sheet.book, cells)
     for line in lines:
         click.echo(plain(line))

@@ -123,8 +123,7 @@ def write(workbook: Path, job: Json) -> Json:
 
 def add_clearances(workbook: Path, job: Json) -> Json:
     """Write the workbook with the clearances that it lacks to another path."""
-    designs_m = {array.id: array.permitted_m for array in _as_typed(workbook).arrays}
-    added, _ = missing_rows(_open(workbook).sheet, designs_m)
+    added, _ = missing_rows(_open(workbook).sheet, _as_typed(workbook).arrays)
     path = Path(job["to"])
     path.write_bytes(workbook.read_bytes())
     fill_cells(open_book(path), added)

@@ -1,7 +1,9 @@
 """The rows that a workbook lacks are those that a package would name, at the distance in plan."""
 
 import datetime as dt
+import math
 import shutil
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
@@ -10,6 +12,7 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 import inputs
+import report.assessment.project
 import stand_in
 from cells import cell
 from inputs import FT, INCH, clearance, roof_object, sides
@@ -118,6 +121,52 @@ def test_before_runs_a_random_plan_has_every_pair_that_its_package_lists(
 
 
 MOTIONS = stand_in.motions(3, seconds=6.0, peak_g=0.3)
+
+
+def test_pairs_within_twice_a_larger_analysis_are_those_of_the_package():
+    strong = stand_in.motions(3, seconds=6.0, peak_g=2.0)
+    far = roof_object("FAR", "fixed object", height=0.5) | sides(60, 70, 0, 60)
+    far["x_from_m"] = 60 * FT + 0.35  # within 2 x 198 mm of the runs, not 2 x 152 mm
+    data = stand_in.project(
+        arrays=[inputs.array("A1", 0.5) | sides(0, 60, 0, 60)],
+        objects=[far],
+        clearances=[],
+        site=stand_in.site(s_ds_g=0.3),
+    )
+    done = stand_in.assess_input(data, strong)
+    named = {near.names for near in done.pairs if near.is_missing}
+    assert "A1 to FAR" in named
+    assert "A1 to FAR" not in {near.names for near in pairs_before_runs(data, {}) if near.is_near}
+    after = pairs_before_runs(data, {}, done.arrays)
+    assert named <= {near.names for near in after if near.is_missing}
+
+
+@pytest.mark.parametrize(
+    ("designs_m", "reach", "basis"),
+    [
+        ({"A1": 2.1, "A2": 3.0}, "236.2 in (6000 mm)", "the design displacement of A2"),
+        ({"A1": 2.1, "A2": math.nan}, "165.4 in (4200 mm)", "the design displacement of A1"),
+        ({"A1": 1.0, "A2": math.nan}, "163.1 in (4144 mm)",
+         "the prescriptive displacement, which no design displacement exceeds"),
+    ],
+)  # fmt: skip
+def test_the_reach_of_the_runs_is_taken_and_named(tmp_path, monkeypatch, designs_m, reach, basis):
+    def ran(*_):
+        rows = [SimpleNamespace(id=name, permitted_m=m) for name, m in designs_m.items()]
+        return SimpleNamespace(arrays=rows)
+
+    monkeypatch.setattr(report.assessment.project, "assess", ran)
+    make(tmp_path, **BARE)
+    assert f"kept; reach {reach}, twice {basis}\n" in fill(tmp_path)
+
+
+def test_where_motions_cannot_be_run_the_reason_is_given(tmp_path):
+    path = make(tmp_path, **BARE)
+    (tmp_path / "records" / "x2.csv").unlink()
+    output = fill(tmp_path)
+    assert at("the motions are not run: <Motions/M2/Horizontal record>: ") in output
+    assert "reach 163.1 in (4144 mm), twice the prescriptive displacement\n" in output
+    assert len(read(path).draft["clearances"]) == 2
 
 
 def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
