@@ -6,7 +6,7 @@ Read `read` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from report.words.command import called
 from report.words.counts import grouped_by, numbered
 
 if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
     from report.drawing.ballast import Load
     from report.drawing.plan_read import DrawnOutline, RoofPlan
     from report.drawing.read_dxf import RoofDrawing
@@ -120,8 +121,9 @@ def clearances(project: Path) -> None:
     """Add a row to the sheet Clearances for each pair of the plan that a package would require.
 
     Arrays, objects and roof edges within reach of an array: twice the prescriptive displacement, or
-    the design displacement where the motions can be run and give more. Distances are those of the plan, rounded down, and say so in the column
-    Distance from: a condition of the package until they are confirmed. Rows that stand are kept.
+    the design displacement where the motions can be run and give more. Distances are those of the
+    plan, rounded down, and say so in the column Distance from: a condition of the package until
+    they are confirmed. Rows that stand are kept.
     """
     with input_errors(project):
         has_formulas = _with_clearances(project)
@@ -137,7 +139,8 @@ def _with_clearances(project: Path) -> bool:
     from report.sheet.writing.filled import fill_cells
     from solver.model import InputError
 
-    sheet, arrays, not_run = read_sheet(project), (), []
+    sheet, not_run = read_sheet(project), []
+    arrays: Sequence[ArrayAssessment] = ()
     with Progress(1) as progress:
         try:
             shaking = prepare(sheet)

@@ -104,7 +104,7 @@ def _is_circle(entity: Any, kind: str) -> bool:
 
     if kind != "ARC":
         return kind == "CIRCLE"
-    return arc_angle_span_deg(entity.dxf.start_angle, entity.dxf.end_angle) == 360.0
+    return bool(arc_angle_span_deg(entity.dxf.start_angle, entity.dxf.end_angle) == 360.0)
 
 
 def _spline(entity: Any, sagitta: float) -> Iterable[Any]:

@@ -1,11 +1,12 @@
 """Which records of a folder are the two horizontal components and the vertical of one motion.
 
-Told by the heading of a channel or the end of its file's name, by time step and by length; what is
-not clear is left out with the reason, never guessed. Read `sets_of`.
+Told by the heading of a channel or the end of its file's name, by time step, length and start time;
+what is not clear is left out with the reason, never guessed. Read `sets_of`.
 """
 
 from __future__ import annotations
 
+import datetime as dt
 import math
 import re
 from collections import Counter
@@ -22,6 +23,8 @@ MOST_FILES = 500
 MOST_NAME = 40  # of an ID
 LENGTHS_WITHIN = 0.05
 """Part by which components may differ in length: those of one recording often end apart."""
+STARTS_WITHIN = dt.timedelta(seconds=1)
+"""Largest difference of the start times of components: some headings print whole seconds."""
 
 _UP, _DOWN, _AZIMUTH = "up", "down", "azimuth"
 _HIDDEN = re.compile(r"/(\.|~\$|__MACOSX/)")
@@ -53,6 +56,7 @@ class Candidate:
     format: str
     dt_s: float
     npts: int
+    start: dt.datetime | None  # None where the heading has none
     family: str  # of names for components, one of `_SPELLED` or azimuths
     degrees: int  # within the family
     motion: tuple[str, str]  # what names the motion: the file without the component, the heading
@@ -154,6 +158,9 @@ def _unclear(group: Sequence[Candidate]) -> Iterator[str]:
         yield f"time steps differ: {min(steps):g} to {max(steps):g} s"
     if min(lengths) < (1.0 - LENGTHS_WITHIN) * max(lengths):
         yield f"lengths differ: {min(lengths)} to {max(lengths)} samples"
+    starts = [each.start for each in group if each.start is not None]
+    if starts and max(starts) - min(starts) > STARTS_WITHIN:
+        yield f"start times differ: {min(starts)} to {max(starts)}"
 
 
 def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
@@ -181,6 +188,7 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
                 format=motion_file.format,
                 dt_s=record.dt_s,
                 npts=len(record.a_mps2),
+                start=motion_file.start,
                 family=family,
                 degrees=degrees,
                 motion=(stem, rest),

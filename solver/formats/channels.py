@@ -5,6 +5,7 @@ Compares a record with the peak stated in its header; knows no format. Read `mot
 
 from __future__ import annotations
 
+import datetime as dt
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,6 +33,14 @@ _OFFSET = 0.01
 # A length may count the step after the last sample, and may be rounded.
 _LENGTH_STEPS = 2.0
 _LENGTH_WITHIN = 0.005
+
+# COSMOS and CSMIP: start time; RENADIC: trigger time; K-NET and KiK-net: record time.
+_START = re.compile(
+    r"(?:(?:START|TRIGGER)\s+TIME:|^RECORD\s+TIME)\s+(\d{1,4})/\s?(\d{1,2})/\s?(\d{1,4}),?"
+    r"\s+(\d{1,2}):(\d\d):(\d\d(?:\.\d{1,6})?)",
+    re.ASCII | re.IGNORECASE,
+)
+_START_LINES, _START_LETTERS = 20, 200
 
 _OF_RECORDER = re.compile(
     r"\(\s*(\d{1,4})\s*CHNS?\s+OF\s+\d+\s+AT\s+STA\s*\)", re.ASCII | re.IGNORECASE
@@ -90,7 +99,23 @@ def motion_file(
         format=form,
         channels=tuple(records),
         notes=tuple(dict.fromkeys(all_notes)),
+        start=_start(source),
     )
+
+
+def _start(source: Source) -> dt.datetime | None:
+    """Return the time at which a record begins by its heading, if that names one."""
+    for line in source.lines[:_START_LINES]:
+        if match := _START.search(line[:_START_LETTERS]):
+            *date, hour, minute = map(int, match.groups()[:5])
+            year, month, day = date if date[0] > 12 else (date[2], date[0], date[1])
+            year += 2000 if year < 100 else 0  # the century is not printed
+            seconds = dt.timedelta(seconds=float(match[6]))
+            try:
+                return dt.datetime(year, month, day, hour, minute) + seconds
+            except (ValueError, OverflowError):  # no date of the calendar
+                return None
+    return None
 
 
 def _check_size(source: Source, channel: Channel) -> None:

@@ -5,6 +5,7 @@ Reads no files. Read `MotionFile.channel` first.
 
 from __future__ import annotations
 
+import datetime as dt
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -33,6 +34,8 @@ class MotionFile:
         Notes for the user, such as that uneven times were resampled.
     hold_s : float
         Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
+    start : datetime or None
+        When the record begins, as the heading has it; None if it does not.
     """
 
     name: str
@@ -40,6 +43,7 @@ class MotionFile:
     channels: tuple[Record, ...]
     notes: tuple[str, ...]
     hold_s: float = math.nan
+    start: dt.datetime | None = None
 
     def channel(self, name: str = "") -> Record:
         """Return the channel with a name (ignoring case and blanks) or a number, counted from 1.

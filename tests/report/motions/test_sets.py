@@ -1,10 +1,12 @@
 """Which records of a folder are the three components of a motion, by names and headings."""
 
+import datetime as dt
+
 import numpy as np
 import pytest
 
 from places import ROOT
-from report.motions.sets import LENGTHS_WITHIN, sets_of, table
+from report.motions.sets import LENGTHS_WITHIN, STARTS_WITHIN, sets_of, table
 from solver.model import InputError
 from waves import plain
 
@@ -96,6 +98,28 @@ def test_components_have_one_time_step_and_about_one_length(tmp_path, dt_s, coun
     plain(tmp_path / "A-z.csv", dt_s, count)
     sets, left = taken(tmp_path)
     assert (list(sets), list(left.values())) == (([], [why]) if why else (["A"], []))
+
+
+@pytest.mark.parametrize(
+    ("later", "why"),
+    [
+        ("2003/01/02 03:04:20", ""),
+        ("2003/01/02 03:04:21", ""),
+        ("2003/01/02 03:04:22", "start times differ: 2003-01-02 03:04:20 to 2003-01-02 03:04:22"),
+        ("2004/01/02 03:04:20", "start times differ: 2003-01-02 03:04:20 to 2004-01-02 03:04:20"),
+        ("(none)", ""),
+    ],
+)
+def test_components_begin_at_one_time_where_their_headings_say_when(tmp_path, later, why):
+    assert dt.timedelta(seconds=1) == STARTS_WITHIN
+    record = (ROOT / "tests/data/motions/knet.ns").read_text()
+    for end, direction in (("NS", "N-S"), ("EW", "E-W"), ("UD", "U-D")):
+        text = record.replace("N-S", direction)
+        if end == "UD":
+            text = text.replace("2003/01/02 03:04:20", later)
+        (tmp_path / f"AKT.{end}").write_text(text)
+    sets, left = taken(tmp_path)
+    assert (list(sets), list(left.values())) == (([], [why]) if why else (["AKT"], []))
 
 
 def test_headings_go_before_names_and_must_not_contradict_them(tmp_path):

@@ -127,6 +127,34 @@ def test_a_file_gives_its_channels_step_samples_and_notes(name):
         assert record.a_mps2 == pytest.approx(held.channels[record.name], **held.error)
 
 
+START = "2003-01-02 03:04:05"
+
+
+@pytest.mark.parametrize(
+    ("name", "start"),
+    [
+        ("cosmos.v1c", START),
+        ("cosmos.v2c", START),
+        ("csmip-even.raw", "2003-01-02 11:04:05"),
+        ("renadic.v1", START),
+        ("knet.ns", "2003-01-02 03:04:20"),
+        ("kiknet.ew1", "2003-01-02 03:04:20"),
+        ("peer-nga.at2", "None"),
+        ("geonet.v2a", "None"),
+    ],
+)
+def test_a_heading_gives_the_start_where_its_format_names_one(name, start):
+    assert str(read_motion_file(SAMPLES / name).start) == start
+
+
+@pytest.mark.parametrize(
+    "date", ["2/30/2003", "13/13/2003", "0/0/0000", "(none)", "12/31/9999 23:59:99 was"]
+)
+def test_a_start_that_is_no_date_is_none(altered, date):
+    path = altered("renadic.v1", ("TRIGGER TIME: 1/2/2003", f"TRIGGER TIME: {date}"))
+    assert read_motion_file(path).start is None
+
+
 def test_the_first_channel_of_some_files_is_known_better():
     for name, error in (("cosmos.v1c", {"abs": 0.51e-5 * G}), ("csmip-old.v2", EXACT)):
         record = read_motion_file(SAMPLES / name).channels[0]
