@@ -163,15 +163,14 @@ def _written(
         row, direction = table.added(), direction_of(near, downslope[near.array])
         si = table.found.columns["provided_m"].si
         rounded_m = round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
-        content: dict[str, Value] = {
+        cells |= table.cells(row, {
             "array": near.array,
             "object": near.other,
             "direction": direction.value,
             # Down once more: 0.1 in is no round number of feet.
             "provided_m": round_down(rounded_m / si, DIGITS),
             "source": ClearanceSource.DRAWING.value,
-        }
-        cells |= {table.position(row, name): value for name, value in content.items()}
+        })  # fmt: skip
         at = table.position(row, "array").address
         lines.append(f"{at}: {near.names}, {direction}, {_size(rounded_m, us_first)}")
     return cells, lines

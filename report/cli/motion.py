@@ -163,13 +163,11 @@ def suite(
         raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
     # The compilation, each motion, and the chart.
     with input_errors(into or folder), Progress(count + 2) as progress:
-        from report.results.motions import add_motions, name_beside, row_cells
-        from report.results.publish import STAMP, check_writable, publish, stamp
+        from report.results.publish import check_writable, publish
         from report.sheet.reading.read import read
-        from report.suite.files import suite_files, suite_table
+        from report.suite.files import made, suite_table
         from report.suite.inputs import check_folder, read_seeds
-        from report.suite.site import suite_rows
-        from solver.synthesis.suite import make_suite
+        from report.suite.site import rows_beside
 
         check_folder(folder, count)
         check_writable(folder)
@@ -177,33 +175,19 @@ def suite(
         asked = {"s_ds_g": s_ds_g, "z_over_h": z_over_h, "code": code, "tail": tail}
         given = {name: value for name, value in asked.items() if value is not None}
         targets, taken = _targets(given, target, sheet)
-        if sheet:
-            beside = name_beside(sheet.book, folder)
-            rows = suite_rows(count, targets, beside, seed)
-            row_cells(sheet.book, rows)  # refused now rather than after the motions are made
+        write = rows_beside(sheet, folder, count, targets, seed) if sheet else None
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         progress("compiling the solver (first run only)")
-        motions = make_suite(
-            targets.horizontal,
-            targets.vertical,
-            count=count,
-            seed=seed,
-            records=seeds.groups,
-            progress=progress,
-        )
-        progress("plotting the spectra")
-        files = suite_files(motions, targets, seed=seed, records=seeds.sha256)
-        if sheet:
-            placed = {f"{beside}/{name}": data for name, data in files.items()}
-            placed[f"{beside}/{STAMP}"] = stamp(files)
-            has_formulas = add_motions(sheet.path, rows, placed)
+        motions, files = made(targets, count, seed, seeds, progress)
+        if write:
+            has_formulas = write(files)
         else:
             publish(files, folder)
     for line in (*taken, *suite_table(motions, targets), *seeds.notes):
         click.echo(line)
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
     if sheet:
-        click.echo(f"{sheet.path}: {numbered(len(rows), 'row')} added to the sheet Motions.")
+        click.echo(f"{sheet.path}: {numbered(count, 'row')} added to the sheet Motions.")
         say_next(sheet.path, has_formulas)
         return
     click.echo("Next: copy the records into records/ of a project, list them on its sheet Motions,")

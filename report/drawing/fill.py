@@ -146,8 +146,7 @@ def _fill_layers(fill: _Fill, layers: Mapping[str, LayerKind]) -> None:
     table = GrowingTable.of(fill.book, "layers")
     for layer, kind in layers.items():
         for row in table.rows("layer", layer) or [table.added()]:
-            fill.cells[table.position(row, "layer")] = layer
-            fill.cells[table.position(row, "kind")] = kind.value
+            fill.cells |= table.cells(row, {"layer": layer, "kind": kind.value})
 
 
 def _fill_outline(fill: _Fill, place: DrawnOutline) -> None:
@@ -161,11 +160,10 @@ def _fill_outline(fill: _Fill, place: DrawnOutline) -> None:
     rows = table.rows("name", name)
     if rows:
         fill.refuse(table.position(rows[0], "name"), f"the place of {name}")
-    fill.cells |= {table.position(row, head): None for row in rows for head in table.found.columns}
+    for row in rows:
+        fill.cells |= table.cells(row, dict.fromkeys(table.found.columns))
+    # Not in earlier workbooks.
+    source = {"source": DRAWING} if "source" in table.found.columns else {}
     for x, y in points:
-        row = table.added()
-        fill.cells[table.position(row, "name")] = name
-        fill.cells[table.position(row, "x_m")] = table.number("x_m", x)
-        fill.cells[table.position(row, "y_m")] = table.number("y_m", y)
-        if "source" in table.found.columns:  # not in earlier workbooks
-            fill.cells[table.position(row, "source")] = DRAWING
+        place_m = {"x_m": table.number("x_m", x), "y_m": table.number("y_m", y)}
+        fill.cells |= table.cells(table.added(), {"name": name, **place_m, **source})

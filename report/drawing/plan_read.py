@@ -5,7 +5,6 @@ Knows no file and no cells (`report.drawing.read_dxf`, `report.drawing.fill`). R
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,7 +13,7 @@ from dataclasses import dataclass
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
 from report.drawing.layers import Layer
 from report.drawing.modules import GAP_M, MOST_TEXTS, Known, joined
-from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words
+from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words, turned
 from report.drawing.written import first_height, read_line
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema.choices import LayerKind
@@ -30,18 +29,14 @@ from report.sheet.schema.shapes import (
 )
 from report.words.units import Quantity, pair
 
-LAYERS: Mapping[str, LayerKind] = {
+LAYERS: Mapping[str, LayerKind] = {layer.title: LayerKind.NOT_READ for layer in Layer} | {
     Layer.OUTLINE.title: LayerKind.ROOF,
     Layer.EDGE.title: LayerKind.EDGE_WITHOUT_PARAPET,
     Layer.PARAPET.title: LayerKind.EDGE_WITH_PARAPET,
     Layer.ARRAY.title: LayerKind.ARRAY,
     Layer.UNLIKE.title: LayerKind.UNLIKE_ARRAY,
     Layer.OBJECT.title: LayerKind.FIXED,
-} | {
-    layer.title: LayerKind.NOT_READ
-    for layer in (Layer.BARE_EDGE, Layer.CLEARANCE, Layer.CLEARANCE_NG, Layer.DESIGN, Layer.RUNS,
-                  Layer.NOTES, Layer.NORTH)
-}  # fmt: skip
+}
 """What is drawn on the layers of the plan that `report` writes."""
 
 MAX_NAME = 40
@@ -114,7 +109,8 @@ def plan_of(
         Largest gap between modules of one array [m].
     """
     kinds = known_layers(layers)
-    unread = [item for item in drawing.unread if _is_of_interest(item.layer, kinds)]
+    passed = LayerKind.NOT_READ
+    unread = [item for item in drawing.unread if kinds.get(item.layer.casefold()) is not passed]
     known: list[Known] = []
 
     def take(line: Drawn, kind: LayerKind, unit_m: float) -> None:
@@ -128,7 +124,7 @@ def plan_of(
         kind = kinds.get(line.layer.casefold())
         if kind is None:
             unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
-        elif kind is not LayerKind.NOT_READ:
+        elif kind is not passed:
             take(line, kind, unit_m)
     known, arrays, others = joined(known, gap_m)
     reason = "a closed line within or around an array of modules"
@@ -154,10 +150,6 @@ def plan_of(
 def known_layers(layers: Mapping[str, LayerKind]) -> dict[str, LayerKind]:
     """Return what is drawn on `LAYERS` and on others, which count more, by name in lower case."""
     return {name.casefold(): kind for name, kind in (*LAYERS.items(), *layers.items())}
-
-
-def _is_of_interest(layer: str, kinds: Mapping[str, LayerKind]) -> bool:
-    return kinds.get(layer.casefold()) is not LayerKind.NOT_READ
 
 
 def _unread(line: Drawn, reason: str, detail: str = "") -> Unread:
@@ -325,9 +317,5 @@ def own_axes(shape: Shape) -> tuple[float, float, float]:
     (x0, y0), (x1, y1) = max(sides(shape.points), key=lambda side: math.dist(*side))
     direction = math.degrees(math.atan2(y1 - y0, x1 - x0))
     angle = direction - 90.0 * round(direction / 90.0)
-    turn = cmath.rect(1.0, math.radians(-angle))
-    own = [complex(*point) * turn for point in shape.points]
-    wide, tall = (
-        max(axis) - min(axis) for axis in zip(*((z.real, z.imag) for z in own), strict=True)
-    )
-    return wide, tall, angle
+    box = Polygon(turned(shape.points, -angle)).bounds
+    return box.x_to_m - box.x_from_m, box.y_to_m - box.y_from_m, angle

@@ -11,7 +11,7 @@ import logging
 import math
 import re
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -122,18 +122,20 @@ class RoofDrawing:
 
     def turned(self, degrees: float) -> RoofDrawing:
         """Return the drawing turned counterclockwise about its origin, with its north."""
-        turn = cmath.rect(1.0, math.radians(degrees))
-
-        def at(point: Point) -> Point:
-            found = complex(*point) * turn
-            return found.real, found.imag
-
+        places = turned([text.at for text in self.texts], degrees)
         return replace(
             self,
-            lines=[replace(line, points=tuple(map(at, line.points))) for line in self.lines],
-            texts=[replace(text, at=at(text.at)) for text in self.texts],
+            lines=[replace(line, points=turned(line.points, degrees)) for line in self.lines],
+            texts=[replace(text, at=at) for text, at in zip(self.texts, places, strict=True)],
             north_deg=(self.north_deg + degrees) % 360.0,
         )
+
+
+def turned(points: Sequence[Point], degrees: float) -> tuple[Point, ...]:
+    """Return points turned counterclockwise about the origin."""
+    turn = cmath.rect(1.0, math.radians(degrees))
+    found = (complex(*point) * turn for point in points)
+    return tuple((z.real, z.imag) for z in found)
 
 
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:

@@ -34,9 +34,14 @@ _SPELLED = {
     ("en", 0): "e ew e-w", ("en", 90): "n ns n-s", ("en", 180): "w", ("en", 270): "s",
     ("lt", 0): "l long longitudinal", ("lt", 90): "t tran transverse",
 }  # fmt: skip
+VERTICAL = re.compile(
+    rf"(?<![a-z])({'|'.join(_SPELLED[_UP, 0].split())})(?![a-z]|\.[a-z])", re.IGNORECASE
+)
+"""A word for the vertical anywhere in a name."""
+
 _NAMED = {word: meant for meant, words in _SPELLED.items() for word in words.split()}
-_SEED = re.compile(r"([befhs][gln])([enz12])")  # band and instrument of SEED, then the component
-_KIK_NET = re.compile(r"()(ns|ew|ud)(\d)")
+# Of SEED, after band and instrument; of KiK-net, before the number of the sensor.
+_WITHIN = re.compile(r"([befhs][gln])([enz12])|(ns|ew|ud)(\d)")
 _BEARING = re.compile(r"([ns])(\d{1,2})([ew])")
 _CHANNEL = re.compile(r"\b(?:(?:sta|rcrdr)\s+)?cha?nn?(?:el)?\s*:?\s*\d+\s*:?", re.IGNORECASE)
 _CHANNEL_OF_NAME = re.compile(r"[-_. ]?cha?nn?(?:el)?[-_ ]?\d+", re.IGNORECASE)
@@ -234,8 +239,6 @@ def _by_word(word: str) -> _Meant | None:
     if match := _BEARING.fullmatch(word):
         degrees = int(match[2]) * (1 if match[3] == "e" else -1)
         return _AZIMUTH, (degrees if match[1] == "n" else 180 - degrees) % 360, ""
-    if match := _SEED.fullmatch(word):
-        return (*_NAMED[match[2]], match[1])
-    if match := _KIK_NET.fullmatch(word):
-        return (*_NAMED[match[2]], match[3])
+    if match := _WITHIN.fullmatch(word):
+        return (*_NAMED[match[2] or match[3]], match[1] or match[4])
     return None

@@ -61,12 +61,10 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
     if ids:
         wanted = "remove the row, or leave the motion out"
         raise InputError([Problem(f"has '{c.shown}' already", wanted, c.address) for c in ids])
-    numbered = [(table.added(), row) for row in rows]
-    return {
-        table.position(number, field): value
-        for number, row in numbered
-        for field, value in row.items()
-    }
+    cells: dict[CellPosition, Value] = {}
+    for row in rows:
+        cells |= table.cells(table.added(), row)
+    return cells
 
 
 def name_beside(book: OpenBook, path: Path) -> str:

@@ -19,7 +19,7 @@ from report.figures.base import load_fonts
 from report.figures.suite import Panel, suite_png
 from report.suite.acceptance import acceptance_facts, acceptance_lines, suite_acceptance
 from report.suite.info import facts, without_noise
-from report.suite.inputs import SuiteTargets
+from report.suite.inputs import Seeds, SuiteTargets
 from report.typeset.pdf import TEMPLATES
 from report.words.formats import aligned
 from report.words.units import G_MPS2
@@ -27,7 +27,7 @@ from solver.model import Floats
 from solver.records.measures import Measures, measures
 from solver.records.record import Record, record_csv
 from solver.rules.spectra import Target
-from solver.synthesis.suite import SuiteMotion
+from solver.synthesis.suite import SuiteMotion, make_suite
 from solver.synthesis.target import BAND_HZ, SpectrumFit, lowest_hz, spectrum_fit
 
 LEAST, GREATEST, MEAN_OFF = 0.90, 1.30, 0.07
@@ -82,6 +82,22 @@ def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[Sui
             "xyz", motion.components, motion.seeds, _PAIRS, motion.correlations, strict=True
         )
     )
+
+
+def made(
+    targets: SuiteTargets, count: int, seed: int, seeds: Seeds, progress: Callable[[str], object]
+) -> tuple[Sequence[SuiteMotion], dict[str, bytes]]:
+    """Return a suite and its files; `progress` is told of each motion and of the chart."""
+    suite = make_suite(
+        targets.horizontal,
+        targets.vertical,
+        count=count,
+        seed=seed,
+        records=seeds.groups,
+        progress=progress,
+    )
+    progress("plotting the spectra")
+    return suite, suite_files(suite, targets, seed=seed, records=seeds.sha256)
 
 
 def suite_files(

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from report.motions.sets import VERTICAL
 from report.suite.target_table import TargetTable
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
@@ -29,7 +30,6 @@ _MOST_S_DS_G = 5.0
 # Records are written to 0.00001 g: 0.25 % of the least peak below.
 _LEAST_S_DS_G = 0.01
 _LEAST_PEAK_G = 0.004
-_VERTICAL = re.compile(r"(?<![a-z])(up|ud|u-d|vert|vertical|v|z)(?![a-z])", re.IGNORECASE)
 _GENERATED = re.compile(r"motion-\d{2,}-[xyz]\.csv")
 
 
@@ -163,7 +163,7 @@ class Seeds:
     notes: tuple[str, ...]  # remarks on how the files were read
 
 
-def read_seeds(names: Sequence[str], *, units: str, dt_s: float) -> Seeds:
+def read_seeds(names: Sequence[str], *, units: str = "", dt_s: float = math.nan) -> Seeds:
     """Read the seed records: one motion for each name; a name may be files joined by commas.
 
     Raises
@@ -200,16 +200,11 @@ def _group(name: str, files: Iterable[MotionFile]) -> tuple[Record, ...]:
             f"{name}: has {len(group)} channels; give one, two or three for each motion "
             "(roofslip motion convert extracts a channel)"
         )
-    is_vertical = [_is_vertical(file, record) for file, record in channels]
-    if len(group) == 3 and sum(is_vertical) == 1:
-        group.append(group.pop(is_vertical.index(True)))
+    names = [Path(f.name).stem if r.name == f.name else r.name for f, r in channels]
+    verticals = [k for k, name in enumerate(names) if VERTICAL.search(name)]
+    if len(group) == 3 and len(verticals) == 1:
+        group.append(group.pop(verticals[0]))
     return tuple(group)
-
-
-def _is_vertical(file: MotionFile, record: Record) -> bool:
-    """Whether a channel, or the file of a single channel, has the name of a vertical."""
-    name = Path(file.name).stem if record.name == file.name else record.name
-    return bool(_VERTICAL.search(name))
 
 
 def _named(file: MotionFile, record: Record) -> Record:

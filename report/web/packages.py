@@ -32,7 +32,7 @@ KEPT = 5
 Task = Callable[[Path, Path], str]
 """What a process makes of a workbook: a package, `made`, or a suite, `motions_made`."""
 
-_STEPS: Mapping[Task, int] = {made: len(STEPS), motions_made: MOTIONS + 1}
+_STEPS: Mapping[Task, int] = {made: len(STEPS), motions_made: MOTIONS + 2}
 
 
 class State(StrEnum):

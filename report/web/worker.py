@@ -94,24 +94,16 @@ def motions_made(workbook: Path, out: Path) -> str:
     """Make motions for the site of a workbook and list them in it, likewise; zip the project."""
 
     def do() -> None:
-        from report.results.motions import add_motions
         from report.sheet.reading.read import read
-        from report.suite.files import suite_files
-        from report.suite.site import site_targets, suite_rows
-        from solver.synthesis.suite import make_suite
+        from report.suite.files import made
+        from report.suite.inputs import read_seeds
+        from report.suite.site import rows_beside, site_targets
 
-        targets, _ = site_targets(read(workbook))
+        sheet = read(workbook)
+        targets, _ = site_targets(sheet)
+        write = rows_beside(sheet, workbook.parent / "records", MOTIONS, targets, SEED)
         tell("Preparing the motions")
-        suite = make_suite(
-            targets.horizontal,
-            targets.vertical,
-            count=MOTIONS,
-            seed=SEED,
-            progress=lambda words: tell(capitalized(words)),
-        )
-        files = suite_files(suite, targets, seed=SEED, records={})
-        rows = suite_rows(MOTIONS, targets, "records", SEED)
-        add_motions(workbook, rows, {f"records/{name}": data for name, data in files.items()})
+        write(made(targets, MOTIONS, SEED, read_seeds(()), lambda do: tell(capitalized(do)))[1])
         out.mkdir(exist_ok=True)
         left_out = {out, Path(tempfile.gettempdir())}
         with ZipFile(out / PROJECT, "w", ZIP_DEFLATED) as archive:

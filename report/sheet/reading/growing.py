@@ -5,11 +5,13 @@ Writes nothing: `report.sheet.reading.parts` does. Read `GrowingTable`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
 from report.sheet.reading.locate_tables import MAX_ROWS, TableFound, find_table, table_area
+from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.schema import SECTION
 from report.sheet.schema.fields import SheetSection
@@ -56,6 +58,10 @@ class GrowingTable:
             label = self.section.entry(name).cell.label
             raise InputError(f"{self.found.heading.address}: heading '{label}' is missing; {FRESH}")
         return CellPosition(self.found.heading.sheet, row, columns[name].number)
+
+    def cells(self, row: int, values: Mapping[str, Value]) -> dict[CellPosition, Value]:
+        """Return values by field as the cells of a row."""
+        return {self.position(row, name): value for name, value in values.items()}
 
     def is_blank(self, row: int) -> bool:
         """Whether no field of a row is filled."""

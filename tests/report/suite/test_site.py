@@ -5,7 +5,7 @@ import json
 import pytest
 
 import commands
-import solver.synthesis.suite
+import report.suite.files
 import waves
 from report.results.publish import STAMP
 from report.sheet.reading.read import read
@@ -89,7 +89,7 @@ def test_a_target_spectrum_of_the_workbook_is_not_passed_over(tmp_path):
 def quick(monkeypatch):
     """Motions of sines at once."""
     monkeypatch.setattr(
-        solver.synthesis.suite, "make_suite", lambda *_, count, **__: waves.suite(count)
+        report.suite.files, "make_suite", lambda *_, count, **__: waves.suite(count)
     )
 
 

@@ -7,7 +7,7 @@ import zipfile
 
 import pytest
 
-import solver.synthesis.suite
+import report.suite.files
 import waves
 from browsing import opened, quiet_page, served
 from report.sheet.reading.read import read
@@ -51,14 +51,14 @@ def test_motions_are_made_into_the_copy_and_its_zip(tmp_path, monkeypatch):
         progress("motion 1 of 7")
         return waves.suite(count)
 
-    monkeypatch.setattr(solver.synthesis.suite, "make_suite", motions)
+    monkeypatch.setattr(report.suite.files, "make_suite", motions)
     monkeypatch.setattr(worker, "tell", told.append)
     path, out = without_motions(tmp_path / "p"), tmp_path / "p" / "out"
     # As `report.workers` has it: the process has its temporary files beside the workbook.
     (tmp_path / "p" / "own").mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "p" / "own"))
     assert motions_made(path, out) == ""
-    assert told == ["Preparing the motions", "Motion 1 of 7"]
+    assert told == ["Preparing the motions", "Motion 1 of 7", "Plotting the spectra"]
     with zipfile.ZipFile(out / PROJECT) as archive:
         names = set(archive.namelist())
         archive.extractall(tmp_path / "unpacked")
