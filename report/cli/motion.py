@@ -165,7 +165,7 @@ def suite(
     with input_errors(into or folder), Progress(count + 2) as progress:
         from report.results.publish import check_writable, publish
         from report.sheet.reading.read import read
-        from report.suite.files import made, suite_table
+        from report.suite.files import generate, suite_table
         from report.suite.inputs import check_folder, read_seeds
         from report.suite.site import rows_beside
 
@@ -178,7 +178,7 @@ def suite(
         write = rows_beside(sheet, folder, count, targets, seed) if sheet else None
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         progress("compiling the solver (first run only)")
-        motions, files = made(targets, count, seed, seeds, progress)
+        motions, files = generate(targets, count, seed, seeds, progress)
         if write:
             has_formulas = write(files)
         else:

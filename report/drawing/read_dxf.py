@@ -155,7 +155,6 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
 
     _check(path)
     document = _loaded(path)
-    _check_blocks(document)
     unit = UNITS.get(document.header.get("$INSUNITS", 0), "")
     geodata = document.modelspace().get_geodata()
     north_deg = math.nan
@@ -210,35 +209,13 @@ def _loaded(path: Path) -> Document:
         ) from error
 
 
-def _check_blocks(document: Document) -> None:
-    """Refuse blocks that are nested too deep, in themselves, or expand to too much."""
-    sizes: dict[str, int] = {}
-
-    def size(name: str, depth: int) -> int:
-        key = name.casefold()
-        if key in sizes:
-            return sizes[key]
-        if depth > MAX_DEPTH:
-            raise InputError(f"block {name}: nested more than {MAX_DEPTH} deep; explode it")
-        block = document.blocks.get(name)
-        total = 0 if block is None else expanded(block, depth)
-        sizes[key] = total
-        return total
-
-    def expanded(entities: Any, depth: int) -> int:
-        total = 0
-        for entity in entities:
-            total += 1
-            if entity.dxftype() == "INSERT":
-                total += _count(entity) * size(entity.dxf.get("name", ""), depth + 1)
-            if total > MAX_ENTITIES:
-                raise InputError(
-                    f"its blocks expand to more than {MAX_ENTITIES:,} entities; explode those of"
-                    " the roof plan and save it alone"
-                )
-        return total
-
-    expanded(document.modelspace(), 0)
+def _check_expanded(count: int) -> None:
+    """Refuse a drawing that shows too much: entities, or blocks, which may be empty."""
+    if count > MAX_ENTITIES:
+        raise InputError(
+            f"its blocks expand to more than {MAX_ENTITIES:,} entities; explode those of"
+            " the roof plan and save it alone"
+        )
 
 
 def _count(insert: Any) -> int:
@@ -253,9 +230,10 @@ def _printable(text: object) -> str:
 
 
 class _Block(NamedTuple):
-    """The block that an entity is shown by: which one of all, its handle and what it says."""
+    """The block that an entity is shown by: which one of all, in how many, and what it says."""
 
     number: int = 0
+    depth: int = 0
     handle: str = ""
     name: str = ""
     heights: tuple[str, ...] = ()
@@ -269,18 +247,21 @@ class _Reader:
     unit_m: float
     # by their blocks and layers
     opened: dict[tuple[int, str], list[Drawn]] = field(default_factory=lambda: defaultdict(list))
+    entities: int = 0
     blocks: int = 0
     points: int = 0
 
     def take(self, entity: Any, block: _Block) -> None:
         """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
+        self.entities += 1
+        _check_expanded(self.entities)
         kind, layer = entity.dxftype(), _printable(entity.dxf.get("layer", "0"))
         handle = str(entity.dxf.get("handle") or block.handle)
         if kind != "INSERT":
             self.drawing.counts[layer, kind] += 1
         try:
             if kind == "INSERT":
-                reason = self._take_insert(entity, layer, handle)
+                reason = self._take_insert(entity, layer, handle, block.depth + 1)
             elif kind in _TEXTS:
                 reason = self._take_text(entity, layer, kind)
             elif kind in CURVES:
@@ -339,14 +320,20 @@ class _Reader:
         unread = Unread(handle=handle, layer=layer, reason=cause, detail=detail)
         self.drawing.unread.append(unread)
 
-    def _take_insert(self, insert: Any, layer: str, handle: str) -> str:
+    def _take_insert(self, insert: Any, layer: str, handle: str, depth: int) -> str:
         """Add what a block shows, or return why it shows nothing."""
         if insert.block() is None:
             return f"a block that the drawing does not have: '{_printable(insert.dxf.name)}'"
+        if depth > MAX_DEPTH:
+            shown = _printable(insert.dxf.name)
+            raise InputError(f"block {shown}: nested more than {MAX_DEPTH} deep; explode it")
         name, heights = _attributes(insert)
-        for one in insert.multi_insert() if _count(insert) > 1 else (insert,):
+        count = _count(insert)
+        _check_expanded(count)
+        for one in insert.multi_insert() if count > 1 else (insert,):
             self.blocks += 1
-            block = _Block(self.blocks, handle, name, heights)
+            _check_expanded(self.blocks)
+            block = _Block(self.blocks, depth, handle, name, heights)
             for entity in one.virtual_entities():
                 # Layer 0 within a block is the layer that the block is put on.
                 if entity.dxf.get("layer", "0") == "0":

@@ -84,7 +84,7 @@ def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[Sui
     )
 
 
-def made(
+def generate(
     targets: SuiteTargets, count: int, seed: int, seeds: Seeds, progress: Callable[[str], object]
 ) -> tuple[Sequence[SuiteMotion], dict[str, bytes]]:
     """Return a suite and its files; `progress` is told of each motion and of the chart."""

@@ -95,7 +95,7 @@ def motions_made(workbook: Path, out: Path) -> str:
 
     def do() -> None:
         from report.sheet.reading.read import read
-        from report.suite.files import made
+        from report.suite.files import generate
         from report.suite.inputs import read_seeds
         from report.suite.site import rows_beside, site_targets
 
@@ -103,7 +103,9 @@ def motions_made(workbook: Path, out: Path) -> str:
         targets, _ = site_targets(sheet)
         write = rows_beside(sheet, workbook.parent / "records", MOTIONS, targets, SEED)
         tell("Preparing the motions")
-        write(made(targets, MOTIONS, SEED, read_seeds(()), lambda do: tell(capitalized(do)))[1])
+        no_seeds, say = read_seeds(()), lambda doing: tell(capitalized(doing))
+        _, files = generate(targets, MOTIONS, SEED, no_seeds, say)
+        write(files)
         out.mkdir(exist_ok=True)
         left_out = {out, Path(tempfile.gettempdir())}
         with ZipFile(out / PROJECT, "w", ZIP_DEFLATED) as archive:

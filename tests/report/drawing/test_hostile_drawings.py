@@ -81,6 +81,15 @@ def test_blocks_that_expand_without_end_are_refused(file):
     assert "nested more than 8 deep" in hostile(file, nested(12, 1))
 
 
+@pytest.mark.parametrize("spacing", [0, 1])
+def test_an_empty_block_is_not_shown_without_end(file, spacing):
+    sketch = Sketch()
+    sketch.document.blocks.new("NONE")
+    counts = {f"{of}_count": 30_000 for of in ("row", "column")}
+    sketch.space.add_blockref("NONE", (0, 0), dxfattribs=counts | {"row_spacing": spacing})
+    assert "expand to more than" in hostile(file, written(sketch))
+
+
 def test_a_block_within_itself_is_refused(file):
     sketch = Sketch()
     block = sketch.document.blocks.new("LOOP")
