@@ -90,7 +90,7 @@ def read(
     named = {row["layer"]: row["kind"] for row in rows}
     with input_errors(drawing):
         drawn, unit_m = _read(drawing, units)
-        drawn, degrees = _turned(drawn, rotate)
+        drawn, turn = _turned(drawn, rotate)
         layers = choose(drawn, named, given, accept)
         found = plan_of(drawn, unit_m, {**named, **layers}, gap_m)
     with input_errors(project):
@@ -99,7 +99,7 @@ def read(
             raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
         has_formulas = fill_cells(sheet.book, changes(sheet.book, found, layers, replace=replace))
     lines = (
-        *_turn(degrees, drawn.north_deg),
+        *turn,
         *(_line(place, gap_m) for place in (*found.roof, *found.arrays, *found.objects)),
         *_unread(found),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
@@ -169,24 +169,23 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     return found, LENGTHS[unit]
 
 
-def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, float]:
-    """Return the drawing as turned, and by how many degrees; NaN turns its north to +y."""
+def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
+    """Return the drawing as turned, and lines on that and its north; NaN turns its north to +y."""
     from solver.model import InputError
 
     degrees = 90.0 - drawn.north_deg if math.isnan(rotate) else rotate
     if math.isnan(degrees):
         raise InputError("states no north (GEODATA); give --rotate in degrees")
-    return (drawn.turned(degrees) if degrees else drawn), degrees
-
-
-def _turn(degrees: float, north_deg: float) -> Iterator[str]:
-    """Yield what the drawing is turned by, and where its north is then."""
+    lines = []
     if degrees:
-        yield f"turned counterclockwise by {degrees:.6g}° about the origin of the drawing"
-    if not math.isnan(north_deg):
-        yield f"north is {north_deg:.6g}° counterclockwise from +x: check it on the sheet Site"
+        drawn = drawn.turned(degrees)
+        lines += [f"turned counterclockwise by {degrees:.6g}° about the origin of the drawing"]
+    if not math.isnan(drawn.north_deg):
+        north = f"{drawn.north_deg:.6g}° counterclockwise from +x"
+        lines += [f"north is {north}: check it on the sheet Site"]
     elif degrees:
-        yield "the drawing states no north: check its direction on the sheet Site"
+        lines += ["the drawing states no north: check its direction on the sheet Site"]
+    return drawn, lines
 
 
 def _line(place: DrawnOutline, gap_m: float) -> str:

@@ -103,20 +103,19 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
         if rows and taken:
             fill.refuse(table.position(row, taken[0]), f"the place of {place.name}")
         _fill_outline(fill, place)
-        if not rows:
-            fill.cells[table.position(row, "id")] = place.name
+        values: dict[str, Value] = {} if rows else {"id": place.name}
         if key == "arrays" and place.modules and "modules" in table.found.columns:
             count = f"the number of modules of {place.name}"
             fill.put(table.position(row, "modules"), place.modules, count)
         if key == "objects" and (not rows or fill.replace):
-            fill.cells[table.position(row, "kind")] = place.kind.value
+            values["kind"] = place.kind.value
             if math.isfinite(place.height_m):
-                height = table.number("height_m", place.height_m)
-                fill.cells[table.position(row, "height_m")] = height
+                values["height_m"] = table.number("height_m", place.height_m)
         for side, value in zip(SIDES, _sides(place.shape), strict=True):
             shown = None if value is None else table.number(side, value)
             if shown is not None or side in taken:
-                fill.cells[table.position(row, side)] = shown
+                values[side] = shown
+        fill.cells |= table.cells(row, values)
 
 
 def _sides(shape: Shape) -> tuple[float | None, ...]:
