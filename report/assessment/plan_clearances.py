@@ -110,6 +110,12 @@ def missing_rows(
     return cells, tuple(lines)
 
 
+def without_clearances(sheet: Sheet) -> Sheet:
+    """Return a workbook without its clearances, on which no displacement depends, to be run."""
+    problems = tuple(item for item in sheet.problems if item[0].section != "clearances")
+    return replace(sheet, draft={**sheet.draft, "clearances": ()}, problems=problems)
+
+
 def _has_row(near: PlanNeighbor) -> bool:
     """Whether a pair can have a row: not with a bare edge, nor where the two overlap."""
     return near.kind is not NearbyKind.BARE_EDGE and near.gap_m >= -_NOISE_M

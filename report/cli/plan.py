@@ -132,7 +132,7 @@ def clearances(project: Path) -> None:
 
 def _with_clearances(project: Path) -> bool:
     """Add the rows that a workbook lacks; return whether formulas keep their former values."""
-    from report.assessment.plan_clearances import missing_rows
+    from report.assessment.plan_clearances import missing_rows, without_clearances
     from report.assessment.project import assess
     from report.motions.prepare import prepare
     from report.sheet.reading.read import read as read_sheet
@@ -143,9 +143,10 @@ def _with_clearances(project: Path) -> bool:
     arrays: Sequence[ArrayAssessment] = ()
     with Progress(1) as progress:
         try:
-            shaking = prepare(sheet)
+            to_run = without_clearances(sheet)
+            shaking = prepare(to_run)
             progress("running the motions")
-            arrays = assess(sheet, shaking).arrays
+            arrays = assess(to_run, shaking).arrays
         except InputError as error:
             not_run = [f"the motions are not run: {error.problems[0]}"]
     cells, found = missing_rows(sheet, arrays)

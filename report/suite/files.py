@@ -85,7 +85,7 @@ def components(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> tuple[Sui
 
 
 def generate(
-    targets: SuiteTargets, count: int, seed: int, seeds: Seeds, progress: Callable[[str], object]
+    targets: SuiteTargets, count: int, seed: int, seeds: Seeds, progress: Callable[[str], None]
 ) -> tuple[Sequence[SuiteMotion], dict[str, bytes]]:
     """Return a suite and its files; `progress` is told of each motion and of the chart."""
     suite = make_suite(
