@@ -163,11 +163,11 @@ def suite(
         raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
     # The compilation, each motion, and the chart.
     with input_errors(into or folder), Progress(count + 2) as progress:
+        from report.results.motions import suite_beside
         from report.results.publish import check_writable, publish
         from report.sheet.reading.read import read
         from report.suite.files import generate, suite_table
         from report.suite.inputs import check_folder, read_seeds
-        from report.suite.site import rows_beside
 
         check_folder(folder, count)
         check_writable(folder)
@@ -175,7 +175,7 @@ def suite(
         asked = {"s_ds_g": s_ds_g, "z_over_h": z_over_h, "code": code, "tail": tail}
         given = {name: value for name, value in asked.items() if value is not None}
         targets, taken = _targets(given, target, sheet)
-        write = rows_beside(sheet, folder, count, targets, seed) if sheet else None
+        write = suite_beside(sheet.book, folder, count, targets.source(seed)) if sheet else None
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         progress("compiling the solver (first run only)")
         motions, files = generate(targets, count, seed, seeds, progress)

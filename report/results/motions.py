@@ -6,13 +6,13 @@ Read `add_motions`.
 from __future__ import annotations
 
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from report.motions.files import BAR
 from report.motions.sets import Sets
-from report.results.publish import write_all
+from report.results.publish import STAMP, stamp, write_all
 from report.sheet.checking.motion_checks import LABELS
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.growing import GrowingTable
@@ -82,6 +82,32 @@ def name_beside(book: OpenBook, path: Path) -> str:
     if any(mark in name for mark in ("!", BAR)):
         raise InputError(f"{path}: has '!' or '{BAR}' in its name; rename it")
     return name
+
+
+def suite_beside(
+    book: OpenBook, folder: Path, count: int, source: str
+) -> Callable[[Mapping[str, bytes]], bool]:
+    """Return what writes the files of a suite to a folder, and their motions into the workbook.
+
+    It returns as `add_motions`; what that would refuse of the rows is refused before it is called.
+
+    Raises
+    ------
+    InputError
+        If the folder is outside that of the workbook, or a motion of the suite is in it already.
+    """
+    beside = name_beside(book, folder)
+    rows: list[Row] = []
+    for motion in (f"motion-{k:02d}" for k in range(1, count + 1)):
+        cells = (motion, *(f"{beside}/{motion}-{axis}.csv" for axis in "xyz"), source)
+        rows.append(dict(zip(("id", *LABELS, "source"), cells, strict=True)))
+    row_cells(book, rows)
+
+    def write(files: Mapping[str, bytes]) -> bool:
+        placed = {f"{beside}/{name}": data for name, data in files.items()}
+        return add_motions(book.path, rows, placed | {f"{beside}/{STAMP}": stamp(files)})
+
+    return write
 
 
 def set_rows(

@@ -42,6 +42,11 @@ class SuiteTargets:
     lines: tuple[str, ...]  # printed description
     facts: Mapping[str, Any]  # for suite.json
 
+    def source(self, seed: int) -> str:
+        """Return what the sheet Motions says of motions with these targets."""
+        basis = self.lines[0].removeprefix("target: ").partition(": ")[0]
+        return f"Generated, seed {seed}; {basis}"
+
     def of(self, component: str) -> Target:
         """Return the target of x, y or z."""
         return self.vertical if component == "z" else self.horizontal

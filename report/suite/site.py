@@ -1,16 +1,12 @@
-"""The site of a workbook as the target of a suite, and its motions added to the workbook.
+"""The site of a workbook as the target of a suite.
 
 Read `site_targets`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
-from report.results.motions import Row, add_motions, name_beside, row_cells
-from report.results.publish import STAMP, stamp
 from report.sheet.checking.site_checks import site_parameters
 from report.sheet.reading.read import Sheet
 from report.sheet.schema.fields import Place
@@ -57,31 +53,3 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
         raise InputError(lacking)
     arguments: dict[str, Any] = {name: value for name, _, value, _ in found}
     return ac156_targets(**arguments), lines
-
-
-def rows_beside(
-    sheet: Sheet, folder: Path, count: int, targets: SuiteTargets, seed: int
-) -> Callable[[Mapping[str, bytes]], bool]:
-    """Return what writes the files of a suite to a folder, and their motions into the workbook.
-
-    It returns as `add_motions`; what that would refuse of the rows is refused before it is called.
-
-    Raises
-    ------
-    InputError
-        If the folder is outside that of the workbook, or a motion of the suite is in it already.
-    """
-    beside = name_beside(sheet.book, folder)
-    basis = targets.lines[0].removeprefix("target: ").partition(": ")[0]
-    rows: list[Row] = []
-    for motion in (f"motion-{k:02d}" for k in range(1, count + 1)):
-        x, y, z = (f"{beside}/{motion}-{axis}.csv" for axis in "xyz")
-        names = {"id": motion, "record": x, "transverse": y, "vertical": z}
-        rows.append({**names, "source": f"Generated, seed {seed}; {basis}"})
-    row_cells(sheet.book, rows)
-
-    def write(files: Mapping[str, bytes]) -> bool:
-        placed = {f"{beside}/{name}": data for name, data in files.items()}
-        return add_motions(sheet.path, rows, placed | {f"{beside}/{STAMP}": stamp(files)})
-
-    return write

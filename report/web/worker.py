@@ -94,14 +94,16 @@ def motions_made(workbook: Path, out: Path) -> str:
     """Make motions for the site of a workbook and list them in it, likewise; zip the project."""
 
     def do() -> None:
+        from report.results.motions import suite_beside
         from report.sheet.reading.read import read
         from report.suite.files import generate
         from report.suite.inputs import read_seeds
-        from report.suite.site import rows_beside, site_targets
+        from report.suite.site import site_targets
 
         sheet = read(workbook)
         targets, _ = site_targets(sheet)
-        write = rows_beside(sheet, workbook.parent / "records", MOTIONS, targets, SEED)
+        records = workbook.parent / "records"
+        write = suite_beside(sheet.book, records, MOTIONS, targets.source(SEED))
         tell("Preparing the motions")
         no_seeds, say = read_seeds(()), lambda doing: tell(capitalized(doing))
         _, files = generate(targets, MOTIONS, SEED, no_seeds, say)
