@@ -12,7 +12,9 @@ import stand_in
 from inputs import FT, INCH, NO_SIDES
 from report.drawing.dxf import write_dxf
 from report.drawing.joined import OPEN
+from report.drawing.layers import Layer
 from report.drawing.plan import plan_drawing
+from report.drawing.plan_read import LAYERS
 from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle
@@ -216,3 +218,7 @@ def test_outlines_without_a_text_get_a_name_that_is_free(tmp_path):
     sketch.ring("ARRAY", BOX_FT)
     sketch.ring("ARRAY", L_FT, "A1")
     assert [place.name for place in plan(sketch.saved(tmp_path)).arrays] == ["A2", "A1"]
+
+
+def test_every_layer_of_the_plan_that_is_written_is_known():
+    assert LAYERS.keys() == {layer.title for layer in Layer}
