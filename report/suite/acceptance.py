@@ -10,33 +10,20 @@ from functools import partial
 from typing import Any
 
 from report.suite.inputs import SuiteTargets
-from solver.model import Motion
 from solver.records.acceptance import Acceptance, acceptance
 from solver.rules.limit import Limit
 from solver.rules.spectra import target_sa_g
+from solver.sliding.checked import motion
 from solver.synthesis.suite import SuiteMotion
 
 
 def suite_acceptance(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> Acceptance:
     """Compare a suite with its targets as the motions of an analysis; motions count from 1."""
     return acceptance(
-        [_motion(f"motion-{k:02d}", motion) for k, motion in enumerate(suite, start=1)],
-        [motion.hold_s for motion in suite],
+        [motion(m.x, m.y, m.z, id=f"motion-{k:02d}") for k, m in enumerate(suite, start=1)],
+        [m.hold_s for m in suite],
         partial(target_sa_g, targets.horizontal),
         partial(target_sa_g, targets.vertical),
-    )
-
-
-def _motion(name: str, given: SuiteMotion) -> Motion:
-    return Motion(
-        id=name,
-        source="",
-        dt_s=given.x.dt_s,
-        ax_mps2=given.x.a_mps2,
-        ay_mps2=given.y.a_mps2,
-        az_mps2=given.z.a_mps2,
-        scale=1.0,
-        signs=(1, -1),
     )
 
 

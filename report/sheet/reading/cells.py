@@ -18,7 +18,6 @@ from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
 from report.sheet.reading.number_format import is_percentage, misleading
-from report.sheet.schema import legacy_labels
 from report.sheet.schema.fields import Entry, YesNo, adapter
 from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
 from solver.model import InputError, Problem
@@ -270,7 +269,6 @@ def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
     said = " ".join(str(plain(cell.value)).split()).casefold()
     if entry.kind is bool:
         said = {"true": "yes", "false": "no"}.get(said, said)
-    said = legacy_labels.CHOICES.get(said, said)
     for choice in entry.choices:
         if choice.casefold() == said:
             return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)

@@ -6,7 +6,7 @@ Only the writing side uses positions: the reader finds cells by name and heading
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from openpyxl import Workbook
@@ -85,11 +85,6 @@ class Layout:
 
     tables: dict[str, TablePlace] = field(default_factory=dict)
     blocks: dict[str, BlockPlace] = field(default_factory=dict)
-
-    def on(self, sheet: str) -> tuple[Sequence[BlockPlace], Sequence[TablePlace]]:
-        """Return the blocks and the tables of a sheet."""
-        blocks = [place for place in self.blocks.values() if place.section.sheet == sheet]
-        return blocks, [place for place in self.tables.values() if place.section.sheet == sheet]
 
 
 def literal(name: str) -> str:

@@ -51,8 +51,5 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
 """Single cells that earlier workbooks do not have, those of one version together; a workbook
 without any of a group is of an earlier version."""
 
-CHOICES: dict[str, str] = {}
-"""Earlier choices, in lowercase, with the present ones."""
-
 PROVISIONS: Mapping[str, str] = {"max_storeys": "max_stories"}
 """Earlier keys of provisions to override, with the present ones."""

@@ -35,8 +35,9 @@ def write_counts(book: Workbook, layout: Layout, top: int) -> None:
     """Write what each sheet lacks: on the sheet itself, and in a list on Start, from a row on."""
     start = book[START]
     for row, title in enumerate(dict.fromkeys(s.sheet for s in SECTIONS), start=top):
-        blocks, tables = layout.on(title)
         sections = [section for section in SECTIONS if section.sheet == title]
+        blocks = [layout.blocks[each.key] for each in sections if each.key in layout.blocks]
+        tables = [layout.tables[each.key] for each in sections if each.key in layout.tables]
         wrong = [f"IF({name},1,0)" for place in blocks for name in wrong_names(place.section)]
         lacks = [*(text for text in map(block_lacks, blocks) if text), *wrong]
         lacks += [_lacking_in(place) for place in tables]

@@ -104,13 +104,6 @@ def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
     assert override.provision == "max_stories"
 
 
-def test_an_earlier_choice_is_read_as_the_present_one(tmp_path, monkeypatch):
-    monkeypatch.setitem(legacy_labels.CHOICES, "old name", "fixed object")
-
-    path = type_into(make(tmp_path), {"Objects/RTU-1/Kind": "Old name"})
-    assert read(path).project.objects[0].kind == "fixed object"
-
-
 def test_every_earlier_name_belongs_to_a_present_one():
     known = {(section.key, entry.name) for section, entry in present()}
     assert legacy_labels.LABELS.keys() | legacy_labels.FIELDS.keys() <= known
