@@ -241,12 +241,12 @@ def load() -> None:
     import report.drawing.dxf
     import report.figures.charts
     import report.results.xlsx  # noqa: F401
+    from report.figures.base import load_fonts
     from report.package.html import typeset_ahead
-    from report.pages.pictures import load_charts
     from report.provenance.software import sbom_sha256
     from report.typeset.pdf import draw_ahead
 
-    load_charts()
+    load_fonts()
     typeset_ahead()
     draw_ahead([])
     sbom_sha256()  # reads what is said of every installed library

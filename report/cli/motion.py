@@ -309,10 +309,8 @@ def _write(record: Record, out: Path) -> None:
 
 def _draw(records: Sequence[Record], out: Path) -> None:
     """Write the plot of records; an earlier plot is replaced."""
-    from report.figures.base import load_fonts
     from report.figures.records import MOST, records_png, records_svg
     from report.suite.info import PERIODS_S, spectra_g
-    from report.typeset.pdf import TEMPLATES
     from solver.files import write_whole
     from solver.model import InputError
 
@@ -320,7 +318,6 @@ def _draw(records: Sequence[Record], out: Path) -> None:
         raise InputError(
             f"{out.name}: a plot shows at most {MOST} channels; select one with --channel"
         )
-    load_fonts(TEMPLATES / "fonts")
     drawing = records_png if out.suffix.lower() == ".png" else records_svg
     picture = drawing(records, PERIODS_S, spectra_g(records))
     write_whole(out, picture if isinstance(picture, bytes) else picture.encode())

@@ -11,7 +11,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from functools import cache
 from typing import Any
 
 import matplotlib as mpl
@@ -19,6 +19,7 @@ from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from report.typeset.pdf import TEMPLATES
 from solver.model import Floats
 
 WIDTH_IN = 6.7
@@ -62,17 +63,17 @@ _STYLE: Any = {
 }
 
 
-def load_fonts(folder: Path) -> None:
-    """Register the shipped fonts with the charts."""
-    known = {entry.fname for entry in font_manager.fontManager.ttflist}
-    for path in sorted(folder.glob("SourceSans3-*.ttf")):
-        if str(path) not in known:
-            font_manager.fontManager.addfont(str(path))
+@cache
+def load_fonts() -> None:
+    """Register the shipped fonts with the charts, once in a process."""
+    for path in sorted((TEMPLATES / "fonts").glob("SourceSans3-*.ttf")):
+        font_manager.fontManager.addfont(str(path))
 
 
 @contextmanager
 def style() -> Iterator[None]:
     """Draw in the style of the package, independent of the machine's settings."""
+    load_fonts()
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(_STYLE)

@@ -75,9 +75,8 @@ def _figure(records: Sequence[Record], periods_s: Floats, sa_g: Floats) -> Figur
     axes = axes_at(low_in, _SPECTRUM_IN)
     _spectra(axes, records, periods_s, sa_g)
     if count > 1:
-        marks, names = axes.get_legend_handles_labels()
         columns = min(count, _LEGEND_COLUMNS)
-        figure.legend(marks, names, loc="lower center", ncols=columns, handlelength=3.2)
+        figure.legend(loc="lower center", ncols=columns, handlelength=3.2)
     return figure
 
 

@@ -59,8 +59,8 @@ def spectra(parts: Sequence[Spectra]) -> str:
                 axes = panel(_LEFT_IN + _FIRST_IN + _APART_IN, ratio_in, row)
                 _ratios(axes, part)
                 _finish(axes, part, _MANY_S, is_last=row == len(parts) - 1)
-        marks, names = figure.axes[0].get_legend_handles_labels()
-        figure.legend(marks, names, loc="upper right", ncols=3, borderaxespad=0.1)
+        lines = figure.axes[0].get_legend_handles_labels()
+        figure.legend(*lines, loc="upper right", ncols=3, borderaxespad=0.1)
         return svg_text(figure)
 
 

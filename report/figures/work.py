@@ -71,10 +71,8 @@ def overview(runs: pd.DataFrame, unit: str, floor: float) -> str:
             labeled(axes, "Time per run [s]", title=f"Error in {measure}")
             logarithmic(axes, 9, 12)
         grid[0, 0].set_ylabel(f"Median error over analysis cases [{unit}]")
-        handles, labels = grid[0, 0].get_legend_handles_labels()
-        figure.legend(
-            handles, labels, loc="lower center", ncols=4, handlelength=2.6, columnspacing=0.9
-        )
+        lines = grid[0, 0].get_legend_handles_labels()
+        figure.legend(*lines, loc="lower center", ncols=4, handlelength=2.6, columnspacing=0.9)
         return svg_text(figure)
 
 

@@ -15,7 +15,6 @@ from markupsafe import Markup
 import solver.building.roof
 from report.document.sections import Section, filled, section
 from report.document.templates import rendered
-from report.figures.base import load_fonts
 from report.manual.building import building
 from report.manual.machine import this_machine
 from report.manual.models import models
@@ -62,7 +61,6 @@ def files(
         Where the renderer complains.
     """
     machine = this_machine()
-    load_fonts(TEMPLATES / "fonts")
     on_stage("Drawing the charts")
     parts = sections(verification)
     on_stage("Laying out the manual")

@@ -19,7 +19,6 @@ from report.drawing.on_paper import printed_plan
 from report.drawing.sheet import SMALL
 from report.pages import friction_tests, limits
 from report.pages.parts import PackageData
-from report.typeset.pdf import TEMPLATES
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
@@ -29,13 +28,6 @@ SHEET_IN = 8.8  # from the head of a sheet to its foot
 Drawings = Mapping[str, Sequence[Any]]
 """SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, what
 is printed, the plan and its legend."""
-
-
-def load_charts() -> None:
-    """Load the plotting library, which is slow, and the fonts."""
-    from report.figures.base import load_fonts
-
-    load_fonts(TEMPLATES / "fonts")
 
 
 def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
@@ -48,7 +40,6 @@ def draw_assessment(package: PackageData) -> Drawings:
     from report.figures import accelerations, charts, plan
     from report.figures.section import array_section
 
-    load_charts()
     us_first, assessment = package.fmt.us_first, package.assessment
     printed = printed_plan(assessment)
     return {
@@ -110,7 +101,6 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
     from report.figures.accuracy import work_precision
     from report.figures.spectra import spectra
 
-    load_charts()
     us_first, rivals = package.fmt.us_first, shown.accuracy.rivals
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
@@ -130,7 +120,6 @@ def draw_uncertainty(package: PackageData, found: Uncertainty) -> Drawings:
     """Return the contours; none where nothing slides on the whole grid."""
     from report.figures.uncertainty import contours
 
-    load_charts()
     surface, arrays, us_first = found.surface, package.assessment.arrays, package.fmt.us_first
     slides = bool((surface.mean_m > 0.0).any())
     return {"how-sure": [contours(surface, arrays, us_first)] if slides else []}

@@ -8,7 +8,6 @@ from markupsafe import Markup
 
 from report.document.sections import Section, filled, section
 from report.document.templates import rendered
-from report.figures.base import load_fonts
 from report.study.allowed import allowed
 from report.study.array_page import fragility
 from report.study.basis import basis, limits
@@ -32,7 +31,6 @@ def study_files(results: StudyResults) -> Mapping[str, bytes]:
     DefectError
         Where the renderer complains.
     """
-    load_fonts(TEMPLATES / "fonts")
     return {
         "study.pdf": lay_out(study_html(results)),
         "curves.csv": curves_csv(results),

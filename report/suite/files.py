@@ -15,12 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from report.figures.base import load_fonts
 from report.figures.suite import Panel, suite_png
 from report.suite.acceptance import acceptance_facts, acceptance_lines, suite_acceptance
 from report.suite.info import facts, without_noise
 from report.suite.inputs import Seeds, SuiteTargets
-from report.typeset.pdf import TEMPLATES
 from report.words.formats import aligned
 from report.words.units import G_MPS2
 from solver.model import Floats
@@ -125,7 +123,6 @@ def suite_files(
     }
     document = _document(suite, targets, parts, seed, records, files)
     files["suite.json"] = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
-    load_fonts(TEMPLATES / "fonts")
     files["suite.png"] = suite_png([_panel(suite, targets, name) for name in "xyz"])
     return files
 

@@ -12,8 +12,6 @@ from one_by_one import prd_m, slid
 from printed import printed
 from report.assessment.sensitivity import accuracy
 from report.figures.accuracy import work_precision
-from report.figures.base import load_fonts
-from report.typeset.pdf import TEMPLATES
 from solver.rivals.methods import METHODS
 
 
@@ -146,7 +144,6 @@ def test_a_failed_run_is_counted_in_the_caption_and_said_in_the_table(usual):
 
 
 def test_two_charts_are_the_same_bytes_and_name_every_method_as_the_table_does(usual):
-    load_fonts(TEMPLATES / "fonts")
     scene, evidence, _ = usual
     svg = work_precision(evidence.rivals)
     assert svg == work_precision(evidence.rivals)
@@ -158,7 +155,6 @@ def test_two_charts_are_the_same_bytes_and_name_every_method_as_the_table_does(u
 
 
 def test_the_chart_of_errors_has_one_axis_of_powers_of_ten(usual):
-    load_fonts(TEMPLATES / "fonts")
     drawn = re.findall(r">([^<>]+)</text>", work_precision(usual[1].rivals))
     assert [text for text in drawn if text.startswith("Error")] == ["Error in PRD [%]"]
     powers = [text for text in drawn if text.startswith("10") and text[2:] and text != "100"]

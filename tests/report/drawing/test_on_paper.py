@@ -19,7 +19,6 @@ from report.drawing.sheet import SMALL, PlanSize
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures import plan as figures
 from report.package.html import part
-from report.pages.pictures import load_charts
 from report.pages.registry import package_data
 from report.sheet.schema.choices import PlanPaper
 from report.typeset.pdf import lay_out
@@ -206,7 +205,6 @@ def test_the_sheet_of_the_plan_is_as_large_as_the_roof_needs_or_as_asked(
 ):
     package = package_data(thirty(paper, us_first))
     on = printed_plan(package.assessment)
-    load_charts()
     drawings = {"plan": [on, *map(figures.paper_svg, (on.plan, on.key))]}
     path = tmp_path / "plan.pdf"
     path.write_bytes(lay_out(part(package, None, "plan", drawings)))

@@ -10,9 +10,7 @@ import pytest
 import printed
 import tables
 from report.document.sections import section
-from report.figures.base import load_fonts
 from report.manual.shake_table import result, shake_table
-from report.typeset.pdf import TEMPLATES
 from report.words.validation import NOT_VALIDATED, explained
 from solver.verification.design_checks import design_checks
 from solver.verification.evidence import SECTIONS, Check
@@ -49,7 +47,6 @@ def features_of(checks, *found):
 @pytest.fixture
 def table(tmp_path):
     """A function that compares made tests with the ratios given."""
-    load_fonts(TEMPLATES / "fonts")
 
     def of(ratios, data="computed"):
         tables.write_folder(tmp_path, ratios, data=data)

@@ -12,10 +12,8 @@ from click.testing import CliRunner
 import printed
 from places import RECORDS
 from report.cli.main import main
-from report.figures.base import load_fonts
 from report.manual.building import building
 from report.manual.summary import summary
-from report.typeset.pdf import TEMPLATES
 from solver.building.beam import beam_modes
 from solver.building.roof import absolute_accelerations, roof_motion
 from solver.building.structure import building_of_periods
@@ -53,11 +51,6 @@ def recorded(made):
     return compare(
         replace(made, title="A tower", description="A frame.", is_recorded=True, code_period_s=1.0)
     )
-
-
-@pytest.fixture(scope="module", autouse=True)
-def fonts():
-    load_fonts(TEMPLATES / "fonts")
 
 
 def page(*roofs):

@@ -10,11 +10,9 @@ import pandas as pd
 import pytest
 
 import printed
-from report.figures.base import load_fonts
 from report.manual.models import models
 from report.manual.render import verification_csv
 from report.manual.summary import summary
-from report.typeset.pdf import TEMPLATES
 from report.words.formats import percent
 from solver.verification import model_study
 from solver.verification.model_evidence import HELD, SECOND
@@ -29,7 +27,6 @@ TWO_AXES = "PRD in two axes relative to one axis, median"
 
 @pytest.fixture(scope="module")
 def evidence():
-    load_fonts(TEMPLATES / "fonts")
     return model_study.model_evidence(own_triples(True), quick=True)
 
 

@@ -17,13 +17,12 @@ from report.assessment.verdict import Verdict
 from report.drawing.on_paper import plan_on_paper
 from report.drawing.plan import plan_drawing
 from report.drawing.sheet import LANDSCAPE
-from report.figures.base import load_fonts, style
+from report.figures.base import style
 from report.figures.plan import painted
 from report.pages.summary import summary
 from report.results.json import results_json
 from report.results.xlsx import results_xlsx
 from report.sheet.reading.archive import open_book
-from report.typeset.pdf import TEMPLATES
 from report.web.answers import answer
 from sheets import make
 
@@ -53,7 +52,6 @@ def test_the_prescriptive_displacement_that_the_override_lowers_is_marked(done):
 
 
 def test_the_plan_and_its_tables_mark_it(done):
-    load_fonts(TEMPLATES / "fonts")
     with style():
         figure = painted(plan_on_paper(done, LANDSCAPE).paper)
     said = " ".join(text.get_text() for text in figure.findobj(lambda a: hasattr(a, "get_text")))

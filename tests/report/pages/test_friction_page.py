@@ -13,10 +13,8 @@ from report.assessment.friction_rows import friction_rows
 from report.assessment.friction_rows import tested as series_of
 from report.assessment.verdict import Verdict
 from report.drawing.section import drawn_slope_deg
-from report.figures.base import load_fonts
 from report.figures.friction import friction_by_velocity
 from report.figures.section import array_section
-from report.typeset.pdf import TEMPLATES
 from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
 
@@ -113,7 +111,6 @@ def test_a_law_is_fitted_to_four_velocities_and_drawn():
     )
     assert shown.line("Array A1: mean of μ(v) at the tested velocities")
     assert "Dashed: laws fitted" in shown
-    load_fonts(TEMPLATES / "fonts")
     data = stand_in.project(arrays=arrays, friction_runs=wet)
     (found,) = series_of(data)
     fit = fit_law([run.velocity_mps for run in found.runs], [run.mu for run in found.runs])
@@ -142,7 +139,6 @@ def least_type_pt(svg):
 
 @pytest.mark.parametrize("slope", [0.0, 2.0, 10.0, 40.0])
 def test_the_section_states_its_dimensions_and_stays_on_the_sheet(slope):
-    load_fonts(TEMPLATES / "fonts")
     array = stand_in.project(arrays=[stand_in.array("A1", slope)]).arrays[0]
     svg = array_section(array, True)
     texts = words(svg)

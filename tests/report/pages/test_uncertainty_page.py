@@ -7,10 +7,8 @@ import scenes
 import stand_in
 from printed import printed
 from report.assessment.uncertainty import uncertainty
-from report.figures.base import load_fonts
 from report.figures.levels import MOST_LEVELS, levels
 from report.figures.uncertainty import contours
-from report.typeset.pdf import TEMPLATES
 
 
 def made(found=None, **changes):
@@ -43,7 +41,6 @@ def test_where_nothing_slides_there_are_no_contours_and_no_ratios():
 
 def test_the_chart_names_the_arrays_and_is_the_same_twice():
     package, found, _ = made()
-    load_fonts(TEMPLATES / "fonts")
     arrays = package.assessment.arrays
     svg = contours(found.surface, arrays, us_first=True)
     assert svg == contours(found.surface, arrays, us_first=True)

@@ -9,11 +9,9 @@ import pytest
 from test_study_read import given, sheet_rows, write
 
 import printed
-from report.figures.base import load_fonts
 from report.study.array_page import fragility as pages
 from report.study.results import LimitState
 from report.study.run import planned, run_study
-from report.typeset.pdf import TEMPLATES
 from report.words.units import digits_down
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import fragility
@@ -51,7 +49,6 @@ def results(tmp_path_factory):
 
 
 def test_the_chart_has_a_panel_for_each_state_with_the_p_value_of_the_table(results):
-    load_fonts(TEMPLATES / "fonts")
     charts = pages(results, results.arrays[0]).charts
     assert list(charts) == ["fragility", "goodness"]
     texts = re.findall(r">(LS\d: [^<]*)<", charts["goodness"])
