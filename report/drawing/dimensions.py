@@ -121,7 +121,8 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
     (x, y), is_row = frame.middle, frame.wide >= frame.tall
     if gap.of.is_given:
         at = (frame.x0 + RADIUS_IN, y) if is_row else (x, frame.y1 - RADIUS_IN)
-        draw_number(plan.paper, at, gap)
+        plan.paper.circle(Mark.NUMBER, at, RADIUS_IN - 0.01)
+        plan.paper.text(at[0], at[1] - BASE_IN, str(gap.of.number), is_centered=True)
     if is_ng:
         at = (frame.x1 - ng_wide() / 2, y) if is_row else (x, frame.y0 + NG_TALL_IN / 2)
         draw_ng(plan.paper, at)
@@ -179,12 +180,6 @@ def draw_gap(plan: PlanSheet, gap: Gap) -> None:
         plan.paper.shape(Mark.FAILED, area.points)
     plan.paper.dimension(Layer.CLEARANCE_NG if is_ng else Layer.CLEARANCE, gap.a, gap.b)
     plan.paper.placer.take_segment(gap.a, gap.b)
-
-
-def draw_number(paper: Paper, middle: Point, gap: Gap) -> None:
-    """Draw the number of a clearance in its circle."""
-    paper.circle(Mark.NUMBER, middle, RADIUS_IN - 0.01)
-    paper.text(middle[0], middle[1] - BASE_IN, str(gap.of.number), is_centered=True)
 
 
 def draw_ng(paper: Paper, middle: Point) -> None:

@@ -13,6 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from report.drawing.layers import Point
+
 _CLEAR_IN = 0.035  # between labels
 _RINGS_IN = np.concatenate((np.arange(0.0, 1.6, 0.06), np.arange(1.6, 4.0, 0.2)))
 _TURNS = np.deg2rad(np.arange(0.0, 360.0, 10.0))
@@ -23,8 +25,6 @@ _DISTANCES_IN = np.hypot(*_OFFSETS.T)
 _NEAR_IN = 0.4  # tried first
 _TRIED = 200  # candidates whose leaders are checked, the nearest ones
 _AT_START_IN = 0.12  # length of a leader within the mark that it leads from
-
-Point = tuple[float, float]
 
 
 class Frame(NamedTuple):

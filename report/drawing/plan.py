@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
 from report.assessment.envelopes import (
@@ -19,7 +19,7 @@ from report.assessment.envelopes import (
     runs_envelope,
 )
 from report.assessment.neighbors import bare_edges
-from report.assessment.plan_gaps import parapet_note, plan_gaps
+from report.assessment.plan_gaps import PlanGap, parapet_note, plan_gaps
 from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
@@ -36,22 +36,16 @@ def plan_drawing(assessment: Assessment) -> PlanDrawing:
     """Return the plan of an assessment."""
     is_feet = assessment.project.project.units_first.is_us
     unit = Quantity.PLAN.us if is_feet else Quantity.PLAN.si
-    gaps = (
-        PlanLine(layer=gap.layer, name=gap.name, points=gap.ends, is_closed=False)
-        for gap in gap_lines(assessment)
+    lines = tuple(
+        replace(line, points=tuple(_in(point, unit) for point in line.points))
+        for line in (*outlines(assessment), *_gap_lines(assessment))
     )
-    lines = tuple(_in_unit(line, unit) for line in (*outlines(assessment), *gaps))
     points = [point for line in lines for point in line.points]
     spans = [max(axis) - min(axis) for axis in zip(*points, strict=True)]
     height = max(spans) * TEXT_SHARE
-    texts = (*_texts(assessment, unit, height, is_feet),)
-    return PlanDrawing(is_feet=is_feet, lines=lines + _north(assessment, points, height),
-                       texts=(*texts, _north_text(assessment, points, height)))  # fmt: skip
-
-
-def _in_unit(line: PlanLine, unit: Unit) -> PlanLine:
-    points = tuple((x / unit.si, y / unit.si) for x, y in line.points)
-    return PlanLine(layer=line.layer, name=line.name, points=points, is_closed=line.is_closed)
+    texts = tuple(_texts(assessment, unit, height, is_feet))
+    arrow, letter = _north(assessment, points, height)
+    return PlanDrawing(is_feet=is_feet, lines=lines + arrow, texts=(*texts, letter))
 
 
 def _closed(layer: Layer, name: str, points: Outline) -> PlanLine:
@@ -99,58 +93,44 @@ _LAYERS = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GapLine:
-    """A clearance on the plan: its ends [m], and what it says in both systems of units."""
-
-    layer: Layer
-    name: str
-    ends: tuple[Point, Point]
-    words: str
-
-
-def gap_lines(assessment: Assessment) -> Iterator[GapLine]:
-    """Yield the clearances, numbered as in the workbook, and what is NG without one."""
-    us_first = assessment.project.project.units_first.is_us
+def _gap_lines(assessment: Assessment) -> Iterator[PlanLine]:
     for gap in plan_gaps(assessment):
-        required, provided, _ = compared_pairs(
-            gap.required_m, gap.provided_m, Quantity.SIZE, us_first
-        )
-        required = "no value" if math.isnan(gap.required_m) else required + _by(gap.mark)
-        verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
-        start = f"{gap.number}: provided {provided}"
-        if not gap.is_given:
-            start = f"no clearance given: {provided} in plan"
-        yield GapLine(
-            layer=_LAYERS[gap.verdict],
-            name=f"{gap.array} to {gap.other}",
-            ends=gap.ends,
-            words=f"{start}, required {required}, {verdict}",
-        )
+        name = f"{gap.array} to {gap.other}"
+        yield PlanLine(layer=_LAYERS[gap.verdict], name=name, points=gap.ends, is_closed=False)
+
+
+def gap_words(gap: PlanGap, us_first: bool) -> str:
+    """Return what a gap says, numbered as in the workbook, in both systems of units."""
+    required, provided, _ = compared_pairs(gap.required_m, gap.provided_m, Quantity.SIZE, us_first)
+    required = "no value" if math.isnan(gap.required_m) else required + _by(gap.mark)
+    verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
+    start = f"{gap.number}: provided {provided}"
+    if not gap.is_given:
+        start = f"no clearance given: {provided} in plan"
+    return f"{start}, required {required}, {verdict}"
 
 
 def _texts(assessment: Assessment, unit: Unit, height: float, us_first: bool) -> Iterator[PlanText]:
     for item in assessment.project.objects:
         if item.placed is not None:
-            words = item.id if item.height_m is None else (
-                f"{item.id}, height {pair(item.height_m, Quantity.SIZE, us_first)}"
-            )  # fmt: skip
+            words = item.id
+            if item.height_m is not None:
+                words += f", height {pair(item.height_m, Quantity.SIZE, us_first)}"
             words += parapet_note(assessment, item)
             at = _in(label_point(item.placed), unit)
             yield PlanText(layer=_layer(item), words=words, at=at, height=height)
     for array in assessment.arrays:
         x, y = _in(label_point(array.array.shape), unit)
         yield PlanText(layer=Layer.ARRAY, words=array.id, at=(x, y), height=height)
-        for count, words in enumerate(_array_notes(assessment, array.id, us_first), start=1):
+        for count, words in enumerate(_array_notes(assessment, array, us_first), start=1):
             at = (x, y - 1.6 * height * count)
             yield PlanText(layer=Layer.NOTES, words=words, at=at, height=height)
-    for gap in gap_lines(assessment):
-        at = _middle(gap.ends, unit)
-        yield PlanText(layer=gap.layer, words=gap.words, at=at, height=0.7 * height)
+    for gap in plan_gaps(assessment):
+        at, words = _in(mean(gap.ends), unit), gap_words(gap, us_first)
+        yield PlanText(layer=_LAYERS[gap.verdict], words=words, at=at, height=0.7 * height)
 
 
-def _array_notes(assessment: Assessment, name: str, us_first: bool) -> Iterator[str]:
-    array = next(array for array in assessment.arrays if array.id == name)
+def _array_notes(assessment: Assessment, array: ArrayAssessment, us_first: bool) -> Iterator[str]:
     if math.isnan(array.permitted_m):
         what = NOT_PERMITTED if array.has_unpermitted_value else "no value"
         yield f"design displacement: {what}"
@@ -168,36 +148,22 @@ def _by(mark: str) -> str:
     return " (overridden)" if mark else ""
 
 
-def _middle(points: Sequence[Point], unit: Unit) -> Point:
-    return _in(mean(points), unit)
-
-
 def _in(point: Point, unit: Unit) -> Point:
     return point[0] / unit.si, point[1] / unit.si
 
 
-def _north_point(points: Sequence[Point], height: float) -> Point:
-    """Return the foot of the arrow: to the right of the plan, at the top."""
-    return max(x for x, _ in points) + 12.0 * height, max(y for _, y in points) - 8.0 * height
-
-
-def _north(assessment: Assessment, points: Sequence[Point], height: float) -> tuple[PlanLine, ...]:
-    x, y = _north_point(points, height)
-    dx, dy = _towards_north(assessment, 8.0 * height)
+def _north(
+    assessment: Assessment, points: Sequence[Point], height: float
+) -> tuple[tuple[PlanLine, ...], PlanText]:
+    """Return the north arrow and its letter: to the right of the plan, at the top."""
+    x, y = max(x for x, _ in points) + 12.0 * height, max(y for _, y in points) - 8.0 * height
+    turn = math.radians(assessment.project.roof.north_deg)
+    dx, dy = (8.0 * height * f(turn) for f in (math.cos, math.sin))
     tip = (x + dx, y + dy)
     barbs = [(x + 0.7 * dx - side * 0.15 * dy, y + 0.7 * dy + side * 0.15 * dx) for side in (1, -1)]
-    return tuple(
+    arrow = tuple(
         PlanLine(layer=Layer.NORTH, name="north", points=ends, is_closed=False)
         for ends in (((x, y), tip), (barbs[0], tip, barbs[1]))
     )
-
-
-def _north_text(assessment: Assessment, points: Sequence[Point], height: float) -> PlanText:
-    x, y = _north_point(points, height)
-    dx, dy = _towards_north(assessment, 10.0 * height)
-    return PlanText(layer=Layer.NORTH, words="N", at=(x + dx, y + dy), height=height)
-
-
-def _towards_north(assessment: Assessment, length: float) -> Point:
-    north = math.radians(assessment.project.roof.north_deg)
-    return length * math.cos(north), length * math.sin(north)
+    beyond = x + 10.0 * height * math.cos(turn), y + 10.0 * height * math.sin(turn)
+    return arrow, PlanText(layer=Layer.NORTH, words="N", at=beyond, height=height)

@@ -40,7 +40,8 @@ def draw_outlines(plan: PlanSheet) -> None:
     for line in sorted(shown, key=lambda line: _OVER[line.layer]):
         name = line.name if line.layer in _NAMED else ""
         if line.layer in (Layer.PARAPET, Layer.EDGE):
-            _draw_edge(plan, line.layer, line.name)
+            for ends in _edge_lines(plan, line.name):
+                plan.paper.lines(line.layer, ends, name=line.name)
         elif not line.is_closed:
             plan.paper.lines(line.layer, tuple(map(plan.paper.at, line.points)))
         elif len(line.points) > 2:
@@ -63,11 +64,6 @@ def _avoid(plan: PlanSheet) -> None:
             frames += paper.sides(shape)
     for frame in frames:
         paper.placer.avoid(frame)
-
-
-def _draw_edge(plan: PlanSheet, layer: Layer, name: str) -> None:
-    for a, b in _edge_lines(plan, name):
-        plan.paper.lines(layer, (a, b), name=name)
 
 
 def take_edges(plan: PlanSheet) -> None:

@@ -15,9 +15,10 @@ import scenes
 import stand_in
 from inputs import FT, sides
 from report.assessment.envelopes import design_envelope
+from report.assessment.plan_gaps import plan_gaps
 from report.drawing.dxf import APPLICATION, write_dxf
 from report.drawing.layers import Layer
-from report.drawing.plan import gap_lines, plan_drawing
+from report.drawing.plan import gap_words, plan_drawing
 from report.sheet.schema.choices import UnitsFirst
 
 
@@ -133,10 +134,11 @@ def test_without_a_displacement_there_is_no_envelope(done):
 def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough(done):
     gap = next(one for one in done.clearances if one.clearance.object == "RTU-1")
     near = gap.clearance.model_copy(update={"provided_m": gap.required_m - 1e-5})
-    (line,) = gap_lines(replace(done, clearances=(replace(gap, clearance=near),)))
-    provided, required = re.findall(r"(?:provided|required) ([\d.]+) in", line.words)
+    (gap,) = plan_gaps(replace(done, clearances=(replace(gap, clearance=near),)))
+    words = gap_words(gap, us_first=True)
+    provided, required = re.findall(r"(?:provided|required) ([\d.]+) in", words)
     assert float(required) > float(provided)
-    assert line.words.endswith("NG")
+    assert words.endswith("NG")
 
 
 def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_clear():
