@@ -185,26 +185,21 @@ def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tupl
     size = sum(len(source.content) for source in found if source.kind == "record")
     has_records = size <= MOST_RECORDS
     own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
-    listed = manifest([*found, own], short, has_records=has_records)
-    return (
-        *(_attached(source) for source in found if has_records or source.kind != "record"),
-        _attached(own),
-        _attached(SourceFile(path=MANIFEST, name=MANIFEST, content=listed, kind="manifest")),
-    )
-
-
-def manifest(found: Sequence[SourceFile], short: str, *, has_records: bool) -> bytes:
-    """Return what the package is computed from, and by which software, as JSON."""
     document = Manifest(
         schema_version=SCHEMA_VERSION,
         roofslip_version=version("roofslip"),
         hash=short,
         has_records=has_records,
-        files=tuple(source.listed for source in found),
+        files=tuple(source.listed for source in (*found, own)),
         environment=dict(environment()),
         sbom_sha256=sbom_sha256(),
     ).model_dump(mode="json")
-    return json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
+    listed = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
+    return (
+        *(_attached(source) for source in found if has_records or source.kind != "record"),
+        _attached(own),
+        _attached(SourceFile(path=MANIFEST, name=MANIFEST, content=listed, kind="manifest")),
+    )
 
 
 _KINDS = {

@@ -115,7 +115,7 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
     ]
     facts: dict[str, Any] = {"source": table.source}
     if table.has_vertical:
-        vertical = table.vertical
+        vertical = (table.freq_hz, table.vertical_g)
     else:
         if math.isnan(s_ds_g):
             raise InputError(
@@ -131,11 +131,10 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
             f"vertical tail: {tail.sentence}",
         ]
         facts |= {"vertical_source": "AC156", "s_ds_g": s_ds_g, "tail": tail.value}
-    _check_level("horizontal", table.horizontal)
+    horizontal = (table.freq_hz, table.horizontal_g)
+    _check_level("horizontal", horizontal)
     _check_level("vertical", vertical)
-    return SuiteTargets(
-        horizontal=table.horizontal, vertical=vertical, lines=tuple(lines), facts=facts
-    )
+    return SuiteTargets(horizontal=horizontal, vertical=vertical, lines=tuple(lines), facts=facts)
 
 
 def _s_ds_problems(s_ds_g: float) -> list[str]:
@@ -225,12 +224,7 @@ def check_folder(folder: Path, count: int) -> None:
     InputError
         With their names.
     """
-    try:
-        names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
-    except OSError as error:
-        raise InputError(
-            f"{folder}: cannot be read ({error.strerror}); choose another folder"
-        ) from error
+    names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
     new = {f"motion-{k:02d}-{axis}.csv" for k in range(1, count + 1) for axis in "xyz"}
     left = [name for name in names if _GENERATED.fullmatch(name) and name not in new]
     if left:

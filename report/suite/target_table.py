@@ -18,7 +18,6 @@ from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
 from solver.meant import meant
 from solver.model import Floats, InputError, Problem
-from solver.rules.spectra import Target
 from solver.synthesis.target import BAND_HZ
 
 MAX_ROWS = 2000
@@ -65,34 +64,17 @@ class TargetTable:
         """Whether the table has a vertical column."""
         return len(self.vertical_g) > 0
 
-    @property
-    def horizontal(self) -> Target:
-        """Corner points of the horizontal target."""
-        return self.freq_hz, self.horizontal_g
+
+class _Field(Found):
+    """A field of a CSV file."""
 
     @property
-    def vertical(self) -> Target:
-        """Corner points of the vertical target."""
-        return self.freq_hz, self.vertical_g
+    def address(self) -> str:
+        """Its file and line."""
+        return f"{self.sheet}:{self.cell}"
 
 
-@dataclass(frozen=True, slots=True)
-class _Cell:
-    """A cell, or a field of a CSV file, with its place for messages."""
-
-    place: str
-    content: Found
-
-    @property
-    def text(self) -> str:
-        return str(self.content.value or "").strip()
-
-    @property
-    def is_blank(self) -> bool:
-        return self.content.is_blank
-
-
-_Rows = Sequence[Sequence[_Cell]]
+_Rows = Sequence[Sequence[Found]]
 
 
 def read_target(named: str) -> TargetTable:
@@ -144,14 +126,9 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
         )
     columns = range(1, min(extent.last_column, MAX_COLUMNS) + 1)
     return [
-        [_cell_at(book, CellPosition(title, row, column)) for column in columns]
+        [found_at(book, CellPosition(title, row, column)) for column in columns]
         for row in range(1, extent.last_row + 1)
     ]
-
-
-def _cell_at(book: OpenBook, position: CellPosition) -> _Cell:
-    content = found_at(book, position)
-    return _Cell(content.address, content)
 
 
 def _text_rows(path: Path) -> _Rows:
@@ -164,7 +141,7 @@ def _text_rows(path: Path) -> _Rows:
     if len(rows) > MAX_ROWS + HEADING_ROWS:
         raise InputError(f"{path.name}: has {len(rows)} lines; give at most {MAX_ROWS} rows")
     return [
-        [_Cell(f"{path.name}:{k}", Found(sheet="", cell="", value=field.strip())) for field in row]
+        [_Field(sheet=path.name, cell=str(k), value=field.strip()) for field in row]
         for k, row in enumerate(rows, start=1)
     ]
 
@@ -215,48 +192,48 @@ def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
     )
 
 
-def _heading(cell: _Cell) -> tuple[str, str]:
+def _heading(cell: Found) -> tuple[str, str]:
     """Return the kind of a column and its unit in small letters; each empty if there is none."""
-    whole = _HEADING.fullmatch(cell.text.casefold())
+    whole = _HEADING.fullmatch(cell.shown.strip().casefold())
     return (_NAMES.get(whole[1], ""), whole[2]) if whole else ("", "")
 
 
-def _columns(row: Sequence[_Cell], headings: Sequence[tuple[str, str]]) -> Mapping[str, int]:
+def _columns(row: Sequence[Found], headings: Sequence[tuple[str, str]]) -> Mapping[str, int]:
     problems, columns = [], {}
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
             continue
         if unit not in ("", _SHOWN[kind].casefold()):
             wanted = f"give {kind} [{_SHOWN[kind]}]"
-            problems.append(Problem(f"is '{cell.text}'", wanted, cell.place))
+            problems.append(Problem(f"is '{cell.shown.strip()}'", wanted, cell.address))
         if kind in columns:
-            problems.append(Problem(f"a second {kind} column", "delete one", cell.place))
+            problems.append(Problem(f"a second {kind} column", "delete one", cell.address))
         columns[kind] = column
     if _FREQUENCY in columns and _PERIOD in columns:
-        place = row[columns[_PERIOD]].place
+        place = row[columns[_PERIOD]].address
         problems.append(Problem("both frequency and period", "delete one of them", place))
     if problems:
         raise InputError(problems)
     return columns
 
 
-def _value(row: Sequence[_Cell], column: int, kind: str, problems: list[Problem]) -> float:
+def _value(row: Sequence[Found], column: int, kind: str, problems: list[Problem]) -> float:
     """Return a number greater than 0; NaN, with a problem added, if there is none."""
     if column >= len(row) or row[column].is_blank:
-        place = row[min(column, len(row) - 1)].place
+        place = row[min(column, len(row) - 1)].address
         problems.append(Problem(f"{kind} is blank", "give a number greater than 0", place))
         return float("nan")
     cell, wanted = row[column], f"give a number greater than 0 [{_SHOWN[kind]}]"
     try:
-        check_saved(cell.content)
-        value = number(cell.content, wanted, _SHOWN[kind])
+        check_saved(cell)
+        value = number(cell, wanted, _SHOWN[kind])
     except CellError as error:
-        problems.append(error.problem.at(cell.place, kind))
+        problems.append(error.problem.at(cell.address, kind))
         return float("nan")
     least, most = _LIMITS[kind]
     if not least <= value <= most:
         wanted = f"give a number from {least:g} to {most:g} [{_SHOWN[kind]}]"
-        problems.append(Problem(f"{kind} is {value:g}", wanted, cell.place))
+        problems.append(Problem(f"{kind} is {value:g}", wanted, cell.address))
     return value
 
 

@@ -235,13 +235,13 @@ def test_a_letter_that_no_font_has_is_named(document):
 
 
 def test_millions_of_empty_rows_are_refused_before_they_are_parsed():
-    with pytest.raises(InputError, match="has 1,000,000 objects; at most 100,000 rows"):
+    with pytest.raises(InputError, match="has 1,000,000 objects; at most 100,000 are"):
         former_from(b"[" + b"{}," * 1_000_000 + b"]", "x")
 
 
-def test_more_than_100000_rows_are_refused_before_they_are_compared(document):
+def test_more_than_100000_records_are_refused_before_they_are_compared(document):
     document["records"] += document["records"][:1] * 100_000
-    with pytest.raises(InputError, match=r"x: has 100,\d{3} rows; at most 100,000 are compared"):
+    with pytest.raises(InputError, match=r"x: has 100,\d{3} objects; at most 100,000 are compared"):
         former(document)
 
 
