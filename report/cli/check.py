@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.colors import colored
 from report.cli.terminal import (
     AS_JSON,
     QUIET,
@@ -20,10 +19,10 @@ from report.cli.terminal import (
     Progress,
     document,
     input_errors,
-    plain,
     print_json,
+    say,
 )
-from report.words.command import as_typed, called
+from report.words.command import called
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
     elif not quiet:
         click.echo(_summary(sheet, shaking, found))
         for line in lines(sheet, found):
-            click.echo(colored(as_typed(plain(line))))
+            say(line)
         click.echo(f"Next: {called()} report {source}")
 
 

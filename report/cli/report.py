@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.colors import colored
 from report.cli.terminal import (
     AS_JSON,
     FAIL_ON_NG,
@@ -26,8 +25,9 @@ from report.cli.terminal import (
     no_collections,
     plain,
     print_json,
+    say,
 )
-from report.words.command import as_typed, called
+from report.words.command import called
 
 if TYPE_CHECKING:
     from report.assessment.changes import Changes
@@ -124,7 +124,7 @@ def _print(
     from report.pages.summary import summary
 
     for line in summary(assessment):
-        click.echo(colored(as_typed(plain(line))))
+        say(line)
     if changed.is_asked_for:
         _print_changes(assessment, changed)
     click.echo("")

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
+from report.cli.colors import colored
 from report.words.command import as_typed, called
 from report.words.counts import numbered
 
@@ -63,6 +64,11 @@ def plain(text: object) -> str:
     """Return a text as a terminal may show it: without control characters, and not too long."""
     line = _UNSAFE.sub("?", str(text))
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]}..."
+
+
+def say(line: str) -> None:
+    """Print a line of words: verdicts in color, and commands as the reader calls them."""
+    click.echo(colored(as_typed(plain(line))))
 
 
 SCHEMA_VERSION = 1

@@ -23,17 +23,16 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.colors import colored
 from report.cli.terminal import (
     INPUT_ERROR,
     SOURCE,
     input_errors,
     no_collections,
     plain,
+    say,
     say_problems,
     system_problem,
 )
-from report.words.command import as_typed
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
@@ -151,7 +150,7 @@ class Round:
         from report.results.compare import changes
 
         for line in summary(assessment):
-            click.echo(colored(as_typed(plain(line))))
+            say(line)
         if self._before is not None:
             items = changes(self._before, assessment).items
             for item in items[:_MOST_CHANGES]:

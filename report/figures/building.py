@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, style, svg_text
-from report.figures.scales import ticks
+from report.figures.scales import periods, ticks
 from report.words.units import G_MPS2
 from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.scenes import strongest
@@ -18,7 +18,6 @@ SHOWN_S = 16.0
 """Duration of the histories shown, around the strongest shaking [s]."""
 
 _DASHES: tuple[Any, ...] = ((0, (5, 1.5)), (0, (1, 1.2)), (0, (6, 1.5, 1, 1.5)))
-_PERIODS_S = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 _SPECTRUM_IN, _HISTORY_IN, _ABOVE_IN, _BELOW_IN = 2.2, 1.05, 0.22, 0.42
 
 
@@ -57,10 +56,8 @@ def _spectra(axes: Axes, roof: RoofComparison) -> None:
         ),
     ):
         axes.plot(roof.periods_s, sa_mps2 / G_MPS2, **look)
-    axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlim(roof.periods_s[0], roof.periods_s[-1])
-    ticks(axes.xaxis, _PERIODS_S)
+    periods(axes, roof.periods_s)
     ticks(axes.yaxis, _LEVELS_G)
     labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", "Response spectra, 5 % damping")
     axes.legend(loc="lower left", handlelength=3.2)

@@ -33,22 +33,17 @@ def comparison(groups: Sequence[Sequence[ArrayAssessment]], us_first: bool) -> s
         names = [cut(ranged(tick_text(array.id) for array in group), 32) for group in groups]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
-            _compare(axes, row, group[0], first, labeled=row == 0)
+            _compare(axes, row, group[0], first)
         axes.set_yticks(range(len(groups)), names)
         axes.set_ylim(len(groups) - 0.45, -0.55)
         axes.set_xlim(0, None)
         axes.set_xlabel(f"Horizontal displacement [{first.symbol}]")
         _second_scale(axes, first, second)
-        marks, names = axes.get_legend_handles_labels()
+        marks, labels = axes.get_legend_handles_labels()
+        drawn = dict(zip(labels, marks, strict=True))  # of all rows
         # In the order of a row: matplotlib lists bars last.
-        order = sorted(range(len(names)), key=lambda k: _LEGEND.index(names[k]))
-        figure.legend(
-            [marks[k] for k in order],
-            [names[k] for k in order],
-            loc="lower center",
-            ncols=5,
-            handlelength=2.2,
-        )
+        shown = {name: drawn[name] for name in _LEGEND if name in drawn}
+        figure.legend(shown.values(), shown, loc="lower center", ncols=5, handlelength=2.2)
         return svg_text(figure)
 
 
@@ -75,50 +70,23 @@ def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
     axes.set_axisbelow(True)
 
 
-def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit, *, labeled: bool) -> None:
-    def text(label: str) -> str:
-        return label if labeled else "_"
+_BAR: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 0.8}
+_FLOOR: Any = {"color": INK, "linestyle": (0, (3, 2)), "linewidth": 1.2}
+_PEAK: Any = {"color": ACCENT, "markersize": 4, "fillstyle": "none", "markeredgewidth": 0.8}
 
+
+def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
     prescriptive = array.prescriptive.value_m / unit.si
-    axes.barh(
-        [row],
-        [prescriptive],
-        0.62,
-        facecolor="white",
-        edgecolor=GRAY,
-        linewidth=0.8,
-        label=text("prescriptive"),
-    )
+    axes.barh([row], [prescriptive], 0.62, **_BAR | {"edgecolor": GRAY}, label="prescriptive")
     if array.floor_m > 0:
         floor = array.floor_m / unit.si
-        axes.plot(
-            [floor, floor],
-            [row - 0.4, row + 0.4],
-            color=INK,
-            linestyle=(0, (3, 2)),
-            linewidth=1.2,
-            label=text("floor"),
-        )
+        axes.plot([floor, floor], [row - 0.4, row + 0.4], **_FLOOR, label="floor")
     peaks = np.array([run.governing.prd_m for run in array.motions]) / unit.si
-    axes.plot(
-        peaks,
-        np.full(peaks.shape, float(row)),
-        linestyle="",
-        marker="o",
-        markersize=4,
-        markerfacecolor="none",
-        markeredgecolor=ACCENT,
-        markeredgewidth=0.8,
-        label=text("PRD of each motion"),
-    )
+    axes.plot(peaks, np.full(peaks.shape, row), "o", **_PEAK, label="PRD of each motion")
     mean = array.analysis.mean_m / unit.si
-    axes.plot(
-        [mean, mean], [row - 0.25, row + 0.25], color=ACCENT, linewidth=2.0, label=text("mean")
-    )
+    axes.plot([mean, mean], [row - 0.25, row + 0.25], color=ACCENT, linewidth=2.0, label="mean")
     design = array.permitted_m / unit.si
-    axes.plot(
-        [design], [row], linestyle="", marker="D", markersize=6, color=INK, label=text("design")
-    )
+    axes.plot([design], [row], "D", markersize=6, color=INK, label="design")
     if math.isnan(design):
         axes.text(prescriptive / 2, row, "none", ha="center", va="center")
 
@@ -138,25 +106,9 @@ def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -
         figure, axes = framed(
             1.3 + min(_row_in(len(gaps)), 0.3) * len(gaps), _label_in(names), 0.1, 0.48, 0.75
         )
-        axes.barh(
-            rows - 0.18,
-            provided,
-            0.34,
-            facecolor="white",
-            edgecolor=INK,
-            linewidth=0.8,
-            label="provided",
-        )
-        axes.barh(
-            rows + 0.18,
-            np.nan_to_num(required),
-            0.34,
-            facecolor="#b8c7d9",
-            edgecolor=INK,
-            linewidth=0.8,
-            hatch="///",
-            label="required",
-        )
+        axes.barh(rows - 0.18, provided, 0.34, **_BAR, label="provided")
+        hatched = _BAR | {"facecolor": "#b8c7d9", "hatch": "///"}
+        axes.barh(rows + 0.18, np.nan_to_num(required), 0.34, **hatched, label="required")
         axes.set_yticks(rows, names)
         axes.set_ylim(len(gaps) - 0.45, -0.55)
         for row, gap in zip(rows, gaps, strict=True):

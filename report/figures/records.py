@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 
 from report.figures.base import ACCENT, GRAY, INK, WIDTH_IN, labeled, png_bytes, style, svg_text
 from report.figures.history import envelope
-from report.figures.scales import ticks
+from report.figures.scales import periods
 from report.words.formats import shortened
 from report.words.units import G_MPS2
 from solver.model import Floats
@@ -30,7 +30,6 @@ _PANEL_IN, _TITLE_IN, _SPECTRUM_IN = 0.72, 0.24, 2.5
 _BOTTOM_IN, _GAP_IN, _LEGEND_IN = 0.42, 0.72, 0.19
 _LEFT, _RIGHT = 0.085, 0.985
 _LEGEND_COLUMNS = 3
-_TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _COLORS = (ACCENT, INK, GRAY)
 _DASHES: tuple[object, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), (0, (6, 1.5, 1, 1.5)))
 
@@ -119,9 +118,7 @@ def _spectra(axes: Axes, records: Sequence[Record], periods_s: Floats, sa_g: Flo
             linewidth=1.2,
             label=shortened(record.name, 30),
         )
-    axes.set_xscale("log")
-    axes.set_xlim(periods_s[0], periods_s[-1])
     axes.set_ylim(0.0, None)
-    ticks(axes.xaxis, _TICKS_S)
+    periods(axes, periods_s)
     title = f"Response {'spectrum' if len(records) == 1 else 'spectra'}, 5 % damping"
     labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", title)

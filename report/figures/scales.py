@@ -10,6 +10,7 @@ from matplotlib.axis import Axis
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
 from report.words import letters
+from solver.model import Floats
 
 
 def power_of_ten(value: float) -> str:
@@ -41,6 +42,13 @@ def logarithmic(axes: Axes, across: int, up: int) -> None:
     axes.set_yscale("log")
     decades(axes.xaxis, across)
     decades(axes.yaxis, up)
+
+
+def periods(axes: Axes, periods_s: Floats) -> None:
+    """Make the lower axis one of periods [s], logarithmic, as far as they reach."""
+    axes.set_xscale("log")
+    axes.set_xlim(periods_s.min(), periods_s.max())
+    ticks(axes.xaxis, (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0))
 
 
 def ticks(axis: Axis, values: Sequence[float]) -> None:

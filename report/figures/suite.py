@@ -22,12 +22,10 @@ from report.figures.base import (
     png_bytes,
     style,
 )
-from report.figures.scales import ticks
-from solver.model import Floats
+from report.figures.scales import periods, ticks
 from solver.synthesis.target import SpectrumFit
 
 _PANEL_IN, _GAP_IN, _TOP_IN, _BOTTOM_IN = 1.55, 0.5, 0.5, 0.46
-_TICKS_S = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _TICKS_G = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 _RATIO_RANGE = (0.8, 1.4)
 
@@ -70,15 +68,15 @@ def suite_png(components: Sequence[Panel]) -> bytes:
 
 
 def _spectra(axes: Axes, panel: Panel) -> None:
-    periods = 1.0 / panel.fits[0].freq_hz
+    t_s = 1.0 / panel.fits[0].freq_hz
     each = Broken()
     for fit in panel.fits:
-        each.add(periods, fit.achieved_g)
+        each.add(t_s, fit.achieved_g)
     axes.plot(each.x, each.y, color=GRAY, linewidth=0.45, label="each motion")
     mean = np.mean([fit.achieved_g for fit in panel.fits], axis=0)
-    axes.plot(periods, mean, color=ACCENT, linewidth=1.6, label="mean")
+    axes.plot(t_s, mean, color=ACCENT, linewidth=1.6, label="mean")
     axes.plot(
-        periods,
+        t_s,
         panel.fits[0].target_g,
         color=INK,
         linewidth=1.2,
@@ -87,32 +85,26 @@ def _spectra(axes: Axes, panel: Panel) -> None:
     )
     axes.set_yscale("log")
     ticks(axes.yaxis, _TICKS_G)
-    _periods(axes, periods)
+    periods(axes, t_s)
     labeled(axes, y="Pseudo-acceleration [g]", title=panel.title)
 
 
 def _ratios(axes: Axes, panel: Panel) -> None:
-    periods = 1.0 / panel.fits[0].freq_hz
+    t_s = 1.0 / panel.fits[0].freq_hz
     fast, slow = 1.0 / panel.band_hz[1], 1.0 / panel.band_hz[0]
     axes.axhline(1.0, color=INK, linewidth=0.8, linestyle=(0, (5, 1.5)))
     each = Broken()
     for fit in panel.fits:
-        each.add(periods, np.clip(fit.ratio, *_RATIO_RANGE))
+        each.add(t_s, np.clip(fit.ratio, *_RATIO_RANGE))
     axes.plot(each.x, each.y, color=GRAY, linewidth=0.45)
     mean = np.mean([fit.ratio for fit in panel.fits], axis=0)
-    axes.plot(periods, np.clip(mean, *_RATIO_RANGE), color=ACCENT, linewidth=1.6)
+    axes.plot(t_s, np.clip(mean, *_RATIO_RANGE), color=ACCENT, linewidth=1.6)
     least, greatest = panel.limits
     limits = f"limits {least:.2f} and {greatest:.2f}"
     axes.hlines(panel.limits, fast, slow, color=INK, linewidth=1.0, label=limits)
     beyond = f"outside {panel.band_hz[0]:g} to {panel.band_hz[1]:g} Hz"
-    axes.axvspan(slow, periods[0], color=PALE, alpha=0.5, linewidth=0, label=beyond)
-    axes.axvspan(periods[-1], fast, color=PALE, alpha=0.5, linewidth=0)
+    axes.axvspan(slow, t_s[0], color=PALE, alpha=0.5, linewidth=0, label=beyond)
+    axes.axvspan(t_s[-1], fast, color=PALE, alpha=0.5, linewidth=0)
     axes.set_ylim(*_RATIO_RANGE)
-    _periods(axes, periods)
+    periods(axes, t_s)
     labeled(axes, y="Achieved / target")
-
-
-def _periods(axes: Axes, periods_s: Floats) -> None:
-    axes.set_xscale("log")
-    axes.set_xlim(periods_s[-1], periods_s[0])
-    ticks(axes.xaxis, _TICKS_S)
