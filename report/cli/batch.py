@@ -10,7 +10,7 @@ import os
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
@@ -163,37 +163,29 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
     return [outcomes[source] for source in distinct]
 
 
-def package(source: Path, make: Callable[[Path], BatchOutcome] | None = None) -> BatchOutcome:
+def package(source: Path) -> BatchOutcome:
     """Make the package of one project; every error is part of the outcome."""
-    started = time.monotonic()
-    try:
-        done = (make or _package)(source)
-    except OSError as error:
-        done = BatchOutcome(source=source, problems=(system_problem(error),))
-    except Exception as error:
-        from solver.model import InputError
-
-        is_input = isinstance(error, InputError)
-        done = BatchOutcome(
-            source=source,
-            problems=error.parts if isinstance(error, InputError) else (),
-            internal="" if is_input else traceback.format_exc(),
-        )
-    return replace(done, source=source, seconds=time.monotonic() - started)
-
-
-def _package(source: Path) -> BatchOutcome:
     from report.making import make
     from report.workers import SameProcess
+    from solver.model import InputError
 
-    with no_collections(), SameProcess() as worker:
-        assessment, folder, _, _ = make(source, None, None, lambda _: None, worker)
-    return BatchOutcome(
-        source=source,
-        verdict=assessment.verdict.value,
-        ratios=tuple(gap.demand_capacity for gap in assessment.clearances),
-        package=str(folder / "calc-package.pdf"),
-    )
+    started = time.monotonic()
+    try:
+        with no_collections(), SameProcess() as worker:
+            assessment, folder, _, _ = make(source, None, None, lambda _: None, worker)
+        done = BatchOutcome(
+            source=source,
+            verdict=assessment.verdict.value,
+            ratios=tuple(gap.demand_capacity for gap in assessment.clearances),
+            package=str(folder / "calc-package.pdf"),
+        )
+    except InputError as error:
+        done = BatchOutcome(source=source, problems=error.parts)
+    except OSError as error:
+        done = BatchOutcome(source=source, problems=(system_problem(error),))
+    except Exception:
+        done = BatchOutcome(source=source, internal=traceback.format_exc())
+    return replace(done, seconds=time.monotonic() - started)
 
 
 _COLUMNS = ("project", "verdict", "D/C", "time", "package")

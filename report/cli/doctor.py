@@ -9,7 +9,7 @@ import os
 import platform
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
@@ -47,21 +47,16 @@ def doctor() -> None:
 
     It exits with 1 and lists what to install if something is missing.
     """
-    if not say([look for check in CHECKS for look in check()]):
-        sys.exit(1)
-
-
-def say(looks: list[InstallationCheck]) -> bool:
-    """Print what was found, then what to do; return whether everything is here."""
+    looks = [look for check in CHECKS for look in check()]
     width = max(len(look.name) for look in looks)
     for look in looks:
         click.echo(f"{look.name:{width}}  {look.found}")
     wrong = [look for look in looks if look.remedy]
     for look in wrong:
         click.echo(f"{look.name}: {look.remedy}", err=True)
-    if not wrong:
-        click.echo("Everything that a package needs is here.")
-    return not wrong
+    if wrong:
+        sys.exit(1)
+    click.echo("Everything that a package needs is here.")
 
 
 def _python() -> Iterator[InstallationCheck]:
@@ -69,9 +64,8 @@ def _python() -> Iterator[InstallationCheck]:
     yield InstallationCheck("Python", f"{platform.python_version()}, {platform.platform()}", remedy)
 
 
-def packages(names: Iterable[str] = PACKAGES) -> Iterator[InstallationCheck]:
-    """Look for Python packages."""
-    for name in ("roofslip", *names):
+def _packages() -> Iterator[InstallationCheck]:
+    for name in ("roofslip", *PACKAGES):
         try:
             yield InstallationCheck(name, version(name))
         except PackageNotFoundError:
@@ -80,10 +74,10 @@ def packages(names: Iterable[str] = PACKAGES) -> Iterator[InstallationCheck]:
             )
 
 
-def native(find: Callable[[str], str | None] = find_library) -> Iterator[InstallationCheck]:
+def _native() -> Iterator[InstallationCheck]:
     """Look for the native libraries as the renderer does, by the names that it loads."""
     for name, package in NATIVE.items():
-        path = find(name)
+        path = find_library(name)
         remedy = "" if path else f"install it: sudo apt-get install {package}"
         yield InstallationCheck(name, path or "missing", remedy)
 
@@ -103,51 +97,31 @@ def _cores() -> Iterator[InstallationCheck]:
     yield InstallationCheck("cores", str(count))
 
 
-def solver_run(pushed_m: Callable[[], float] | None = None) -> Iterator[InstallationCheck]:
-    """Run one block for which the displacement is known in closed form."""
-    started = time.perf_counter()
-    try:
-        displacement_m = (pushed_m or _pushed_m)()
-    except Exception as error:  # whatever is wrong here is the finding
-        yield InstallationCheck(
-            "test run", _said(error), "reinstall: remove .venv and run ./roofslip again"
-        )
-        return
-    seconds = time.perf_counter() - started
-    is_right = abs(displacement_m - _PUSHED_M) < 1e-9
-    remedy = "" if is_right else "the solver is wrong on this computer; report it"
-    yield InstallationCheck("test run", f"{displacement_m:.9f} m in {seconds:.1f} s", remedy)
-
-
 _MU, _G_MPS2, _END_S = 0.1, 9.80665, 1.0
 # The push falls linearly from 2 mu g to -mu g / 2: with u'' = push - mu g, the block starts at
 # once, stops after 0.8 s, and stays.
 _PUSHED_M = _MU * _G_MPS2 * (0.8 * _END_S) ** 2 / 6.0
 
 
-def _pushed_m() -> float:
+def _solver_run() -> tuple[str, str]:
+    """Run one block for which the displacement is known in closed form."""
     import numpy as np
 
     from solver import scene, solve
 
     accelerations = _MU * _G_MPS2 * np.array([-2.0, 0.5])
-    return solve(scene(accelerations, _END_S, slope_rad=0.0, mu=_MU)).result.prd_m
+    displacement_m = solve(scene(accelerations, _END_S, slope_rad=0.0, mu=_MU)).result.prd_m
+    is_right = abs(displacement_m - _PUSHED_M) < 1e-9
+    remedy = "" if is_right else "the solver is wrong on this computer; report it"
+    return f"{displacement_m:.9f} m", remedy
 
 
-def page(render: Callable[[str], bytes] | None = None) -> Iterator[InstallationCheck]:
+def _page() -> tuple[str, str]:
     """Lay out a page in the style of a package."""
-    started = time.perf_counter()
-    try:
-        from report.typeset.pdf import TEMPLATES, lay_out
+    from report.typeset.pdf import TEMPLATES, lay_out
 
-        style = (TEMPLATES / "package.css").read_text(encoding="utf-8")
-        size = len((render or lay_out)(_PAGE.format(style=style)))
-    except Exception as error:  # the renderer fails with whatever the system gives
-        yield InstallationCheck(
-            "test page", _said(error), "install what is missing above, then try again"
-        )
-        return
-    yield InstallationCheck("test page", f"{size:,} bytes in {time.perf_counter() - started:.1f} s")
+    style = (TEMPLATES / "package.css").read_text(encoding="utf-8")
+    return f"{len(lay_out(_PAGE.format(style=style))):,} bytes", ""
 
 
 _PAGE = (
@@ -156,10 +130,24 @@ _PAGE = (
 )
 
 
-def _said(error: Exception) -> str:
-    return f"fails: {'; '.join(str(error).strip().splitlines()[:3]) or repr(error)}"
+_TRIED = (
+    ("test run", _solver_run, "reinstall: remove .venv and run ./roofslip again"),
+    ("test page", _page, "install what is missing above, then try again"),
+)
 
 
-CHECKS: tuple[Callable[[], Iterator[InstallationCheck]], ...] = (
-    _python, packages, native, _fonts, _cores, solver_run, page,
-)  # fmt: skip
+def _tries() -> Iterator[InstallationCheck]:
+    """Run a block and lay out a page."""
+    for name, run, remedy in _TRIED:
+        started = time.perf_counter()
+        try:
+            found, wrong = run()
+        except Exception as error:  # whatever is wrong here is the finding
+            found = "; ".join(str(error).strip().splitlines()[:3]) or repr(error)
+            yield InstallationCheck(name, f"fails: {found}", remedy)
+        else:
+            seconds = time.perf_counter() - started
+            yield InstallationCheck(name, f"{found} in {seconds:.1f} s", wrong)
+
+
+CHECKS = (_python, _packages, _native, _fonts, _cores, _tries)

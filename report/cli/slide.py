@@ -70,15 +70,14 @@ def slide(
         scene = _scene(records, slope_deg, mu, scale)
         values = {"slope_deg": slope_deg, "mu": mu, "scale": scale, "dt_s": scene.dt_s}
         values |= _solved(scene, model)
-    if as_json:
-        from report.words.formats import finite
+    from report.words.formats import aligned, finite
 
+    if as_json:
         click.echo(json.dumps(finite(values)))
         return
-    width = max(map(len, values))
-    for key, value in values.items():
-        shown = f"{value:.6g}" if isinstance(value, float) else value
-        click.echo(f"{key:>{width}}  {shown}")
+    shown = (f"{v:.6g}" if isinstance(v, float) else str(v) for v in values.values())
+    for line in aligned(list(zip(values, shown, strict=True)), "><"):
+        click.echo(line)
 
 
 def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record | None]:

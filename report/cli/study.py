@@ -75,10 +75,9 @@ def make(
     progress: Callable[[str], None],
     *,
     allow_matched: bool,
-    wait_s: float | None = None,
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
     """Run a study and publish its files; another run to the same folder waits until it ends."""
-    from report.results.publish import WAIT_S, locked, publish
+    from report.results.publish import locked, publish
     from report.study.exports import EXPORTS
     from report.study.files import study_files
     from report.study.run import RUNS, run_study
@@ -88,7 +87,7 @@ def make(
     added = [path for path in (runs, *runs.parents) if not path.exists()]
     runs.mkdir(parents=True, exist_ok=True)
     try:
-        with locked(runs, WAIT_S if wait_s is None else wait_s):
+        with locked(runs):
             results = run_study(
                 plan, folder, scheduler=scheduler, progress=progress, allow_matched=allow_matched
             )

@@ -279,15 +279,15 @@ class Progress:
         shares = [1.0] * steps if isinstance(steps, int) else steps
         self._shares_before = [sum(shares[:n]) / sum(shares) for n in range(len(shares))]
         self._started = time.monotonic()
-        # Closed, it is None.
-        self._terminal = sys.stderr is not None and sys.stderr.isatty()
         self._quiet = quiet
+        # Closed, it is None.
+        self._terminal = not quiet and sys.stderr is not None and sys.stderr.isatty()
         self._done, self._doing, self._expected_s = 0, "", 0.0
         self._ended = threading.Event()
         self._rewriting = threading.Thread(target=self._rewrite, daemon=True)
 
     def __enter__(self) -> Progress:
-        if self._terminal and not self._quiet:
+        if self._terminal:
             self._rewriting.start()
         return self
 
@@ -325,7 +325,7 @@ class Progress:
                 self._show(time.monotonic() - self._started)
 
     def __exit__(self, *_: Any) -> None:
-        if self._terminal and not self._quiet:
+        if self._terminal:
             self._ended.set()
             self._rewriting.join()
             _over("")

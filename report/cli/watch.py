@@ -90,11 +90,8 @@ class Round:
     What it computes is kept in both processes, so that the next round repeats only what changed.
     """
 
-    def __init__(
-        self, workbook: Path, folder: Path, worker: Executor, settle_s: float = SETTLE_S
-    ) -> None:
+    def __init__(self, workbook: Path, folder: Path, worker: Executor) -> None:
         self._workbook, self._folder, self._worker = workbook, folder, worker
-        self._settle_s = settle_s
         self._before: Compared | None = None
 
     def run(self) -> bool:
@@ -129,7 +126,7 @@ class Round:
         from report.making import make
         from report.memoized import new_generation
 
-        settle(self._workbook, self._settle_s)
+        settle(self._workbook)
         new_generation()
         self._worker.submit(new_generation)
         with no_collections():
@@ -175,8 +172,8 @@ def _interrupted_after() -> Iterator[None]:
         raise KeyboardInterrupt
 
 
-def settle(workbook: Path, settle_s: float = SETTLE_S) -> None:
-    """Wait until a workbook can be opened, at most so long.
+def settle(workbook: Path) -> None:
+    """Wait until a workbook can be opened, at most `SETTLE_S`.
 
     Raises
     ------
@@ -185,7 +182,7 @@ def settle(workbook: Path, settle_s: float = SETTLE_S) -> None:
     """
     from report.sheet.reading.archive import open_book
 
-    last = time.monotonic() + settle_s
+    last = time.monotonic() + SETTLE_S
     while not _is_whole(workbook):
         if time.monotonic() > last:
             open_book(workbook)
@@ -203,23 +200,23 @@ def _is_whole(workbook: Path) -> bool:
         return False
 
 
-def saves(workbook: Path, folder: Path, settle_s: float = SETTLE_S) -> Iterator[list[str]]:
+def saves(workbook: Path, folder: Path) -> Iterator[list[str]]:
     """Yield the names of the files of each save beside a workbook, except in the output folder.
 
     None at once, when the watch has begun, and again whenever there was no save for a moment. A
     save is a file with other content, whatever its time stamp. One that is still being written is
-    waited for, at most `settle_s`.
+    waited for, at most `SETTLE_S`.
     """
     # Shares over a network tell no program of a change: the folder is polled.
     top, written = workbook.parent.resolve(), folder.resolve()
-    known = _settled(workbook, _files(top, written, {}), written, settle_s)
+    known = _settled(workbook, _files(top, written, {}), written)
     while True:
         yield []
         time.sleep(_POLL_S)
         found = _files(top, written, known)
         if found == known:
             continue
-        found = _settled(workbook, found, written, settle_s)
+        found = _settled(workbook, found, written)
         contents = ({path: file.sha256 for path, file in files.items()} for files in (known, found))
         changed = set.symmetric_difference(*(set(content.items()) for content in contents))
         known = found
@@ -235,11 +232,9 @@ class _File:
     sha256: str
 
 
-def _settled(
-    workbook: Path, found: Mapping[Path, _File], written: Path, settle_s: float
-) -> Mapping[Path, _File]:
+def _settled(workbook: Path, found: Mapping[Path, _File], written: Path) -> Mapping[Path, _File]:
     """Return the files once none changes any more and the workbook is whole."""
-    last = time.monotonic() + settle_s
+    last = time.monotonic() + SETTLE_S
     while True:
         time.sleep(_POLL_S)
         now = _files(workbook.parent.resolve(), written, found)

@@ -56,28 +56,26 @@ def _finite(digits: str) -> float:
     return float(digits)
 
 
-def number_differences(claimed: Any, computed: Any, tolerance: float) -> list[str]:
-    """Return where two documents of JSON differ, and by how much.
+def number_differences(one: Any, two: Any, tolerance: float, place: str = "") -> Iterator[str]:
+    """Yield where two documents of JSON, as claimed and as computed, differ, and by how much.
 
     Parameters
     ----------
     tolerance : float
         Relative, of every number.
+    place : str
+        Where they are in larger ones.
     """
-    return [*_walk("", claimed, computed, tolerance)]
-
-
-def _walk(place: str, one: Any, two: Any, tolerance: float) -> Iterator[str]:
     if isinstance(one, dict) and isinstance(two, dict):
         for key in dict.fromkeys((*one, *two)):
             below = f"{place}.{key}".lstrip(".")
             if key in one and key in two:
-                yield from _walk(below, one[key], two[key], tolerance)
+                yield from number_differences(one[key], two[key], tolerance, below)
             else:
                 yield f"{below} is {'missing' if key in two else 'not of this input'}"
     elif isinstance(one, list) and isinstance(two, list) and len(one) == len(two):
         for at, pair in enumerate(zip(one, two, strict=True)):
-            yield from _walk(f"{place}[{at}]", *pair, tolerance)
+            yield from number_differences(*pair, tolerance, f"{place}[{at}]")
     elif not _is_same(one, two, tolerance):
         yield f"{place} is {_short(one)}; the input gives {_short(two)}{_by(one, two)}"
 

@@ -228,9 +228,8 @@ def _left_out(file: Listed, records: Path | None) -> bytes:
 
 def mismatched(package: ReadPackage) -> Sequence[str]:
     """Return attachments that are not those of the manifest: changed, missing or added."""
-    listed = {file.name: file.sha256 for file in package.manifest.files}
-    if not package.manifest.has_records:
-        listed = {f.name: f.sha256 for f in package.manifest.files if f.kind != "record"}
+    has_records, files = package.manifest.has_records, package.manifest.files
+    listed = {file.name: file.sha256 for file in files if has_records or file.kind != "record"}
     held = {
         name: hashlib.sha256(content).hexdigest()
         for name, content in package.files.items()

@@ -39,12 +39,12 @@ _NEW, _OLD = "new", "old"
 _FORWARD, _BACK = "forward.json", "back.json"
 
 
-def publish(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) -> None:
+def publish(files: Mapping[str, bytes], folder: Path) -> None:
     """Write files to a folder as `write_all` does, and `STAMP`."""
-    write_all({**files, STAMP: stamp(files)}, folder, wait_s)
+    write_all({**files, STAMP: stamp(files)}, folder)
 
 
-def write_all(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) -> None:
+def write_all(files: Mapping[str, bytes], folder: Path) -> None:
     """Write files to a folder, all of them or none; a file that is replaced keeps its permissions.
 
     A name may include a subfolder. Two runs that write to one folder do so one after the other.
@@ -56,7 +56,7 @@ def write_all(files: Mapping[str, bytes], folder: Path, wait_s: float = WAIT_S) 
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with locked(folder, wait_s):
+        with locked(folder):
             finish(folder)
             staging = Path(tempfile.mkdtemp(prefix=_HIDDEN, dir=folder))
             try:
@@ -112,19 +112,19 @@ def check_writable(folder: Path) -> None:
 
 
 @contextmanager
-def locked(folder: Path, wait_s: float = WAIT_S) -> Iterator[None]:
+def locked(folder: Path) -> Iterator[None]:
     """Hold the lock of a folder, which ends with its process.
 
     Raises
     ------
     InputError
-        If another process holds it for so long.
+        If another process holds it for `WAIT_S`.
     """
     path, started = folder / _LOCK, time.monotonic()
     while (lock := _try_lock(path)) < 0:
-        if time.monotonic() - started > wait_s:
+        if time.monotonic() - started > WAIT_S:
             raise InputError(
-                f"{folder}: another run has been writing there for {wait_s:g} s; wait until it"
+                f"{folder}: another run has been writing there for {WAIT_S:g} s; wait until it"
                 " ends, or choose another folder with --out"
             )
         time.sleep(_POLL_S)

@@ -1,5 +1,8 @@
 """`roofslip doctor`, with everything and with something missing."""
 
+import re
+from types import SimpleNamespace
+
 from commands import printed, run
 from places import ROOT
 from report.cli import doctor
@@ -25,20 +28,25 @@ def test_a_native_library_that_is_missing_is_named_with_its_package(monkeypatch)
     assert "Everything" not in done.stdout
 
 
-def test_a_package_that_is_missing_is_named(capsys):
-    assert not doctor.say(list(doctor.packages(("numpy", "no-such-package"))))
-    assert "no-such-package: install it" in capsys.readouterr().err
+def test_a_package_that_is_missing_is_named(monkeypatch):
+    monkeypatch.setattr(doctor, "PACKAGES", ("numpy", "no-such-package"))
+    done = run("doctor")
+    assert done.exit_code == 1
+    assert "no-such-package: install it" in done.stderr
 
 
-def test_a_renderer_that_fails_is_a_finding_not_a_traceback():
+def test_a_renderer_that_fails_is_a_finding_not_a_traceback(monkeypatch):
     def broken(_):
         raise OSError("cannot load library 'libpango-1.0-0'")
 
-    (look,) = doctor.page(broken)
-    assert look.found == "fails: cannot load library 'libpango-1.0-0'"
-    assert look.remedy
+    monkeypatch.setattr("report.typeset.pdf.lay_out", broken)
+    done = run("doctor")
+    assert re.search(r"test page +fails: cannot load library 'libpango-1.0-0'", done.stdout)
+    assert done.stderr == "test page: install what is missing above, then try again\n"
 
 
-def test_a_solver_that_is_wrong_is_found():
-    (look,) = doctor.solver_run(lambda: 0.1)
-    assert look.remedy == "the solver is wrong on this computer; report it"
+def test_a_solver_that_is_wrong_is_found(monkeypatch):
+    wrong = SimpleNamespace(result=SimpleNamespace(prd_m=0.1))
+    monkeypatch.setattr("solver.solve", lambda _: wrong)
+    done = run("doctor")
+    assert done.stderr == "test run: the solver is wrong on this computer; report it\n"

@@ -53,9 +53,9 @@ def test_locks_and_temporary_files_are_no_save(name, counts):
     assert is_input(Path(name)) is counts
 
 
-def begun(path, **options):
+def begun(path):
     """The saves beside a workbook, once they are watched."""
-    found = saves(path, path.parent / "out", **options)
+    found = saves(path, path.parent / "out")
     next(found)
     return found
 
@@ -90,12 +90,13 @@ def packaged(path, record):
         (packaged, []),
     ],
 )
-def test_a_save_is_a_file_with_other_content(tmp_path, change, named):
+def test_a_save_is_a_file_with_other_content(tmp_path, monkeypatch, change, named):
+    monkeypatch.setattr("report.cli.watch.SETTLE_S", 0.0)
     path, record = tmp_path / "input.xlsx", tmp_path / "records" / "z.csv"
     record.parent.mkdir()
     for each in (path, record):
         each.write_bytes(b"before")
-    found = begun(path, settle_s=0.0)
+    found = begun(path)
     change(path, record)
     assert next(filter(None, islice(found, 4)), []) == named
     path.write_bytes(b"after it")
@@ -116,6 +117,7 @@ def test_a_save_in_several_steps_is_one(tmp_path):
 
 
 def test_a_workbook_that_shrinks_while_it_is_read_is_read_again(tmp_path, monkeypatch):
+    monkeypatch.setattr("report.cli.watch.SETTLE_S", 60.0)
     path = make(tmp_path)
     whole, looks = path.read_bytes(), []
     read = zipfile.ZipFile.testzip
@@ -129,15 +131,18 @@ def test_a_workbook_that_shrinks_while_it_is_read_is_read_again(tmp_path, monkey
 
     monkeypatch.setattr(zipfile.ZipFile, "testzip", shrinking)
     timer = later(0.5, lambda: path.write_bytes(whole))
-    settle(path, settle_s=60.0)
+    settle(path)
     timer.join()
     assert len(looks) == 2
 
 
-def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(tmp_path, capsys):
+def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(
+    tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setattr("report.cli.watch.SETTLE_S", 0.0)
     path, folder = tmp_path / "input.xlsx", tmp_path / "out"
     path.write_bytes(b"half")
-    round_ = Round(path, folder, SameProcess(), settle_s=0.0)
+    round_ = Round(path, folder, SameProcess())
     try:
         assert not round_.run()
         first = capsys.readouterr().err
@@ -159,7 +164,8 @@ def later(seconds, action):
 
 
 @pytest.mark.parametrize("start", ["half saved", "gone", "empty"])
-def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, start):
+def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, monkeypatch, start):
+    monkeypatch.setattr("report.cli.watch.SETTLE_S", 60.0)
     path = make(tmp_path)
     whole = path.read_bytes()
     if start == "gone":
@@ -168,14 +174,15 @@ def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, start):
         path.write_bytes(whole[: len(whole) // 2] if start == "half saved" else b"")
     timer = later(0.5, lambda: path.write_bytes(whole))
     began = time.monotonic()
-    settle(path, settle_s=60.0)
+    settle(path)
     timer.join()
     assert 0.4 < time.monotonic() - began < 60.0
 
 
-def test_a_workbook_that_stays_away_is_an_error(tmp_path):
+def test_a_workbook_that_stays_away_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.setattr("report.cli.watch.SETTLE_S", 0.4)
     with pytest.raises(InputError, match="no such file"):
-        settle(tmp_path / "input.xlsx", settle_s=0.4)
+        settle(tmp_path / "input.xlsx")
 
 
 def test_once_ends_after_one_round(tmp_path):

@@ -36,13 +36,13 @@ def test_json_is_read_as_it_is():
 
 def test_documents_of_other_types_differ():
     for other in ([], "x", 1, None, {"a": []}):
-        assert number_differences(other, {"a": 1.0}, 1e-9)
+        assert list(number_differences(other, {"a": 1.0}, 1e-9))
 
 
 def test_numbers_are_the_same_to_the_tolerance_and_no_further():
-    assert not number_differences({"a": 1.0 + 1e-10}, {"a": 1.0}, 1e-9)
-    assert number_differences({"a": 1.0 + 1e-8}, {"a": 1.0}, 1e-9)
-    assert number_differences({"a": True}, {"a": 1}, 1e-9)
+    assert not list(number_differences({"a": 1.0 + 1e-10}, {"a": 1.0}, 1e-9))
+    assert list(number_differences({"a": 1.0 + 1e-8}, {"a": 1.0}, 1e-9))
+    assert list(number_differences({"a": True}, {"a": 1}, 1e-9))
 
 
 def test_blanks_between_words_do_not_count_and_every_letter_does():

@@ -559,13 +559,14 @@ def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
     assert "is a file, not a folder; choose another folder" in done.output
 
 
-def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path):
+def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr("report.results.publish.WAIT_S", 0.1)
     folder = write(tmp_path, small())
     runs = folder / "out" / "study" / "runs"
     runs.mkdir(parents=True)
     plan, _ = planned(folder)
     with locked(runs), pytest.raises(InputError, match="another run has been writing there"):
-        make(plan, runs.parent, "", lambda _: None, allow_matched=False, wait_s=0.1)
+        make(plan, runs.parent, "", lambda _: None, allow_matched=False)
     assert list(runs.iterdir()) == []
 
 
