@@ -36,11 +36,6 @@ class Lane:
     half: float  # of the facing sides [in]; 0 where corners are the nearest
     number: Frame  # of its label, as far as it is placed
 
-    def at(self, shift: float) -> Point:
-        """Return the point at a distance along the lane."""
-        x, y = self.gap.middle
-        return x + shift * self.along[0], y + shift * self.along[1]
-
     @property
     def is_upright(self) -> bool:
         """Whether words along the lane read from below."""
@@ -53,8 +48,9 @@ class Lane:
 
     def frame(self, shift: float, long: float, across: float) -> Frame:
         """Return the frame of a label at a distance along the lane."""
+        (x, y), (dx, dy) = self.gap.middle, self.along
         wide, tall = (across, long) if self.is_upright else (long, across)
-        return centered(*self.at(shift), wide, tall)
+        return centered(x + shift * dx, y + shift * dy, wide, tall)
 
 
 def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:

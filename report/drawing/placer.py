@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -138,41 +137,30 @@ class Placer:
         page = self._page if within is None else within
         if wide > page.wide or tall > page.tall:
             return None
-        frame = _placed(
-            _Label(wide=wide, tall=tall, near=near, page=page, maximum=maximum),
-            *(table.tobytes() for table in (self._taken, self._threads, self._lines, self._walls)),
-        )
+        tables = (self._taken, self._threads, self._lines, self._walls)
+        frame = _placed((wide, tall), near, page, maximum, *(table.tobytes() for table in tables))
         if frame is not None:
             self.take(frame)
         return frame
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Label:
-    """What is to be placed: the arguments of `Placer.place`."""
-
-    wide: float
-    tall: float
-    near: Point
-    page: Frame
-    maximum: float
-
-
 # While a slider moves, sizes of labels stay: most are placed again where they were.
 @lru_cache(500)
-def _placed(label: _Label, *tables: bytes) -> Frame | None:
-    """Return the frame of a label among what is taken, threads, lines and walls."""
+def _placed(size: Point, near: Point, page: Frame, maximum: float, *tables: bytes) -> Frame | None:
+    """Return the frame of a label of a size among what is taken, threads, lines and walls."""
     rows = [np.frombuffer(table).reshape(-1, 4) for table in tables]
     # Most labels find room near; what is farther away costs more than its distance.
-    cost, frame = _best(label, min(_NEAR_IN, label.maximum), rows)
+    cost, frame = _best(size, near, page, min(_NEAR_IN, maximum), rows)
     if cost > _NEAR_IN:
-        _, frame = _best(label, label.maximum, rows)
+        _, frame = _best(size, near, page, maximum, rows)
     return frame
 
 
-def _best(label: _Label, maximum: float, tables: Sequence[Corners]) -> tuple[float, Frame | None]:
+def _best(
+    label: Point, near: Point, page: Frame, maximum: float, tables: Sequence[Corners]
+) -> tuple[float, Frame | None]:
     """Return the frame that costs least, with its cost; infinity if there is none."""
-    near, page, size = label.near, label.page, np.array((label.wide, label.tall))
+    size = np.array(label)
     low = _OFFSETS[maximum >= _DISTANCES_IN] + near - size / 2
     low = low[np.all(low >= (page.x0, page.y0), axis=1)]
     low = low[np.all(low + size <= (page.x1, page.y1), axis=1)]
@@ -198,7 +186,7 @@ def _best(label: _Label, maximum: float, tables: Sequence[Corners]) -> tuple[flo
     if total[best] == np.inf:
         return np.inf, None
     x0, y0 = (float(v) for v in low[best])
-    return float(total[best]), Frame(x0, y0, x0 + label.wide, y0 + label.tall)
+    return float(total[best]), Frame(x0, y0, x0 + label[0], y0 + label[1])
 
 
 def _touches(low: Corners, high: Corners, frames: Corners, clear: float) -> Corners:

@@ -113,10 +113,10 @@ def _draw(axes: Axes, panel: PanelScale, path: Path, corner: tuple[float, float]
     axes.plot(x0 + peak_x, y0 + peak_y, marker="o", markersize=3.6, color=INK, clip_on=False)
 
 
-def thinned(x: Floats, y: Floats, step: float = STEP_IN) -> tuple[Floats, Floats]:
-    """Return the points of a path a step apart along it, with its first and last."""
+def thinned(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    """Return the points of a path `STEP_IN` apart along it, with its first and last."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
-    _, first = np.unique(np.floor(along / step), return_index=True)
+    _, first = np.unique(np.floor(along / STEP_IN), return_index=True)
     kept = np.unique([0, *first, len(x) - 1])
     return x[kept], y[kept]
 

@@ -14,12 +14,13 @@ from report.drawing.section import drawn_slope_deg
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, canvas, style, svg_text
 from report.memoized import memoized
 from report.sheet.schema.scene import Array
+from report.sheet.schema.shapes import Point
 from report.words.units import Quantity, number, pair
 
 _HEIGHT_IN, _SPLIT_IN = 2.0, 3.75
 _TYPE: Any = {"font.size": 9.0}
 _ARROW = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0, "linewidth": 1.1}
-_LINE = {"arrowstyle": "<|-|>", "mutation_scale": 6, "shrinkA": 0, "shrinkB": 0, "linewidth": 0.6}
+_SPAN: Any = {"arrowstyle": "<|-|>", "mutation_scale": 6, "linewidth": 0.6, "color": INK}
 
 
 class _Roof(NamedTuple):
@@ -29,7 +30,7 @@ class _Roof(NamedTuple):
     y: float
     angle: float
 
-    def at(self, s: float, n: float) -> tuple[float, float]:
+    def at(self, s: float, n: float) -> Point:
         """Return the point at a distance downslope and a height normal to the roof."""
         c, d = math.cos(self.angle), math.sin(self.angle)
         return self.x + s * c + n * d, self.y - s * d + n * c
@@ -50,7 +51,7 @@ def array_section(array: Array, us_first: bool) -> str:
 
 
 def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
-    _roof_line(axes, roof, 3.2)
+    _line(axes, roof.at(0.0, 0.0), roof.at(3.2, 0.0), color=INK, linewidth=1.4)
     feet = (0.55, 1.25, 1.95)
     for s in feet:
         _block(axes, roof, (s - 0.05, s + 0.05), (0.0, 0.14), facecolor=INK)
@@ -58,27 +59,28 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     for s in (0.5, 1.35):
         _block(axes, roof, (s + 0.2, s + 0.5), (0.19, 0.29), facecolor="white", hatch="////")
         low, high = roof.at(s, 0.24), roof.at(s + 0.62, 0.46)
-        axes.plot(*zip(low, high, strict=True), color=ACCENT, linewidth=2.6)
+        _line(axes, low, high, color=ACCENT, linewidth=2.6)
     center = roof.at(1.25, 0.36)
     _center(axes, center)
-    _span(axes, roof.at(feet[0], -0.2), roof.at(feet[1], -0.2))
+    _arrow(axes, roof.at(feet[0], -0.2), roof.at(feet[1], -0.2), **_SPAN)
     for s in feet[:2]:
-        _thin(axes, roof.at(s, -0.02), roof.at(s, -0.26))
+        _line(axes, roof.at(s, -0.02), roof.at(s, -0.26))
     size = Quantity.SIZE
     x, y = roof.at(0.9, -0.33)
     axes.text(x, y, f"b = {pair(array.support_spacing_m, size, us_first)}", ha="center", va="top")
-    _thin(axes, roof.at(1.33, 0.36), roof.at(2.47, 0.36))
-    _span(axes, roof.at(2.42, 0.0), roof.at(2.42, 0.36))
+    _line(axes, roof.at(1.33, 0.36), roof.at(2.47, 0.36))
+    _arrow(axes, roof.at(2.42, 0.0), roof.at(2.42, 0.36), **_SPAN)
     x, y = roof.at(2.48, 0.16)
     axes.text(x, y, f"c = {pair(array.cg_height_m, size, us_first)}", ha="left", va="center")
     weight = pair(array.weight_n, Quantity.WEIGHT, us_first)
     top = (center[0], center[1] + 0.42)
     axes.text(*top, f"W = {weight}", ha="left", va="bottom")
-    axes.annotate("", center, top, arrowprops={**_ARROW, "color": ACCENT})
+    _arrow(axes, top, center)
+    x, y = roof.at(1.75, 0.0)
     axes.annotate(
         f"μ = {mu_words(array.friction)}",
         roof.at(1.95, 0.0),
-        _below(roof, 1.75, 0.56),
+        (x, y - 0.56),
         ha="center",
         va="top",
         arrowprops={"arrowstyle": "-", "linewidth": 0.6, "color": INK},
@@ -86,15 +88,10 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     _slope(axes, roof, array)
 
 
-def _below(roof: _Roof, s: float, depth: float) -> tuple[float, float]:
-    x, y = roof.at(s, 0.0)
-    return x, y - depth
-
-
 def _slope(axes: Axes, roof: _Roof, array: Array) -> None:
     """Draw the slope at the downslope end of the roof."""
     end = roof.at(3.2, 0.0)
-    _thin(axes, end, (end[0] - 0.75, end[1]))
+    _line(axes, end, (end[0] - 0.75, end[1]))
     turn = math.degrees(roof.angle)
     axes.add_patch(Arc(end, 1.3, 1.3, theta1=180.0 - turn, theta2=180.0, color=INK, linewidth=0.6))
     degrees = number(math.degrees(array.slope_rad), 2)
@@ -102,31 +99,24 @@ def _slope(axes: Axes, roof: _Roof, array: Array) -> None:
 
 
 def _free_body(axes: Axes, roof: _Roof) -> None:
-    _roof_line(axes, roof, 2.0, color=GRAY)
+    _line(axes, roof.at(0.0, 0.0), roof.at(2.0, 0.0), color=GRAY, linewidth=1.4)
     _block(axes, roof, (0.45, 1.55), (0.0, 0.42), facecolor="#eef2f7")
     center = roof.at(1.0, 0.24)
     _center(axes, center)
-    _force(axes, center, (center[0], center[1] - 0.72))
+    _arrow(axes, center, (center[0], center[1] - 0.72))
     _label(axes, (center[0] + 0.06, center[1] - 0.68), "W + m a", "v")
-    _force(axes, center, (center[0] + 0.95, center[1]))
+    _arrow(axes, center, (center[0] + 0.95, center[1]))
     _label(axes, (center[0] + 0.72, center[1] + 0.07), "−m a", "h")
     low = roof.at(0.8, -0.62)
-    _force(axes, low, roof.at(0.8, 0.0))
+    _arrow(axes, low, roof.at(0.8, 0.0))
     axes.text(low[0] - 0.06, low[1] + 0.08, "N", ha="right", va="center")
     start = roof.at(0.42, 0.045)
     tip = roof.at(-0.2, 0.045)
-    _force(axes, start, tip)
+    _arrow(axes, start, tip)
     axes.text(tip[0] + 0.02, tip[1] + 0.08, "μ N", ha="left", va="bottom")
-    axes.annotate(
-        "", roof.at(1.75, 0.72), roof.at(1.15, 0.72), arrowprops={**_ARROW, "color": GRAY}
-    )
+    _arrow(axes, roof.at(1.15, 0.72), roof.at(1.75, 0.72), color=GRAY)
     x, y = roof.at(1.1, 0.77)
     axes.text(x, y, "downslope slip", ha="left", va="bottom", color=INK)
-
-
-def _roof_line(axes: Axes, roof: _Roof, length: float, color: str = INK) -> None:
-    ends = (roof.at(0.0, 0.0), roof.at(length, 0.0))
-    axes.plot(*zip(*ends, strict=True), color=color, linewidth=1.4)
 
 
 def _block(
@@ -136,24 +126,20 @@ def _block(
     axes.add_patch(Polygon(corners, edgecolor=INK, linewidth=0.7, **look))
 
 
-def _center(axes: Axes, at: tuple[float, float]) -> None:
+def _center(axes: Axes, at: Point) -> None:
     axes.plot(*at, marker="o", markersize=6, markerfacecolor="white", markeredgecolor=INK, zorder=4)
     axes.plot(*at, marker="+", markersize=6, color=INK, zorder=5)
 
 
-def _thin(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
-    axes.plot(*zip(start, end, strict=True), color=GRAY, linewidth=0.6)
+def _line(axes: Axes, start: Point, end: Point, **look: Any) -> None:
+    axes.plot(*zip(start, end, strict=True), **{"color": GRAY, "linewidth": 0.6} | look)
 
 
-def _span(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
-    axes.annotate("", end, start, arrowprops={**_LINE, "color": INK})
+def _arrow(axes: Axes, start: Point, tip: Point, **look: Any) -> None:
+    axes.annotate("", tip, start, arrowprops={**_ARROW, "color": ACCENT, **look})
 
 
-def _force(axes: Axes, start: tuple[float, float], tip: tuple[float, float]) -> None:
-    axes.annotate("", tip, start, arrowprops={**_ARROW, "color": ACCENT})
-
-
-def _label(axes: Axes, at: tuple[float, float], text: str, subscript: str) -> None:
+def _label(axes: Axes, at: Point, text: str, subscript: str) -> None:
     """Write a symbol with its subscript; the font has no subscript letters."""
     main = axes.text(*at, text, va="bottom", fontsize=10.0)
     axes.annotate(
