@@ -24,7 +24,7 @@ from report.assessment.project import Assessment
 from report.assessment.verdict import Verdict
 from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema.choices import ObjectKind
-from report.sheet.schema.scene import ROOF, RoofObject
+from report.sheet.schema.scene import ROOF
 from report.sheet.schema.shapes import Point, label_point, mean
 from report.words.units import Quantity, Unit, compared_pairs, number, pair
 
@@ -52,6 +52,11 @@ def _closed(layer: Layer, name: str, points: Outline) -> PlanLine:
     return PlanLine(layer=layer, name=name, points=points, is_closed=True)
 
 
+_OBJECTS = dict.fromkeys(ObjectKind, Layer.OBJECT) | {
+    ObjectKind.EDGE_WITH_PARAPET: Layer.PARAPET,
+    ObjectKind.EDGE_WITHOUT_PARAPET: Layer.EDGE,
+    ObjectKind.UNLIKE_ARRAY: Layer.UNLIKE,
+}
 _ENVELOPES: Mapping[Layer, Callable[[ArrayAssessment], Outline]] = {
     Layer.DESIGN: design_envelope,
     Layer.RUNS: runs_envelope,
@@ -69,21 +74,12 @@ def outlines(
         yield PlanLine(layer=Layer.BARE_EDGE, name=edge.name, points=edge.ends, is_closed=False)
     for item in data.objects:
         if item.placed is not None:
-            yield _closed(_layer(item), item.id, item.placed.points)
+            yield _closed(_OBJECTS[item.kind], item.id, item.placed.points)
     for array in assessment.arrays:
         yield _closed(Layer.ARRAY, array.id, array.array.shape.points)
         for layer in envelopes:
             if outline := _ENVELOPES[layer](array):
                 yield _closed(layer, array.id, outline)
-
-
-def _layer(item: RoofObject) -> Layer:
-    edges = {
-        ObjectKind.EDGE_WITH_PARAPET: Layer.PARAPET,
-        ObjectKind.EDGE_WITHOUT_PARAPET: Layer.EDGE,
-        ObjectKind.UNLIKE_ARRAY: Layer.UNLIKE,
-    }
-    return edges.get(item.kind, Layer.OBJECT)
 
 
 _LAYERS = {
@@ -118,7 +114,7 @@ def _texts(assessment: Assessment, unit: Unit, height: float, us_first: bool) ->
                 words += f", height {pair(item.height_m, Quantity.SIZE, us_first)}"
             words += parapet_note(assessment, item)
             at = _in(label_point(item.placed), unit)
-            yield PlanText(layer=_layer(item), words=words, at=at, height=height)
+            yield PlanText(layer=_OBJECTS[item.kind], words=words, at=at, height=height)
     for array in assessment.arrays:
         x, y = _in(label_point(array.array.shape), unit)
         yield PlanText(layer=Layer.ARRAY, words=array.id, at=(x, y), height=height)

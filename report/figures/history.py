@@ -76,9 +76,8 @@ class _Grid:
         drawn = [
             line for history in self.followed if history for line in (history.u_m, history.across_m)
         ]
-        high = max([0.0, *(float(line.max()) for line in drawn if line.size)]) / unit.si
-        low = min([0.0, *(float(line.min()) for line in drawn if line.size)]) / unit.si
-        self.ticks = _levels(low, high or 1.0)
+        reached = np.concatenate([[0.0], *drawn]) / unit.si
+        self.ticks = _levels(float(reached.min()), float(reached.max()) or 1.0)
         self.low, self.high = self.ticks[0], self.ticks[-1]
         self.seconds = max(run.seconds for run in motions)
 

@@ -131,8 +131,10 @@ def _center(axes: Axes, at: Point) -> None:
     axes.plot(*at, marker="+", markersize=6, color=INK, zorder=5)
 
 
-def _line(axes: Axes, start: Point, end: Point, **look: Any) -> None:
-    axes.plot(*zip(start, end, strict=True), **{"color": GRAY, "linewidth": 0.6} | look)
+def _line(
+    axes: Axes, start: Point, end: Point, *, color: str = GRAY, linewidth: float = 0.6
+) -> None:
+    axes.plot(*zip(start, end, strict=True), color=color, linewidth=linewidth)
 
 
 def _arrow(axes: Axes, start: Point, tip: Point, **look: Any) -> None:
