@@ -30,16 +30,16 @@ _MEAN, _LARGEST, _PLAIN, _FEW = (
     f'"{basis.value}"'
     for basis in (Basis.MEAN_FACTORED, Basis.LARGEST_FACTORED, Basis.MEAN, Basis.TOO_FEW)
 )
-_HAS_MEAN = "{n_motions}>={inputs[mean_motions]}"
-_OR_LARGEST = f"IF({{n_motions}}>={{inputs[largest_motions]}},{_LARGEST},{_FEW})"
+_HAS_MEAN = "{n_motions}>={inputs[analysis_mean_motions]}"
+_OR_LARGEST = f"IF({{n_motions}}>={{inputs[analysis_min_motions]}},{_LARGEST},{_FEW})"
 _OR_PLAIN = f"IF({{n_motions}}>={{inputs[plain_mean_motions]}},{_PLAIN},{_FEW})"
 _STATISTIC = (
     f'=IF({{inputs[statistic]}}="rule set",IF({_HAS_MEAN},{_MEAN},{_OR_LARGEST}),'
     f"IF({{inputs[statistic]}}={_MEAN},IF({_HAS_MEAN},{_MEAN},{_FEW}),"
     f"IF({{inputs[statistic]}}={_LARGEST},{_OR_LARGEST},{_OR_PLAIN})))"
 )
-_FACTOR = f"=IF({{statistic}}={_PLAIN},1,{{inputs[factor]}})"
-_FLOOR_SHARE = '=IF({inputs[peer_reviewed]}="Yes",0,{inputs[floor]})'
+_FACTOR = f"=IF({{statistic}}={_PLAIN},1,{{inputs[analysis_factor]}})"
+_FLOOR_SHARE = '=IF({inputs[peer_reviewed]}="Yes",0,{inputs[analysis_floor]})'
 _RATIO = '=IF(ISTEXT({design_m}),"none",{design_m}/{prescriptive_m})'
 _DIFFERENCE = '=IF(ISTEXT({design_m}),"none",{design_m}-{by_roofslip_m})'
 

@@ -21,14 +21,13 @@ InputCells = Mapping[str, str]
 
 @dataclass(frozen=True, slots=True)
 class _Input:
-    """A number with its digits, or one of several words; `provision` is its key in the rule set."""
+    """A number with its digits, or one of several words; of the rule set, under its key there."""
 
     key: str
     label: str
     value: float | StrEnum
     use: str
     decimals: int = 3
-    provision: str = ""
 
 
 def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
@@ -53,7 +52,7 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
             choices = [choice.value for choice in type(item.value)]
             sheet.data_validation(cell, {"validate": "list", "source": choices})
         else:
-            mark = OVERRIDDEN if item.provision in changed else ""
+            mark = OVERRIDDEN if item.key in changed else ""
             shown = pages.number(item.decimals, mark, is_input=True)
             sheet.write_number(cell, typed(item.value), shown)
         cells[item.key] = f"Inputs!$B${row}"
@@ -63,8 +62,8 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
 def _inputs(assessment: Assessment) -> Iterator[_Input]:
     site, options, rules = assessment.project.site, assessment.project.options, assessment.rules
 
-    def provision(key: str, label: str, use: str, of: str, decimals: int = 3) -> _Input:
-        return _Input(key, label, rules[of], use, decimals, of)
+    def provision(key: str, label: str, use: str, decimals: int = 3) -> _Input:
+        return _Input(key, label, rules[key], use, decimals)
 
     strength = "Strength required between the parts of an array"
     in_separation = rules.importance_in_separation
@@ -77,13 +76,12 @@ def _inputs(assessment: Assessment) -> Iterator[_Input]:
     use = "Rule set: 1.1 x mean or 1.1 x largest, by the number of motions"
     yield _Input("statistic", "Design value statistic", asked, use)
     yield _Input("peer_reviewed", "Peer review", reviewed, "Yes removes the floor")
-    use = "On the mean or the largest peak"
-    yield provision("factor", "Analysis factor", use, "analysis_factor")
-    yield provision("floor", "Floor / prescriptive", "Without peer review", "analysis_floor")
+    yield provision("analysis_factor", "Analysis factor", "On the mean or the largest peak")
+    yield provision("analysis_floor", "Floor / prescriptive", "Without peer review")
     use = "Minimum number of motions for 1.1 x mean"
-    yield provision("mean_motions", "Motions for a mean", use, "analysis_mean_motions", 0)
+    yield provision("analysis_mean_motions", "Motions for a mean", use, 0)
     use = "Minimum number of motions for 1.1 x largest"
-    yield provision("largest_motions", "Motions for the largest", use, "analysis_min_motions", 0)
+    yield provision("analysis_min_motions", "Motions for the largest", use, 0)
     yield _Input(
         "plain_mean_motions",
         "Motions for a mean without factor",
@@ -91,7 +89,5 @@ def _inputs(assessment: Assessment) -> Iterator[_Input]:
         "Minimum number of motions for the mean",
         decimals=0,
     )
-    key = "interconnection_sds"
-    yield provision(key, "Interconnection / (S_DS W1)", strength, key)
-    key = "interconnection_min"
-    yield provision(key, "Interconnection / W1, minimum", strength, key)
+    yield provision("interconnection_sds", "Interconnection / (S_DS W1)", strength)
+    yield provision("interconnection_min", "Interconnection / W1, minimum", strength)
