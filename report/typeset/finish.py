@@ -84,6 +84,7 @@ def finish(document: Any, pdf: Any, attached: Sequence[Attached]) -> None:
         "the claim to be PDF/UA-1": partial(_claim_ua, pdf),
         "the field for a signature": partial(_add_fields, pdf, document),
         "quick compression": partial(_compress, pdf),
+        "quick writing": partial(_write_once, pdf),
     }
     for what, complete in steps.items():
         try:
@@ -131,6 +132,21 @@ def _compress(pdf: Any) -> None:
             item.stream = [zlib.compress(b"\n".join(map(_written, item.stream)), LEVEL)]
             item.extra["Filter"] = "/FlateDecode"
             item.compress = False
+
+
+def _write_once(pdf: Any) -> None:
+    """Write each other object once: the renderer would for the identifier, and to write it."""
+    from pydyf import Object
+
+    class WrittenObject(Object):  # type: ignore[misc]
+        """An object as it is in the file."""
+
+        data = b""
+
+    for at, item in enumerate(pdf.objects):
+        if item.compressible:
+            written = pdf.objects[at] = WrittenObject()
+            written.number, written.data = item.number, item.data
 
 
 def _written(part: Any) -> bytes:
