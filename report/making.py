@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from report.assessment.project import Assessment
     from report.entities.results import Compared
     from report.motions.prepare import Shaking
-    from report.pages.pictures import Drawings
     from report.provenance.files import SourceFile
     from report.sheet.reading.read import Sheet
+    from report.typeset.drawings import Converted
     from report.typeset.equations import Equations
     from report.typeset.finish import Attached
 
@@ -67,9 +67,9 @@ def make(
     on_assessment(assessment)
     supported = support(assessment, request, worker)
     progress(Step("writing the pages"))
-    html = fill(assessment, supported, worker)
+    pages = fill(assessment, supported, worker)
     progress(Step("laying out the package"))
-    files = lay_out(html, assessment, supported.evidence, prepared.sources, worker)
+    files = lay_out(pages, assessment, supported.evidence, prepared.sources, worker)
     progress(Step("writing the result tables"))
     publish(files, request.folder)
     return assessment, request.folder, files, supported.changes
@@ -143,24 +143,20 @@ def prepare(request: Request) -> Prepared:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Supported:
-    """What the package prints beside the assessment, and its pictures, which are being drawn."""
+    """What the package prints beside the assessment, and its equations, which are being typeset."""
 
     evidence: Evidence
     changes: Changes
-    begun: Future[tuple[Drawings, Equations]]
-    plots: Future[Drawings]
+    equations: Future[Equations]
 
 
 def support(assessment: Assessment, request: Request, worker: Executor) -> Supported:
-    """Compute what supports an assessment, while the worker draws what is known already."""
-    from report.assessment.evidence import plotted, support
+    """Compute what supports an assessment, while the worker typesets the equations."""
+    from report.assessment.evidence import support
 
     changes = _changes(assessment, request.former)
-    begun = worker.submit(_begin, assessment, changes)
-    shown = plotted(assessment)
-    plots = worker.submit(_plot, assessment, changes, shown)
-    evidence = support(assessment, shown)
-    return Supported(evidence=evidence, changes=changes, begun=begun, plots=plots)
+    equations = worker.submit(_equations, assessment, changes)
+    return Supported(evidence=support(assessment), changes=changes, equations=equations)
 
 
 def _changes(assessment: Assessment, former: Sequence[Compared]) -> Changes:
@@ -173,51 +169,78 @@ def _changes(assessment: Assessment, former: Sequence[Compared]) -> Changes:
     return changes(former[0], assessment)
 
 
-def fill(assessment: Assessment, supported: Supported, worker: Executor) -> str:
-    """Return the pages as HTML; the worker fills them in while this process loads the renderer."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilledPages:
+    """The pages as HTML, and the addresses of the pictures that they only name."""
+
+    html: str
+    undrawn: frozenset[str]
+
+
+def fill(assessment: Assessment, supported: Supported, worker: Executor) -> FilledPages:
+    """Return the pages; the worker fills them in while this process loads the renderer."""
     from report.typeset.renderer import load
 
     about = (assessment, supported.evidence, supported.changes)
-    html = worker.submit(_pages, *about, supported.begun.result(), supported.plots.result())
+    pages = worker.submit(_pages, *about, supported.equations.result())
     load()
-    return html.result()
+    return pages.result()
 
 
 def lay_out(
-    html: str,
+    pages: FilledPages,
     assessment: Assessment,
     evidence: Evidence,
     found: Sequence[SourceFile],
     worker: Executor,
 ) -> Mapping[str, bytes]:
-    """Return the files of the package; the worker writes tables while the pages are laid out."""
-    from report.typeset.pdf import draw_ahead, lay_out, pictures
+    """Return the files of the package; the worker draws and writes tables during the layout."""
+    from report.typeset.pdf import lay_out, pictures
+    from report.typeset.renderer import is_tried
 
-    drawn = worker.submit(draw_ahead, pictures(html))
+    # First those that the layout waits for: a picture that is only named has no size until drawn.
+    sources = sorted(pictures(pages.html), key=lambda source: source not in pages.undrawn)
+    drawn = {source: worker.submit(_drawn, source) for source in sources} if is_tried() else {}
     written = worker.submit(_written, assessment, evidence, found)
-    pdf = lay_out(html, drawn, lambda: written.result()[1])
+    pdf = lay_out(pages.html, drawn, lambda: written.result()[1])
     return dict(zip(OUTPUTS, (pdf, *written.result()[0]), strict=True))
 
 
 # What follows runs in the worker: only there is loaded what draws and writes.
 
 
-def _begin(*about: Any) -> tuple[Drawings, Equations]:
-    from report.package.html import begin
-
-    return begin(*about)
+_undrawn: dict[str, Callable[[], str]] = {}
+"""How the pictures are drawn that the pages filled in last only name, by their addresses."""
 
 
-def _plot(*about: Any) -> Drawings:
-    from report.package.html import plot
+def _equations(*about: Any) -> Equations:
+    from report.package.html import equations
 
-    return plot(*about)
+    return equations(*about)
 
 
-def _pages(*about: Any) -> str:
+def _pages(
+    assessment: Assessment, evidence: Evidence, changes: Changes, equations: Equations
+) -> FilledPages:
     from report.package.html import pages
+    from report.pages.pictures import Later, at_once
+    from report.typeset.renderer import is_tried
 
-    return pages(*about)
+    global _undrawn
+    later = Later()
+    draw = later if is_tried() else at_once
+    html = pages(assessment, evidence, changes, equations, draw)
+    _undrawn = later.undrawn
+    return FilledPages(html=html, undrawn=frozenset(_undrawn))
+
+
+def _drawn(source: str) -> Converted:
+    """Return a picture for the pages, drawn now if they only name it."""
+    from report.typeset.equations import data_uri
+    from report.typeset.pdf import draw_ahead
+
+    drawn = data_uri(_undrawn.pop(source)()) if source in _undrawn else source
+    return draw_ahead([drawn])[drawn]
 
 
 def _written(

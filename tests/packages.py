@@ -8,7 +8,8 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -25,7 +26,9 @@ import stand_in
 from places import ROOT
 from report.cli.main import main
 from report.figures import accelerations, charts, history, hodograph, plan, spectra
+from report.typeset.drawings import Converted
 from report.typeset.finish import Attached
+from report.typeset.pdf import draw_ahead, pictures
 
 
 def once(factory: pytest.TempPathFactory, name: str, fill: Callable[[Path], object]) -> Path:
@@ -148,6 +151,15 @@ def unlaid() -> Iterator[None]:
         patch.setattr(report.typeset.pdf, "pictures", lambda html: [])
         patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
         yield
+
+
+def drawn_ahead(html: str) -> Mapping[str, Future[Converted]]:
+    """The pictures of a page, each converted by now."""
+    drawn: dict[str, Future[Converted]] = {}
+    for source, picture in draw_ahead(pictures(html)).items():
+        drawn[source] = Future()
+        drawn[source].set_result(picture)
+    return drawn
 
 
 @contextmanager

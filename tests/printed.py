@@ -18,10 +18,12 @@ from xml.etree.ElementTree import Element
 import packages
 from report.assessment.building_variations import building_variations
 from report.assessment.cumulative import cumulative
-from report.assessment.evidence import plotted
+from report.assessment.evidence import histories
 from report.assessment.highpass import beyond_corners
 from report.assessment.project import Assessment
 from report.assessment.remedies import remedies
+from report.assessment.sensitivity import accuracy
+from report.assessment.spectra import spectra
 from report.assessment.uncertainty import uncertainty
 from report.document.sections import Section
 from report.manual.machine import this_machine
@@ -132,10 +134,9 @@ class _Evidence:
     uncertainty = cached_property(lambda self: uncertainty(self._assessment))
     cumulative = cached_property(lambda self: cumulative(self._assessment))
     building = cached_property(lambda self: building_variations(self._assessment))
-    plotted = cached_property(lambda self: plotted(self._assessment))
-    spectra = cached_property(lambda self: self.plotted.spectra)
-    histories = cached_property(lambda self: self.plotted.histories)
-    accuracy = cached_property(lambda self: self.plotted.accuracy)
+    spectra = cached_property(lambda self: spectra(self._assessment))
+    histories = cached_property(lambda self: histories(self._assessment))
+    accuracy = cached_property(lambda self: accuracy(self._assessment))
 
 
 class _Pictures(dict):

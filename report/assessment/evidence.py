@@ -21,20 +21,14 @@ from solver.rules.provisions import AnalysisValue
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Plotted:
-    """What most figures show."""
+class Evidence:
+    """Results that support an assessment."""
 
     spectra: tuple[Spectra, ...]
     # for each group of arrays that share runs, the governing run of each motion; all NaN where it
     # has no displacement
     histories: tuple[tuple[SlideHistory, ...], ...]
     accuracy: Accuracy  # the governing run by every method, and the design with changed friction
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Evidence(Plotted):
-    """Results that support an assessment."""
-
     # effect of the high-pass of each motion on the slip of the governing array
     highpass: tuple[Beyond, ...]
     remedies: tuple[Remedy, ...]  # what would satisfy each clearance and array marked NG
@@ -44,30 +38,17 @@ class Evidence(Plotted):
     building: tuple[tuple[BuildingInput, AnalysisValue], ...]  # with other periods and damping
 
 
-def plotted(assessment: Assessment) -> Plotted:
-    """Compute what most figures show, so that they can be drawn while the rest is computed."""
-    return Plotted(
-        spectra=spectra(assessment),
-        histories=tuple(
-            tuple(run.history() for run in group[0].motions) for group in assessment.alike
-        ),
-        accuracy=accuracy(assessment),
-    )
+def histories(assessment: Assessment) -> tuple[tuple[SlideHistory, ...], ...]:
+    """Return the governing run of each motion at its samples, for arrays that share runs once."""
+    return tuple(tuple(run.history() for run in group[0].motions) for group in assessment.alike)
 
 
-def support(assessment: Assessment, shown: Plotted | None = None) -> Evidence:
-    """Compute the results that support an assessment.
-
-    Parameters
-    ----------
-    shown : Plotted, optional
-        What `plotted` returned.
-    """
-    shown = shown or plotted(assessment)
+def support(assessment: Assessment) -> Evidence:
+    """Compute the results that support an assessment."""
     return Evidence(
-        spectra=shown.spectra,
-        histories=shown.histories,
-        accuracy=shown.accuracy,
+        spectra=spectra(assessment),
+        histories=histories(assessment),
+        accuracy=accuracy(assessment),
         highpass=beyond_corners(assessment),
         remedies=remedies(assessment),
         uncertainty=uncertainty(assessment),

@@ -12,14 +12,21 @@ from collections.abc import Callable, Mapping, Sequence
 from markupsafe import Markup
 
 from report.assessment.changes import NO_FORMER, Changes
-from report.assessment.evidence import Evidence, Plotted
+from report.assessment.evidence import Evidence
 from report.assessment.project import Assessment
 from report.document.templates import rendered
 from report.pages import method
 from report.pages.cover import cover
 from report.pages.front import letter
 from report.pages.parts import PackageData
-from report.pages.pictures import Drawings, draw_assessment, draw_plotted, draw_uncertainty
+from report.pages.pictures import (
+    Draw,
+    Drawings,
+    at_once,
+    draw_assessment,
+    draw_plotted,
+    draw_uncertainty,
+)
 from report.pages.registry import LETTER, Content, package_data, pages_of, parts
 from report.pages.symbols import with_symbols
 from report.typeset.equations import Equations, formula
@@ -30,46 +37,42 @@ _CONSTANT = re.compile(r"{% set latex %}((?:(?!{[{%]).)*){% endset %}")
 
 
 def typeset_ahead() -> None:
-    """Typeset the equations that no project changes, so that `begin` need not."""
+    """Typeset the equations that no project changes, so that `equations` need not."""
     for latex in _CONSTANT.findall((TEMPLATES / "method.html").read_text(encoding="utf-8")):
         formula(Markup(latex))  # as the template asks for it
 
 
-def begin(assessment: Assessment, changes: Changes) -> tuple[Drawings, Equations]:
-    """Draw what needs no evidence, and typeset the equations, which are all in one page."""
-    package, equations = package_data(assessment, changes), Equations()
-    _html(package, {"method": method.page(package)}, defaultdict(tuple), equations)
-    return draw_assessment(package), equations
-
-
-def plot(assessment: Assessment, changes: Changes, shown: Plotted) -> Drawings:
-    """Draw most figures."""
-    return draw_plotted(package_data(assessment, changes), shown)
+def equations(assessment: Assessment, changes: Changes) -> Equations:
+    """Typeset the equations, which are all in one page that needs no evidence."""
+    package, found = package_data(assessment, changes), Equations()
+    _html(package, {"method": method.page(package)}, defaultdict(tuple), found)
+    return found
 
 
 def pages(
     assessment: Assessment,
     evidence: Evidence,
     changes: Changes = NO_FORMER,
-    begun: tuple[Drawings, Equations] | None = None,
-    plots: Drawings | None = None,
+    typeset: Equations | None = None,
+    draw: Draw = at_once,
 ) -> str:
     """Return the calculation package as HTML, with what changed if a former one is named.
 
     Parameters
     ----------
-    begun, plots : optional
-        What `begin` and `plot` returned.
+    typeset : optional
+        What `equations` returned.
+    draw : optional
+        Draws each picture, or names it.
     """
-    begun_drawings, equations = begun or begin(assessment, changes)
     package = package_data(assessment, changes)
     drawings = {
-        **begun_drawings,
-        **(plots or plot(assessment, changes, evidence)),
-        **draw_uncertainty(package, evidence.uncertainty),
+        **draw_assessment(package, draw),
+        **draw_plotted(package, evidence, draw),
+        **draw_uncertainty(package, evidence.uncertainty, draw),
     }
     ids = (*_FRONT, *(page.id for page in pages_of(package.changes)))
-    return _html(package, _content(package, evidence, ids), drawings, equations)
+    return _html(package, _content(package, evidence, ids), drawings, typeset or Equations())
 
 
 def part(package: PackageData, evidence: Evidence, id: str, drawings: Drawings) -> str:

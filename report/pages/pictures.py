@@ -1,17 +1,18 @@
 """The drawings of the package, by the id of their place; its template says their captions.
 
-`report.figures` draws them.
+`report.figures` draws them, at once or after the pages that name them. Read `Draw`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.evidence import Plotted
+from report.assessment.evidence import Evidence
 from report.assessment.spectra import Spectra, departures
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Verdict
@@ -19,6 +20,7 @@ from report.drawing.on_paper import printed_plan
 from report.drawing.sheet import SMALL
 from report.pages import friction_tests, limits
 from report.pages.parts import PackageData
+from report.typeset.equations import data_uri
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
@@ -29,13 +31,34 @@ Drawings = Mapping[str, Sequence[Any]]
 """SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, what
 is printed, the plan and its legend."""
 
+Draw = Callable[..., str]
+"""Given the function that draws a picture and its arguments, returns the SVG or a name for it."""
+
+
+def at_once(function: Draw, *about: Any, **how: Any) -> str:
+    """Draw a picture where a page asks for it."""
+    return function(*about, **how)
+
+
+class Later:
+    """Names pictures where pages ask for them: they are drawn while the pages are laid out."""
+
+    def __init__(self) -> None:
+        self.undrawn: dict[str, Callable[[], str]] = {}
+
+    def __call__(self, function: Draw, *about: Any, **how: Any) -> str:
+        """Return a name that stands for the SVG on the pages."""
+        name = f"picture {len(self.undrawn) + 1}"
+        self.undrawn[data_uri(name)] = partial(function, *about, **how)
+        return name
+
 
 def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
     for start in range(0, len(items), most):
         yield items[start : start + most]
 
 
-def draw_assessment(package: PackageData) -> Drawings:
+def draw_assessment(package: PackageData, draw: Draw = at_once) -> Drawings:
     """Return the drawings that need no evidence."""
     from report.figures import accelerations, charts, plan
     from report.figures.section import array_section
@@ -43,30 +66,31 @@ def draw_assessment(package: PackageData) -> Drawings:
     us_first, assessment = package.fmt.us_first, package.assessment
     printed = printed_plan(assessment)
     return {
-        "inputs-friction": friction_tests.drawings(package),
-        "method-motion": [array_section(package.governing.array, us_first)],
+        "inputs-friction": friction_tests.drawings(package, draw),
+        "method-motion": [draw(array_section, package.governing.array, us_first)],
         "motions-list": [
-            accelerations.accelerations(some)
+            draw(accelerations.accelerations, some)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
-        "plan": [printed, *map(plan.paper_svg, (printed.plan, printed.key))],
+        "plan": [printed, *(draw(plan.paper_svg, each) for each in (printed.plan, printed.key))],
         "comparison": [
-            charts.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
+            draw(charts.comparison, some, us_first)
+            for some in _in_parts(assessment.alike, CHART_ROWS)
         ],
         "clearances": [
-            charts.clearances(some, us_first, start=1 + count * GAP_ROWS)
+            draw(charts.clearances, some, us_first, start=1 + count * GAP_ROWS)
             for count, some in enumerate(_in_parts(assessment.clearances, GAP_ROWS))
         ],
     }
 
 
-def _small_plan(package: PackageData, spectra: Sequence[Spectra]) -> Iterator[str]:
+def _small_plan(package: PackageData, spectra: Sequence[Spectra], draw: Draw) -> Iterator[str]:
     """Yield the plan for the summary in the room that its tables leave; none on a full sheet."""
     from report.figures.plan import roof_plan
 
     tall = min(_summary_room_in(package, spectra), SMALL.tall)
     if tall >= LEAST_PLAN_IN:
-        yield roof_plan(package.assessment, replace(SMALL, tall=tall))
+        yield draw(roof_plan, package.assessment, replace(SMALL, tall=tall))
 
 
 def _summary_room_in(package: PackageData, spectra: Sequence[Spectra]) -> float:
@@ -96,7 +120,7 @@ def _conditions_in(package: PackageData) -> float:
     return 0.3 + sum(heights) if heights else 0.0
 
 
-def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
+def draw_plotted(package: PackageData, shown: Evidence, draw: Draw = at_once) -> Drawings:
     """Return the drawings of spectra and of runs."""
     from report.figures.accuracy import work_precision
     from report.figures.spectra import spectra
@@ -106,31 +130,34 @@ def draw_plotted(package: PackageData, shown: Plotted) -> Drawings:
     ground = [part for part in shown.spectra if part.is_ground]
     runs = zip(package.assessment.alike, shown.histories, strict=True)
     return {
-        "summary": list(_small_plan(package, shown.spectra)),
-        "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
-        "accuracy": [work_precision(rivals)] if rivals.runs else [],
+        "summary": list(_small_plan(package, shown.spectra, draw)),
+        "motions-spectra": [
+            draw(spectra, parts) for parts in ((roof, ground) if ground else (roof,))
+        ],
+        "accuracy": [draw(work_precision, rivals)] if rivals.runs else [],
         **{
-            f"results-{count}": list(_histories(group[0], followed, us_first))
+            f"results-{count}": list(_histories(group[0], followed, us_first, draw))
             for count, (group, followed) in enumerate(runs, start=1)
         },
     }
 
 
-def draw_uncertainty(package: PackageData, found: Uncertainty) -> Drawings:
+def draw_uncertainty(package: PackageData, found: Uncertainty, draw: Draw = at_once) -> Drawings:
     """Return the contours; none where nothing slides on the whole grid."""
     from report.figures.uncertainty import contours
 
     surface, arrays, us_first = found.surface, package.assessment.arrays, package.fmt.us_first
     slides = bool((surface.mean_m > 0.0).any())
-    return {"how-sure": [contours(surface, arrays, us_first)] if slides else []}
+    return {"how-sure": [draw(contours, surface, arrays, us_first)] if slides else []}
 
 
 def _histories(
-    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
+    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool, draw: Draw
 ) -> Iterator[tuple[str, str]]:
     from report.figures.history import histories
     from report.figures.hodograph import hodographs
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for motions, paths in runs:
-        yield histories(motions, paths, us_first), hodographs(motions, paths, us_first)
+        about = (motions, paths, us_first)
+        yield draw(histories, *about), draw(hodographs, *about)

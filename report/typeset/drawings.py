@@ -238,16 +238,23 @@ def _hatch(pattern: Any, strokes: bool) -> Hatch:
 
 
 class DeferredPicture:
-    """A picture for the renderer: its size at once, its operators when the page is painted."""
+    """A picture for the renderer: its operators when the page is painted.
 
-    def __init__(self, source: str, converted: Future[dict[str, Converted]], fonts: Any) -> None:
+    Its size is that of the SVG in its address; where this only names it, it is waited for as the
+    page is laid out.
+    """
+
+    def __init__(self, source: str, converted: Future[Converted], fonts: Any) -> None:
         self._source = source
         self._converted = converted
         self._fonts = fonts
 
     @cached_property
     def _size(self) -> tuple[float, float]:
-        return size_px(svg_of(self._source))
+        if (svg := svg_of(self._source)).startswith(b"<svg"):
+            return size_px(svg)
+        picture = self._converted.result()
+        return picture.width, picture.height
 
     def get_intrinsic_size(self, *_: Any) -> tuple[float, float, float]:
         """Return width, height [px] and their ratio."""
@@ -256,7 +263,7 @@ class DeferredPicture:
 
     def draw(self, stream: Any, width: float, height: float, *_: Any) -> None:
         """Paint the picture, at the place and scale of the stream."""
-        picture = self._converted.result()[self._source]
+        picture = self._converted.result()
         for face in picture.faces:
             use(stream, face, self._fonts)
         stream.push_state()

@@ -10,7 +10,7 @@ import datetime as dt
 import logging
 import re
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
 from pathlib import Path
@@ -53,7 +53,7 @@ def draw_ahead(sources: Sequence[str]) -> dict[str, Converted]:
 
 def lay_out(
     html: str,
-    drawn: Future[dict[str, Converted]] | None = None,
+    drawn: Mapping[str, Future[Converted]] = {},
     attached: Callable[[], Sequence[Attached]] = tuple,
 ) -> bytes:
     """Return the PDF of an HTML document; `shipped:/NAME` addresses a file of the templates.
@@ -62,10 +62,11 @@ def lay_out(
     ----------
     html : str
         Well-formed as XML.
-    drawn : Future, optional
-        What `draw_ahead` returns for all its pictures; waited for when the first is painted.
+    drawn : mapping of str to Future, optional
+        What `draw_ahead` returns for pictures, by the address in the document; each is waited for
+        when it is painted.
     attached : callable
-        Returns the attachments; asked once the pages are laid out.
+        Returns the attachments; asked once the pages are painted.
 
     Raises
     ------
@@ -83,16 +84,21 @@ def lay_out(
         given = document(html, shipped(TEMPLATES))
         fonts = FontConfiguration()
         shown = (
-            {source: DeferredPicture(source, drawn, fonts) for source in pictures(html)}
-            if drawn and is_tried()
+            {source: DeferredPicture(source, one, fonts) for source, one in drawn.items()}
+            if is_tried()
             else {}
         )
         try:
             pages = given.render(font_config=fonts, cache=shown)
-            files = sorted(attached(), key=lambda file: file.name)
+            files: list[Attached] = []
+
+            def attachments() -> Iterator[Any]:
+                files.extend(sorted(attached(), key=lambda file: file.name))
+                yield from (_attachment(file, pages.metadata.created) for file in files)
+
             pdf: bytes = pages.write_pdf(
                 pdf_variant=VARIANT,
-                attachments=[_attachment(file, pages.metadata.created) for file in files],
+                attachments=attachments(),
                 finisher=lambda pages, objects: finish(pages, objects, files),
             )
         finally:

@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from concurrent.futures import Future
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +28,7 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing import example
 from report.sheet.writing.template import write_template
+from report.typeset.drawings import Converted
 from solver.formats import read_record
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -56,12 +58,12 @@ def stages() -> Iterator[str]:
 
     html = pages(assessment, evidence)
     yield "pictures as PDF operators, with imports"
-    from concurrent.futures import Future
-
     from report.typeset.pdf import draw_ahead, lay_out, pictures
 
-    drawn = Future()
-    drawn.set_result(draw_ahead(pictures(html)))
+    drawn: dict[str, Future[Converted]] = {}
+    for source, picture in draw_ahead(pictures(html)).items():
+        drawn[source] = Future()
+        drawn[source].set_result(picture)
     yield "PDF, with tags and attachments"
     lay_out(html, drawn)
     yield "plan.dxf, results.xlsx and results.json"

@@ -8,7 +8,7 @@ import pytest
 
 import scenes
 import stand_in
-from report.assessment.evidence import plotted
+from report.assessment.evidence import histories
 from report.assessment.friction_velocity import VelocityCheck, velocity_check
 from report.assessment.verdict import Verdict
 from solver.friction_tests import FrictionRun, Series, Surface
@@ -56,8 +56,8 @@ def test_the_velocity_is_the_largest_of_all_runs(by_velocity):
     item = by_velocity.arrays[0]
     each = [run.result.peak_speed_mps for motion in item.motions for run in motion.runs]
     assert item.fastest_mps == max(each)
-    (histories, _) = plotted(by_velocity).histories
-    for motion, history in zip(item.motions, histories, strict=True):
+    (governing, _) = histories(by_velocity)
+    for motion, history in zip(item.motions, governing, strict=True):
         across = history.across_mps if history.across_mps.size else np.zeros(1)
         cosine = math.cos(item.array.slope_rad)
         seen = float(np.hypot(history.v_mps / cosine, across).max())

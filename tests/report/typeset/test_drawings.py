@@ -2,15 +2,15 @@
 
 import io
 import tempfile
-from concurrent.futures import Future
 
 import pytest
 from pypdf import PdfReader
 
+import packages
 from report.typeset import drawings, renderer
 from report.typeset.drawings import convert
 from report.typeset.equations import data_uri, formula
-from report.typeset.pdf import TEMPLATES, draw_ahead, lay_out, pictures
+from report.typeset.pdf import TEMPLATES, draw_ahead, lay_out
 from solver.model import DefectError
 
 CSS = TEMPLATES / "package.css"
@@ -67,9 +67,8 @@ def page(*pictures, text=""):
 
 def both(html):
     """The page with its pictures drawn ahead, and as the renderer draws them."""
-    drawn = Future()
-    drawn.set_result(draw_ahead(pictures(html)))
-    return [PdfReader(io.BytesIO(pdf)).pages[0] for pdf in (lay_out(html, drawn), lay_out(html))]
+    made = lay_out(html, packages.drawn_ahead(html)), lay_out(html)
+    return [PdfReader(io.BytesIO(pdf)).pages[0] for pdf in made]
 
 
 def blank(kind):

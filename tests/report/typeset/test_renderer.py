@@ -5,7 +5,6 @@ import re
 import subprocess
 import sys
 import zlib
-from concurrent.futures import Future
 from types import SimpleNamespace
 from xml.etree import ElementTree
 
@@ -73,14 +72,11 @@ def words(pdf):
 @pytest.mark.nightly("report/typeset/")
 def test_a_renderer_that_was_not_tried_sets_the_same_pages(monkeypatch):
     html = stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0)))
-    drawn = Future()
-    drawn.set_result(draw_ahead(pictures(html)))
+    drawn = packages.drawn_ahead(html)
     tried = words(lay_out(html, drawn))
     monkeypatch.setattr(renderer, "TRIED", UNTRIED)
-    ahead = Future()
-    ahead.set_result(draw_ahead(pictures(html)))
-    assert ahead.result() == {}
-    assert words(lay_out(html, ahead)) == tried
+    assert draw_ahead(pictures(html)) == {}
+    assert words(lay_out(html)) == tried
     # Nor does it matter if only this process has it.
     assert words(lay_out(html, drawn)) == tried
 
