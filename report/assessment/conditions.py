@@ -102,11 +102,10 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
 
 
 def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Requirement]:
-    us_first = data.project.units_first.is_us
     for index, motion in enumerate(prepared):
         if drifts(motion):
             largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
-            found, most, _ = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, us_first)
+            found, most, _ = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, data.us_first)
             yield condition(
                 id="drift",
                 title="Final displacement of the record",
@@ -192,7 +191,6 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
 
     A gap of the plan that no clearance covers, and that is less than is required, is NG.
     """
-    us_first = data.project.units_first.is_us
     return tuple(
         Requirement(
             id="neighbors",
@@ -208,8 +206,8 @@ def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requi
         )
         for neighbor in nearby
         for title in (f"Clearance {neighbor.names}",)
-        for found, limit in (_found_and_required(neighbor, us_first),)
-        for text in neighbor.shortcomings(us_first)
+        for found, limit in (_found_and_required(neighbor, data.us_first),)
+        for text in neighbor.shortcomings(data.us_first)
     )
 
 
@@ -275,10 +273,9 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
 
 def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
     """Yield the weight per plan area beside what the engineers of roof and wind state."""
-    us_first, here_pa = data.project.units_first.is_us, array.weight_pa
-    capacity_pa, wind_pa = array.roof_capacity_pa, array.wind_weight_pa
+    here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
     if capacity_pa is not None:
-        found, most, up = compared_pairs(here_pa, capacity_pa, Quantity.PRESSURE, us_first)
+        found, most, up = compared_pairs(here_pa, capacity_pa, Quantity.PRESSURE, data.us_first)
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
@@ -292,8 +289,10 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             place=_place(data, array, "roof_capacity_pa"),
         )
     if wind_pa is not None:
-        found, here = (pair(value, Quantity.PRESSURE, us_first) for value in (wind_pa, here_pa))
-        unit = Quantity.PRESSURE.us if us_first else Quantity.PRESSURE.si
+        found, here = (
+            pair(value, Quantity.PRESSURE, data.us_first) for value in (wind_pa, here_pa)
+        )
+        unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
         wind, weight = (round(value / unit.si, unit.decimals) for value in (wind_pa, here_pa))
         yield condition(
             id="wind_weight",
@@ -309,15 +308,14 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
 
 
 def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
-    us_first = data.project.units_first.is_us
     plan = array.shape.bounds
     largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
     return condition(
         id="fire_lanes",
         title="Largest plan dimension between fire lanes",
         subject=array.id,
-        found=pair(largest, Quantity.PLAN, us_first),
-        limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, us_first)}",
+        found=pair(largest, Quantity.PLAN, data.us_first),
+        limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, data.us_first)}",
         basis="fire code†",
         is_satisfied=largest <= FIRE_LANE_M * (1.0 + _NOISE),
         remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
@@ -326,9 +324,9 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
 
 
 def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
-    us_first, provided = data.project.units_first.is_us, array.interconnection_n
+    provided = array.interconnection_n
     given = math.nan if provided is None else provided
-    least, had, up = compared_pairs(required_n, given, Quantity.WEIGHT, us_first)
+    least, had, up = compared_pairs(required_n, given, Quantity.WEIGHT, data.us_first)
     return Requirement(
         id="interconnection",
         title="Interconnection strength provided",
@@ -348,11 +346,10 @@ def _place(data: ProjectInput, array: Array, field: str) -> Place:
 
 
 def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
-    us_first = data.project.units_first.is_us
     provided, design = assessed.array.slack_m, assessed.permitted_m
     has_value = not math.isnan(design)
     given = math.nan if provided is None else provided
-    least, had, up = compared_pairs(design, given, Quantity.SIZE, us_first)
+    least, had, up = compared_pairs(design, given, Quantity.SIZE, data.us_first)
     return Requirement(
         id="electrical_slack",
         title="Electrical slack provided",
@@ -373,7 +370,6 @@ def pathway_rows(
 
     Arrays that are unlike may slide toward each other: both displacements are subtracted.
     """
-    us_first = data.project.units_first.is_us
     for index, gap in enumerate(clearances):
         row = gap.clearance
         if row.pathway_m is None:
@@ -382,8 +378,8 @@ def pathway_rows(
         if gap.neighbor is Neighbor.LIKE:
             slides = [gap.design_m]
         left_m = row.provided_m - math.fsum(slides)
-        least, left, up = compared_pairs(row.pathway_m, left_m, Quantity.SIZE, us_first)
-        terms = " − ".join(pair(m, Quantity.SIZE, us_first) for m in (row.provided_m, *slides))
+        least, left, up = compared_pairs(row.pathway_m, left_m, Quantity.SIZE, data.us_first)
+        terms = " − ".join(pair(m, Quantity.SIZE, data.us_first) for m in (row.provided_m, *slides))
         found = f"{terms} = {left}{gap.design_mark}"
         yield Requirement(
             id="fire_pathway",

@@ -70,10 +70,9 @@ def _standard(data: ProjectInput) -> Requirement:
 def _wet_and_dry(data: ProjectInput) -> Requirement:
     given = {(one.report, one.surface): one for one in tested(data)}
     reports = dict.fromkeys(report for report, _ in given)
-    us_first = data.project.units_first.is_us
     found = [
         (f"report {report or 'without a number'}: " if len(reports) > 1 else "")
-        + ", ".join(_runs({s: given.get((report, s)) for s in Surface}, us_first))
+        + ", ".join(_runs({s: given.get((report, s)) for s in Surface}, data.us_first))
         for report in reports
     ]
     return _row(
@@ -94,7 +93,7 @@ def basis_words(data: ProjectInput, array: Array) -> str:
     if not found:
         return "entered; no runs of friction tests are given"
     tests = governing(found, array.mu_report)
-    where = _where(tests, data.project.units_first.is_us)
+    where = _where(tests, data.us_first)
     if _is_fit(array.friction, tests):
         return f"as tested: the fit of the {tests.surface} runs {where}"
     return f"entered, {_how_far(array.friction, tests)} the tests {where}"

@@ -142,11 +142,10 @@ def velocity_rows(
 
     Nothing without test runs: what is missing then is a requirement of its own.
     """
-    us_first = data.project.units_first.is_us
     for item in arrays:
         check = velocity_check(data, item)
         if check is not None:
-            yield _row(item.id, check, slow, us_first)
+            yield _row(item.id, check, slow, data.us_first)
 
 
 def _row(

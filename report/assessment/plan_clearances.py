@@ -88,7 +88,7 @@ def missing_rows(
         For what is wrong elsewhere than in motions and clearances, or if the rows have no place.
     """
     data = _without_motions(sheet)
-    us_first = data.project.units_first.is_us
+    us_first = data.us_first
     pairs = pairs_before_runs(data, sheet.addresses, arrays)
     missing = [near for near in pairs if near.is_missing]
     new = [near for near in missing if _has_row(near)]
@@ -161,7 +161,7 @@ def _written(
     """Return the cells of new rows, and a line for each row."""
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
-    us_first = data.project.units_first.is_us
+    us_first = data.us_first
     step_m = US_STEP_M if us_first else SI_STEP_M
     downslope = {array.id: array.downslope_deg for array in data.arrays}
     table = GrowingTable.of(sheet.book, "clearances")

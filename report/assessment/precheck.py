@@ -100,7 +100,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
 
     What depends on a displacement, such as a clearance, is not among them.
     """
-    rules, us_first = rule_set_of(data), data.project.units_first.is_us
+    rules, us_first = rule_set_of(data), data.us_first
     for check in building_limits(data, rules):
         yield from _limit(check, "site", 0, us_first)
     acceptance = shaking_acceptance(shaking, targets(data))
@@ -137,14 +137,13 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
     """Yield the pairs of the plan without a clearance, before any run, each with its distance."""
     data = sheet.project
-    us_first = data.project.units_first.is_us
     near = [each for each in pairs_before_runs(data, sheet.addresses) if each.is_near]
     missing = sorted((each for each in near if not each.given), key=lambda each: each.gap_m)
     if not missing:
         return
-    sizes = (f"{each.names} {pair(each.gap_m, Quantity.SIZE, us_first)}" for each in missing)
+    sizes = (f"{each.names} {pair(each.gap_m, Quantity.SIZE, data.us_first)}" for each in missing)
     named = listed(sizes, MOST_NAMED)
-    reach = pair(REACH_FACTOR * design_before_runs_m(data), Quantity.SIZE, us_first)
+    reach = pair(REACH_FACTOR * design_before_runs_m(data), Quantity.SIZE, data.us_first)
     is_bare = any(each.kind is NearbyKind.BARE_EDGE for each in missing)
     text = (
         f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}."

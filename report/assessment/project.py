@@ -230,7 +230,7 @@ class Assessment:
     @property
     def troubled_runs(self) -> Mapping[Status, str]:
         """Runs whose displacement is missing or not final, in words, by their status."""
-        return run_warnings(self.arrays, self.project.project.units_first.is_us)
+        return run_warnings(self.arrays, self.project.us_first)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -34,7 +34,7 @@ TEXT_SHARE = 1.0 / 120.0
 
 def plan_drawing(assessment: Assessment) -> PlanDrawing:
     """Return the plan of an assessment."""
-    is_feet = assessment.project.project.units_first.is_us
+    is_feet = assessment.project.us_first
     unit = Quantity.PLAN.us if is_feet else Quantity.PLAN.si
     lines = tuple(
         replace(line, points=tuple(_in(point, unit) for point in line.points))

@@ -199,4 +199,5 @@ class PlanSheet:
 
 def unit_format(assessment: Assessment) -> UnitFormat:
     """Return the units of a plan."""
-    return UnitFormat(us_first=assessment.project.project.units_first.is_us, none="no value")
+    # Not none: nothing is required only where a length is zero.
+    return UnitFormat(us_first=assessment.project.us_first, none="no value")

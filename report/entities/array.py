@@ -316,8 +316,7 @@ def array_result(
     gap = assessment.governing_clearance(item.id)
     rounds = {"interconnection_n": required, "provided_n": provided, "permitted_m": no_less}
     near: dict[str, object] = {}
-    us_first = assessment.project.project.units_first.is_us
-    distance = keep_clear(keep_clear_m(assessment, item), us_first)
+    distance = keep_clear(keep_clear_m(assessment, item), assessment.project.us_first)
     marks["permitted_m"] = marks.get("design_m", "")
     if gap:
         least, had = compared(gap.required_m, gap.clearance.provided_m)

@@ -48,7 +48,7 @@ class Marked:
     @property
     def fmt(self) -> UnitFormat:
         """Format of values."""
-        return UnitFormat(us_first=self.data.project.units_first.is_us)
+        return UnitFormat(us_first=self.data.us_first)
 
     def mark(self, key: str) -> str:
         """Return the marks of a provision."""

@@ -102,7 +102,7 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
 
 def attention(assessment: Assessment) -> Iterator[Concern]:
     """Yield what is not satisfied, each with array, value, limit, and what would do."""
-    us_first = assessment.project.project.units_first.is_us
+    us_first = assessment.project.us_first
     for status, text in assessment.troubled_runs.items():
         yield Concern("NG", f"{lowered(text.rstrip('.'))}; {_WHAT_WOULD_DO[status]}")
     yield from _models(assessment)

@@ -34,7 +34,7 @@ _Pair = tuple[_Row | None, _Row | None]
 def changes(former: Compared, assessment: Assessment) -> Changes:
     """Return what changed from a former revision to this assessment."""
     now = compared(assessment)
-    us_first = assessment.project.project.units_first.is_us
+    us_first = assessment.project.us_first
     arrays = _paired(now.arrays, former.arrays, lambda row: (row.id,)).values()
     gaps = _paired(now.clearances, former.clearances, _gap_key).values()
     items = [

@@ -17,6 +17,7 @@ from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
 from report.assessment.verdict import Verdict
 from report.document.templates import sentence
+from report.drawing.sheet import unit_format
 from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.columns import UnitFormat
@@ -24,7 +25,7 @@ from report.entities.marks import Marked
 from report.pages.registry import package_data
 from report.pages.summary import attention
 from report.typeset.pdf import TEMPLATES
-from report.web.plan import NO_VALUE, USUAL_PX, plan
+from report.web.plan import USUAL_PX, plan
 from report.web.tables import Cell, ShowVerdict, cells, heads, stamp
 from report.words.units import compared
 from solver.rules.limit import Consequence
@@ -52,7 +53,7 @@ def answer(
         Width that the page has for the plan.
     """
     marked = Marked(assessment=assessment, has_daggers=False)
-    fmt = UnitFormat(us_first=marked.fmt.us_first, none=NO_VALUE)
+    fmt = unit_format(assessment)
     arrays = list(array_results(marked, has_runs=False))
     gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
     missing = [near for near in assessment.neighbors if near.is_missing]

@@ -209,5 +209,5 @@ def _clearances(data: ProjectInput) -> str:
     if not data.clearances:
         return ""
     row = min(data.clearances, key=lambda row: row.provided_m)
-    text = pair(row.provided_m, Quantity.SIZE, data.project.units_first.is_us)
+    text = pair(row.provided_m, Quantity.SIZE, data.us_first)
     return f"smallest {text}, {row.array} to {row.object}"

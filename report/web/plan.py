@@ -23,9 +23,6 @@ from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
 from report.web.tables import Cell, ShowVerdict
 
-NO_VALUE = "no value"
-"""In place of a length that no run gives: nothing is required only where it is zero."""
-
 _TYPE_PX = 13.0  # of the page
 _PX = _TYPE_PX / (TYPE_PT / 72.0)  # in an inch
 _WIDE_PX, _TALL_PX, _KEY_PX = (344, 560, 780), 450.0, 52.0

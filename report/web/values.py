@@ -55,7 +55,7 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
 
 def trim_unit_m(sheet: Sheet) -> float:
     """Return the unit [m] in which arrays are trimmed: an inch, or a millimeter."""
-    return 0.0254 if sheet.project.project.units_first.is_us else 0.001
+    return 0.0254 if sheet.project.us_first else 0.001
 
 
 def _given(sheet: Sheet, section: str, fields: tuple[str, ...]) -> Iterator[tuple[Place, float]]:

@@ -19,11 +19,11 @@ from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import MotionRun, OrientedRun
 from report.assessment.uncertainty import ResponseSurface, surface
 from report.document.templates import sentence
+from report.drawing.sheet import unit_format
 from report.entities.columns import UnitFormat
 from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
-from report.web.plan import NO_VALUE
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from report.web.thinning import Indices, beside, peaks_kept
 from report.words.units import G_MPS2, Unit, number
@@ -88,7 +88,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
     InputError
         For an array, motion or run that the project does not have.
     """
-    item, fmt = _array(assessment, array_id), _format(assessment)
+    item, fmt = _array(assessment, array_id), unit_format(assessment)
     motion = _named("motion", item.motions, motion_id, lambda one: one.motion.id)
     chosen = motion.governing
     if run is not None:
@@ -131,7 +131,7 @@ def contour(assessment: Assessment, array_id: str) -> Json:
     InputError
         For an array that the project does not have.
     """
-    item, fmt = _array(assessment, array_id), _format(assessment)
+    item, fmt = _array(assessment, array_id), unit_format(assessment)
     with ThreadPoolExecutor(THREADS) as pool:
         found = surface(assessment, item, pool)
     row = int(np.argmin(np.abs(found.slopes_rad - item.array.slope_rad)))
@@ -176,7 +176,7 @@ def paths(assessment: Assessment, array_id: str) -> Json:
     InputError
         For an array that the project does not have.
     """
-    item, fmt = _array(assessment, array_id), _format(assessment)
+    item, fmt = _array(assessment, array_id), unit_format(assessment)
     return {
         "paths": [_path(motion, fmt) for motion in item.motions],
         "units": {"time": _units(_TIME), "displacement": _units(fmt.units())},
@@ -202,11 +202,6 @@ def _named(kind: str, items: Sequence[_T], wanted: str, name: Callable[[_T], str
             return item
     known = ", ".join(name(item) for item in items)
     raise InputError(f"there is no {kind} '{wanted}'; choose one of {known}")
-
-
-def _format(assessment: Assessment) -> UnitFormat:
-    us_first = assessment.project.project.units_first.is_us
-    return UnitFormat(us_first=us_first, none=NO_VALUE)
 
 
 def _run_choice(motion: MotionRun, run: OrientedRun, fmt: UnitFormat) -> Json:

@@ -58,7 +58,7 @@ def implausible(data: ProjectInput) -> Iterator[Finding]:
 
 def _contradictory(data: ProjectInput) -> Iterator[Finding]:
     """Yield what contradicts the plan, a table, the rules or another cell."""
-    us_first = data.project.units_first.is_us
+    us_first = data.us_first
     yield from _dates(data)
     yield from _height(data, us_first)
     yield from _site_coefficients(data.site)
@@ -208,7 +208,7 @@ def _askew_deg(turned_deg: float, direction: Direction) -> float:
 
 def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Finding]:
     """Yield clearances below the gap of the plan [m], by row; those in one wrong unit together."""
-    us_first = data.project.units_first.is_us
+    us_first = data.us_first
     by_unit: dict[tuple[float, str], list[int]] = {}
     for index, gap in short.items():
         by_unit.setdefault(_mistaken(data.clearances[index].provided_m, gap), []).append(index)

@@ -21,7 +21,7 @@ ROUNDING = 1e-9
 
 def unusual(data: ProjectInput) -> Iterator[Finding]:
     """Yield a warning for each number outside its usual range."""
-    is_us = data.project.units_first.is_us
+    is_us = data.us_first
     for section in SECTIONS:
         found = getattr(data, section.key)
         for index, row in enumerate(found if section.is_table else (found,)):

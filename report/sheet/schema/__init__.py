@@ -259,6 +259,11 @@ class ProjectInput(Frozen):
             raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
         return self
 
+    @property
+    def us_first(self) -> bool:
+        """Whether US units are printed before SI units."""
+        return self.project.units_first.is_us
+
     def basis_of(self, row: Clearance) -> DistanceBasis:
         """Return the basis of the distance of a clearance."""
         if row.source is ClearanceSource.DRAWING:
