@@ -154,6 +154,11 @@ class ArrayAssessment(RouteLimits):
         return f"{self.governs.value}{mark}"
 
     @property
+    def satisfies_limits(self) -> bool:
+        """Whether it and its route are permitted: every limit that applies is satisfied."""
+        return self.is_permitted and all(check.ok for check in self.limits)
+
+    @property
     def has_unpermitted_value(self) -> bool:
         """Whether there is a design displacement, by a route that is not permitted."""
         return not math.isnan(self.design_m) and not self.is_permitted

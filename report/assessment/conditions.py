@@ -6,9 +6,9 @@ Each row says what its lack leads to. Read `project_rows` and `array_rows`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -256,7 +256,7 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
         by, date = data.project.drawing_confirmed_by, data.project.drawing_confirmed_date
         is_confirmed = data.basis_of(data.clearances[drawn[0]]) is DistanceBasis.CONFIRMED
         state = f"confirmed by {by}, {date}" if is_confirmed else "not confirmed"
-        yield Requirement(
+        yield condition(
             id="drawing_distances",
             title="Clear distances from the drawing",
             subject=array.id,
@@ -264,7 +264,6 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
             limit="measured, or confirmed by name and date",
             basis="roof plan",
             is_satisfied=is_confirmed,
-            consequence=Consequence.CONDITION,
             remedy="State measured on the sheet Clearances, or on the sheet Project who confirmed "
             "them and when.",
             place=Place("clearances", drawn[0], "source"),
@@ -324,18 +323,12 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
 
 
 def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
-    provided = array.interconnection_n
-    given = math.nan if provided is None else provided
-    least, had, up = compared_pairs(required_n, given, Quantity.WEIGHT, data.us_first)
     return Requirement(
         id="interconnection",
         title="Interconnection strength provided",
         subject=array.id,
-        found=NOT_GIVEN if provided is None else had,
-        limit=f"≥ {least}{up}",
+        **_provided(array.interconnection_n, required_n, Quantity.WEIGHT, data.us_first),
         basis=data.site.rule_set,
-        is_satisfied=provided is not None and provided >= required_n,
-        consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Show that the racking provides the required strength between its parts.",
         place=_place(data, array, "interconnection_n"),
     )
@@ -346,21 +339,29 @@ def _place(data: ProjectInput, array: Array, field: str) -> Place:
 
 
 def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
-    provided, design = assessed.array.slack_m, assessed.permitted_m
-    has_value = not math.isnan(design)
-    given = math.nan if provided is None else provided
-    least, had, up = compared_pairs(design, given, Quantity.SIZE, data.us_first)
+    array = assessed.array
     return Requirement(
         id="electrical_slack",
         title="Electrical slack provided",
-        subject=assessed.array.id,
-        found=NOT_GIVEN if provided is None else had,
-        limit=f"≥ {least}{up}" if has_value else NO_DESIGN,
+        subject=array.id,
+        **_provided(array.slack_m, assessed.permitted_m, Quantity.SIZE, data.us_first),
         basis="design displacement",
-        is_satisfied=provided is not None and has_value and provided >= design,
-        consequence=Consequence.CONDITION if provided is None else Consequence.NG,
         remedy="Provide wiring slack of at least the design displacement.",
     )
+
+
+def _provided(
+    value: float | None, required: float, quantity: Quantity, us_first: bool
+) -> Mapping[str, Any]:
+    """Return what is found and required of a value that a workbook may give, and what follows."""
+    given = math.nan if value is None else value
+    least, had, up = compared_pairs(required, given, quantity, us_first)
+    return {
+        "found": NOT_GIVEN if value is None else had,
+        "limit": NO_DESIGN if math.isnan(required) else f"≥ {least}{up}",
+        "is_satisfied": given >= required,
+        "consequence": Consequence.CONDITION if value is None else Consequence.NG,
+    }
 
 
 def pathway_rows(

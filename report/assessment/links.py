@@ -79,10 +79,14 @@ class LinkedArray:
     linked: AnalysisValue
 
     @property
+    def runs(self) -> tuple[LinkedRun, ...]:
+        """Every run under every motion."""
+        return tuple(run for motion in self.motions for run in motion.runs)
+
+    @property
     def stretch_m(self) -> float:
         """Largest elongation of a link in any run [m]; NaN where a run has none."""
-        runs = (run for motion in self.motions for run in motion.runs)
-        return max((run.row.stretch_m for run in runs), key=nan_is_worst)
+        return max((run.row.stretch_m for run in self.runs), key=nan_is_worst)
 
     @property
     def ratio(self) -> float:
@@ -135,13 +139,12 @@ class LinkedArray:
     @property
     def is_final(self) -> bool:
         """Whether every block comes to rest in every run."""
-        return all(run.is_final for motion in self.motions for run in motion.runs)
+        return all(run.is_final for run in self.runs)
 
     @property
     def farthest(self) -> LinkedRun:
         """The run with the largest PRD of a block, or one without a displacement."""
-        runs = [run for motion in self.motions for run in motion.runs]
-        return max(runs, key=lambda run: nan_is_worst(run.prd_m))
+        return max(self.runs, key=lambda run: nan_is_worst(run.prd_m))
 
     @property
     def rigid_prd_m(self) -> float:
@@ -156,8 +159,7 @@ class LinkedArray:
     @property
     def link_force_n(self) -> float:
         """Largest force in a link in any run [N]."""
-        forces = (run.row.link_force for motion in self.motions for run in motion.runs)
-        return self.block_n * max(forces, key=nan_is_worst)
+        return self.block_n * max((run.row.link_force for run in self.runs), key=nan_is_worst)
 
 
 def assess_linked(

@@ -26,7 +26,6 @@ from report.sheet.reading.read import Sheet
 from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Place
-from report.sheet.schema.scene import Array
 from report.words.counts import lowered, numbered
 from report.words.units import Quantity, number, pair
 from solver.rules import provisions
@@ -131,7 +130,13 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     yield from _requirements(project_rows(data, shaking.prepared))
     yield from _requirements(motion_rows(acceptance, (limits.route for limits in routes)))
     for index, array in enumerate(data.arrays):
-        yield from _of_array(data, rules, index, array)
+        required_n = interconnection_n(data, rules, array)
+        yield from _requirements(rows_before_runs(data, array, required_n))
+        if array.slack_m is None:
+            text = (
+                f"{array.id}, electrical slack: not given; provide at least the design displacement"
+            )
+            yield limit(Place("arrays", index, "slack_m"), f"{text}: {Verdict.CONDITIONS.word}")
 
 
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
@@ -166,14 +171,6 @@ def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
     asked = Basis.LARGEST_FACTORED if basis is None else basis
     least = provisions.minimum_motions(rules, asked)
     return f"{count} motions are given, and the statistic '{asked}' needs {least:.0f} or more"
-
-
-def _of_array(data: ProjectInput, rules: RuleSet, index: int, array: Array) -> Iterator[Finding]:
-    required_n = interconnection_n(data, rules, array)
-    yield from _requirements(rows_before_runs(data, array, required_n))
-    if array.slack_m is None:
-        text = f"{array.id}, electrical slack: not given; provide at least the design displacement"
-        yield limit(Place("arrays", index, "slack_m"), f"{text}: {Verdict.CONDITIONS.word}")
 
 
 def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:

@@ -115,6 +115,7 @@ class Assessment:
     # What many ask for, once; not when it is asked for first: nothing may change while it is sent.
     _rows_by_subject: Mapping[str, Sequence[Requirement]] = field(init=False, compare=False)
     _gaps_by_array: Mapping[str, Sequence[ClearanceCheck]] = field(init=False, compare=False)
+    _verdicts: Mapping[str, Verdict] = field(init=False, compare=False)  # by array
 
     def __post_init__(self) -> None:
         rows = [gap.clearance for gap in self.clearances]
@@ -123,6 +124,8 @@ class Assessment:
         object.__setattr__(self, "_gaps_by_array", gaps)
         rows_by_subject = grouped_by(self.rows, lambda row: row.subject)
         object.__setattr__(self, "_rows_by_subject", rows_by_subject)
+        verdicts = {item.id: self._array_verdict(item) for item in self.arrays}
+        object.__setattr__(self, "_verdicts", verdicts)
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
@@ -144,7 +147,7 @@ class Assessment:
         return worst(
             [
                 *(_verdict(check.ok) for check in self.building_checks),
-                *(self.array_verdict(item) for item in self.arrays),
+                *self._verdicts.values(),
                 *(gap.verdict for gap in self.clearances),
                 *(row.verdict for row in self.rows),
             ]
@@ -155,13 +158,16 @@ class Assessment:
 
         NG beside a clearance without a verdict.
         """
+        return self._verdicts[item.id]
+
+    def _array_verdict(self, item: ArrayAssessment) -> Verdict:
         is_rigid = all(linked.is_rigid_enough for linked in self.linked_of(item))
         gaps = self.gaps_of(item.id)
         has_verdicts = all(gap.is_permitted for gap in gaps)
         return worst(
             [
-                _verdict(not math.isnan(item.design_m) and is_rigid and self.is_sound(item)),
-                _verdict(has_verdicts),
+                _verdict(has_verdicts and is_rigid and self.is_sound(item)),
+                _verdict(not math.isnan(item.design_m)),
                 *(gap.verdict for gap in gaps),
                 *(row.verdict for row in self.rows_of(item.array.id)),
             ]
@@ -178,8 +184,7 @@ class Assessment:
         return (
             item.is_model_enough
             and item.tipping.is_ok
-            and all(check.ok for check in item.limits)
-            and item.is_permitted
+            and item.satisfies_limits
             and all(run.result.status is Status.OK for run in item.runs)
         )
 
@@ -231,11 +236,6 @@ class Assessment:
     def troubled_runs(self) -> Mapping[Status, str]:
         """Runs whose displacement is missing or not final, in words, by their status."""
         return run_warnings(self.arrays, self.project.us_first)
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """Runs whose displacement is missing or not final, in words."""
-        return tuple(self.troubled_runs.values())
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""

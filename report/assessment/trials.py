@@ -98,7 +98,7 @@ class Trials:
         self.array = array
         self._pool = pool
         self._runs = runs
-        self._was_permitted = _is_permitted(array)
+        self._was_permitted = array.satisfies_limits
         self._done: dict[tuple[int, int, bool], ArrayAssessment] = {}
 
     def satisfies(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
@@ -123,7 +123,7 @@ class Trials:
 
     def _passes(self, row: Clearance | None, mu: int, s_ds: int, *, every: bool) -> bool:
         trial = self._tried(mu, s_ds, every=every)
-        if not is_final(trial) or (self._was_permitted and not _is_permitted(trial)):
+        if not is_final(trial) or (self._was_permitted and not trial.satisfies_limits):
             return False
         return row is None or single_array_check(self.given, self._data(s_ds), trial, row).ok
 
@@ -153,7 +153,10 @@ class Trials:
         return tuple(self._pool.map(partial(_first_run, array, share), self.array.motions))
 
     def _data(self, s_ds: int) -> ProjectInput:
-        return with_s_ds(self.given.project, s_ds / 100) if s_ds else self.given.project
+        """Return the input with an S_DS; the seismic design category remains as given."""
+        data = self.given.project
+        site = data.site.model_copy(update={"s_ds_g": s_ds / 100})
+        return data.model_copy(update={"site": site}) if s_ds else data
 
 
 def trials_of(given: Assessment, pool: Executor) -> Mapping[str, Trials]:
@@ -171,16 +174,6 @@ def _other_runs(array: Array, first: MotionRun) -> MotionRun:
     motion, done = first.motion, first.governing
     others = (each for each in motion.orientations if each != done.orientation)
     return motion_run(motion, [done, *(run_oriented(array, motion, each) for each in others)])
-
-
-def with_s_ds(data: ProjectInput, s_ds_g: float) -> ProjectInput:
-    """Return an input with another S_DS [g]; the seismic design category remains as given."""
-    return data.model_copy(update={"site": data.site.model_copy(update={"s_ds_g": s_ds_g})})
-
-
-def _is_permitted(array: ArrayAssessment) -> bool:
-    """Whether an array and its route are permitted."""
-    return array.is_permitted and all(check.ok for check in array.checks)
 
 
 def is_final(array: ArrayAssessment) -> bool:

@@ -328,12 +328,11 @@ def array_result(
         }
         rounds |= {"gap_required_m": least, "gap_provided_m": had}
         marks["gap_required_m"] = gap.mark
-    is_sound = item.is_permitted and all(check.ok for check in item.limits)
     return ArrayResult.of(
         item,
         **near,
         cause=unshown_cause(assessment, item),
-        limits_verdict=Verdict.OK if is_sound else Verdict.NG,
+        limits_verdict=Verdict.OK if item.satisfies_limits else Verdict.NG,
         clause=clause,
         marks=marks,
         keep_clear=distance + keep_clear_mark(assessment, item),

@@ -67,7 +67,10 @@ def answer(
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "verdict": verdict(assessment.verdict, assessment.verdict.value),
-        "verdict_text": None if is_provisional else _rests_on(assessment),
+        # What it rests on; the reasons are listed beside it.
+        "verdict_text": None
+        if is_provisional
+        else sentence(TEMPLATES, "verdict", package_data(assessment), "here"),
         "reasons": [] if is_provisional else _reasons(assessment),
         "arrays": {
             "caption": "Arrays: displacement",
@@ -98,11 +101,6 @@ def _reasons(assessment: Assessment) -> list[dict[str, str]]:
     """Return what needs attention, the causes of NG first."""
     lines = sorted(attention(assessment), key=lambda line: line.level != Consequence.NG)
     return list(map(asdict, lines))
-
-
-def _rests_on(assessment: Assessment) -> str:
-    """Return what the verdict rests on; the reasons are listed beside it."""
-    return sentence(TEMPLATES, "verdict", package_data(assessment), "here")
 
 
 def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:

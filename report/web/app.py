@@ -10,6 +10,7 @@ import mimetypes
 import os
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +78,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             Route("/", _index),
             Route("/api/state", _state),
             Route("/api/example", _example, methods=["POST"]),
-            Route("/api/upload", _upload, methods=["POST"]),
+            Route("/api/upload", partial(_open_new, store=received), methods=["POST"]),
             Route("/api/clearances", _clearances, methods=["POST"]),
             *(Route(f"/api/{name}", _job, methods=["POST"]) for name in _JOBS),
             Route("/api/workbook", workbook, methods=["POST"]),
@@ -124,11 +125,6 @@ async def _state(request: Request) -> Response:
 async def _example(request: Request) -> Response:
     await _open(request, EXAMPLE)
     return JSONResponse(await _whole_state(request, EXAMPLE))
-
-
-async def _upload(request: Request) -> Response:
-    """Open what was sent."""
-    return await _open_new(request, received)
 
 
 async def _clearances(request: Request) -> Response:

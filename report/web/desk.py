@@ -68,8 +68,7 @@ class Desk:
     async def clean(self) -> None:
         """End the sessions that are not used, with their packages."""
         self.sessions.end_unused()
-        for name in self.packages.owners - {session.id for session in self.sessions.alive}:
-            await self.packages.forget(name)
+        await self.packages.keep({session.id for session in self.sessions.alive})
 
     async def ask(
         self,

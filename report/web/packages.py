@@ -10,7 +10,7 @@ import asyncio
 import os
 import secrets
 import shutil
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from enum import StrEnum
@@ -83,24 +83,13 @@ class Package:
         self.words, self.step = words, self.step + 1
 
 
-def started(package: Package) -> Executor:
-    """Start the process that makes a package."""
-    return making(package.workbook.parent, package.begin_step)
-
-
 class Packages:
     """The packages of all sessions."""
 
-    def __init__(self, start: Callable[[Package], Executor] = started) -> None:
-        self._start = start
+    def __init__(self) -> None:
         self._all: dict[str, Package] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._turn = asyncio.Lock()
-
-    @property
-    def owners(self) -> set[str]:
-        """The sessions that have a package."""
-        return {each.owner for each in self._all.values()}
 
     def begin(self, session: Session, workbook: Path, values: Values, task: Task = made) -> Package:
         """Queue the package of a workbook that has a folder of its own, with its records.
@@ -114,9 +103,8 @@ class Packages:
         for old in own[: max(len(own) - KEPT + 1, 0)]:
             del self._all[old.ticket]
             shutil.rmtree(old.workbook.parent, ignore_errors=True)
-        ticket = secrets.token_hex(12)
         package = Package(
-            ticket=ticket,
+            ticket=secrets.token_hex(12),
             owner=session.id,
             opened=session.opened,
             workbook=workbook,
@@ -153,6 +141,7 @@ class Packages:
             "ticket": package.ticket,
             "values": package.values,
             "state": package.state.value,
+            "is_over": package.state.is_over,
             "words": f"In line, place {queued.index(package) + 1}" if is_queued else package.words,
             "part": None if is_queued else package.step / (_STEPS[package.task] + 1),
         }
@@ -171,9 +160,9 @@ class Packages:
             if (package := self.unfinished(session, task)) is not None:
                 await self.cancel(package)
 
-    async def forget(self, owner: str) -> None:
-        """End and forget the packages of a session."""
-        for package in [each for each in self._all.values() if each.owner == owner]:
+    async def keep(self, owners: Collection[str]) -> None:
+        """End and forget the packages of other sessions."""
+        for package in [each for each in self._all.values() if each.owner not in owners]:
             await self.cancel(package)
             del self._all[package.ticket]
 
@@ -198,7 +187,7 @@ class Packages:
 
     async def _problem(self, package: Package) -> str:
         """Have a process make a package; return why there is none, empty if there is."""
-        with self._start(package) as worker:
+        with making(package.workbook.parent, package.begin_step) as worker:
             package.worker = worker
             asked = worker.submit(package.task, package.workbook, package.out)
             try:

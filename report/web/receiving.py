@@ -15,6 +15,7 @@ from starlette.requests import Request
 from starlette.types import Message
 
 from report.web.desk import Asked, session_of
+from report.web.sessions import OtherProjectError
 from report.web.uploads import MB, MOST_FILES, MOST_SENT, remove, store
 from solver.model import InputError
 
@@ -36,8 +37,8 @@ async def receive_json(request: Request) -> Asked:
         asked = Asked.model_validate_json(await capped.body())
     except ValidationError as error:
         raise InputError("the request is not one of the page; load the page again") from error
-    if asked.opened is not None:
-        session_of(request).check_opened(asked.opened)
+    if asked.opened not in (None, session_of(request).opened):
+        raise OtherProjectError
     return asked
 
 

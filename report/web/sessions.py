@@ -8,7 +8,6 @@ from __future__ import annotations
 import secrets
 import shutil
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,7 +38,7 @@ class Session:
     workbook : Path
         What is open: the example, or the last upload that could be read.
     used_s : float
-        When it was last used, on the clock of `Sessions`.
+        When it was last used, on the clock `time.monotonic`.
     openings : int
         How many uploads were begun and projects opened; a newer one replaces an upload under way.
     """
@@ -56,16 +55,6 @@ class Session:
         if self.workbook == EXAMPLE:
             return "example"
         return self.workbook.relative_to(self.folder).parts[0]
-
-    def check_opened(self, name: str) -> None:
-        """Refuse a request of a page that has something else open.
-
-        Raises
-        ------
-        OtherProjectError
-        """
-        if name != self.opened:
-            raise OtherProjectError
 
     def new_folder(self) -> Path:
         """Return an empty folder for an upload."""
@@ -89,22 +78,20 @@ class Session:
 class Sessions:
     """The sessions of a server, in a folder that ends with it."""
 
-    def __init__(
-        self, folder: Path, clock: Callable[[], float] = time.monotonic, most: int = MOST
-    ) -> None:
-        self.folder, self._clock, self._most = folder, clock, most
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
         self._by_id: dict[str, Session] = {}
 
     def begin(self) -> Session:
         """Begin a session; where there are too many, the one unused for longest ends."""
         self.end_unused()
-        if len(self._by_id) >= self._most:
+        if len(self._by_id) >= MOST:
             self.end(min(self._by_id.values(), key=lambda session: session.used_s))
         name = secrets.token_urlsafe(32)
         # Its name in the file system is another one: a listing opens no session.
         folder = self.folder / secrets.token_hex(16)
         folder.mkdir(mode=0o700)
-        session = Session(id=name, folder=folder, used_s=self._clock())
+        session = Session(id=name, folder=folder, used_s=time.monotonic())
         self._by_id[name] = session
         return session
 
@@ -113,7 +100,7 @@ class Sessions:
         session = self._by_id.get(name)
         if session is None or self._is_over(session):
             return None
-        session.used_s = self._clock()
+        session.used_s = time.monotonic()
         return session
 
     def end_unused(self) -> None:
@@ -132,4 +119,4 @@ class Sessions:
         return list(self._by_id.values())
 
     def _is_over(self, session: Session) -> bool:
-        return self._clock() - session.used_s > LIFE_S
+        return time.monotonic() - session.used_s > LIFE_S

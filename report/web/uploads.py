@@ -33,15 +33,13 @@ _ENCRYPTED = 0x1
 File = tuple[str, IO[bytes]]
 
 
-def store(files: Sequence[File], folder: Path, maximum_bytes: int = MOST_STORED) -> Path:
+def store(files: Sequence[File], folder: Path) -> Path:
     """Store what was sent in an empty folder, and return the workbook among it.
 
     Parameters
     ----------
     files : sequence of (str, binary file)
         Each with its relative path; one of them may be a zip, which is then the only one.
-    maximum_bytes : int
-        Of all files as they are stored.
 
     Raises
     ------
@@ -53,7 +51,7 @@ def store(files: Sequence[File], folder: Path, maximum_bytes: int = MOST_STORED)
     zips = [item for item in files if item[0].lower().endswith(".zip")]
     if zips and len(files) > 1:
         raise InputError("a zip was sent with other files; drop the zip alone, or the files alone")
-    room = _Room(folder, maximum_bytes)
+    room = _Room(folder)
     if zips:
         with _opened(zips[0][1]) as archive:
             _unpack(archive, room)
@@ -73,16 +71,15 @@ def unpack(zipped: Path, folder: Path) -> None:
     if zipped.stat().st_size > MOST_SENT:
         raise InputError(f"more than {MOST_SENT / MB:g} MB; give fewer records")
     with zipped.open("rb") as content, _opened(content) as archive:
-        _unpack(archive, _Room(folder, MOST_STORED))
+        _unpack(archive, _Room(folder))
 
 
 class _Room:
     """A folder while it is filled: its names without regard to capitals, and its bytes."""
 
-    def __init__(self, folder: Path, maximum_bytes: int) -> None:
-        self._folder, self._maximum_bytes = folder, maximum_bytes
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._left = folder, MOST_STORED
         self._spelled: dict[str, str] = {}
-        self._left = maximum_bytes
         self.paths: list[Path] = []
 
     def take(self, name: str, content: IO[bytes]) -> None:
@@ -101,9 +98,7 @@ class _Room:
                 while chunk := content.read(_CHUNK):
                     self._left -= len(chunk)
                     if self._left < 0:
-                        raise InputError(
-                            f"more than {self._maximum_bytes // MB} MB; drop fewer records"
-                        )
+                        raise InputError(f"more than {MOST_STORED // MB} MB; drop fewer records")
                     out.write(chunk)
         except (FileExistsError, NotADirectoryError, IsADirectoryError) as error:
             raise InputError(f"{name}: a file and a folder of one name; rename one") from error

@@ -25,7 +25,7 @@ from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_deca
 from report.typeset.pdf import TEMPLATES
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
-from report.web.thinning import Indices, beside, peaks_kept
+from report.web.thinning import beside, peaks_kept
 from report.words.units import G_MPS2, Unit, number
 from solver.model import INCH_M, Floats, InputError, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
@@ -240,8 +240,8 @@ def _track(history: SlideHistory, roof: Sequence[Record], dt_s: float) -> Json:
     nothing = np.zeros(len(history.t_s))
     return {
         "i": at.tolist(),
-        "roof_m": [_at(values, at) for values in (*horizontal, nothing)[:2]],
-        "relative_m": [_at(values, at) for values in (*relative, nothing)[:2]],
+        "roof_m": [_numbers(values[at]) for values in (*horizontal, nothing)[:2]],
+        "relative_m": [_numbers(values[at]) for values in (*relative, nothing)[:2]],
     }
 
 
@@ -355,38 +355,29 @@ def _path(motion: MotionRun, fmt: UnitFormat) -> Json:
     """Return a path, to the right and up the page, as in the package."""
     run, history = motion.governing, motion.history()
     name = f"{motion.motion.id} {_orientation(motion, run)}"
-    prd = _prd(history.result.prd_m, fmt.both)
-    path: Json = {
-        "name": name,
-        "prd": prd,
-        "title": f"Path under {name}, {prd}",
-        "dt_s": run.scene.dt_s,
-        "i": [],
-        "x_m": [],
-        "y_m": [],
-        "peak": None,
-    }
-    if math.isnan(history.result.prd_m):
-        return path
+    prd_m = history.result.prd_m
+    prd = _prd(prd_m, fmt.both)
     # Cross-slope displacement is positive to the left when facing downslope, which is down here.
     x = history.across_m if history.across_m.size else np.zeros(len(history.u_m))
     y = -history.u_m
     top = int(np.argmax(np.hypot(x, y)))
     at = np.unique([*peaks_kept(x, MOST_ON_PATH), *peaks_kept(y, MOST_ON_PATH), top])
-    return path | {
+    if is_lost := math.isnan(prd_m):
+        at = at[:0]
+    return {
+        "name": name,
+        "prd": prd,
+        "title": f"Path under {name}, {prd}",
+        "dt_s": run.scene.dt_s,
         "i": at.tolist(),
-        "x_m": _at(x, at),
-        "y_m": _at(y, at),
-        "peak": {"x_m": float(x[top]), "y_m": float(y[top])},
+        "x_m": _numbers(x[at]),
+        "y_m": _numbers(y[at]),
+        "peak": None if is_lost else {"x_m": float(x[top]), "y_m": float(y[top])},
     }
 
 
 def _history(name: str, values: Floats) -> Json:
     return {"name": name, "v": _numbers(values)}
-
-
-def _at(values: Floats, at: Indices) -> list[float | None]:
-    return _numbers(values[at])
 
 
 def _numbers(values: Floats) -> list[float | None]:

@@ -62,13 +62,8 @@ class _Waiting:
 class Workers:
     """The processes, and the jobs that wait for one."""
 
-    def __init__(
-        self,
-        number: int,
-        start: Callable[[bool], WorkerProcess],
-        longest_s: float = LONGEST_S,
-    ) -> None:
-        self._number, self._start, self._longest_s = number, start, longest_s
+    def __init__(self, number: int, start: Callable[[bool], WorkerProcess]) -> None:
+        self._number, self._start = number, start
         self._waiting: list[_Waiting] = []
         self._arrived = asyncio.Condition()
         self._orders = count()
@@ -141,7 +136,7 @@ class Workers:
             waiting = await self._next(is_quick)
             waiting.tries += 1
             try:
-                found = await _done(worker, answered, waiting.job, self._longest_s)
+                found = await _done(worker, answered, waiting.job, LONGEST_S)
             except LostError as error:
                 if waiting.tries < _TRIES and not error.args:
                     await self._queue(waiting)

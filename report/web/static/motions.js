@@ -1,7 +1,7 @@
 // Offers motions for a workbook that has none: they are made for its site, and the page goes on with them.
 
 import { button, html, note, replace, words } from "./make.js";
-import { follow, isOver, say, showProgress } from "./package.js";
+import { follow, say, showProgress } from "./package.js";
 
 const BASIS = "Their target is AC156 with S_DS, z/h and the rule set of the sheet Site.";
 
@@ -14,7 +14,7 @@ export function mountMotions(element, api, { open, fail }) {
     const mine = turn;
     const begun = await api.startMotions(files);
     const cancel = () => api.cancelPackage(begun.ticket).catch(fail);
-    const show = (told) => isOver(told) || showProgress(element, api, told, cancel);
+    const show = (told) => told.is_over || showProgress(element, api, told, cancel);
     const isWanted = () => mine === turn;
     const made = await follow(api, begun, { isWanted, show }).catch((error) => ({ words: error.message }));
     if (!isWanted()) return;

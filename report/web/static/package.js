@@ -81,7 +81,7 @@ export async function follow(api, told, { isWanted, show }) {
   let latest = told;
   while (isWanted()) {
     show(latest);
-    if (isOver(latest)) break;
+    if (latest.is_over) break;
     await new Promise((done) => {
       setTimeout(done, POLL_MS);
     });
@@ -92,7 +92,7 @@ export async function follow(api, told, { isWanted, show }) {
 
 // How far a package is, its files, or what became of it.
 function showPackage(status, api, told, { cancel, keepsFocus }) {
-  if (!isOver(told)) {
+  if (!told.is_over) {
     showProgress(status, api, told, cancel);
     if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
   } else if (told.state === "done") {
@@ -110,10 +110,6 @@ function noteValues(status, words) {
   if (!shown) return;
   const when = status.querySelector(".made") ? "Made" : "Started";
   shown.textContent = words && `${when} before the last change of values, with ${words}.`;
-}
-
-export function isOver({ state }) {
-  return state !== "queued" && state !== "running";
 }
 
 /** Show how far a package is; the elements stay while it is made, so that Cancel keeps the focus. */

@@ -67,7 +67,7 @@ function slider(item, values, session) {
     output,
     html("div", { class: "range" }, input, typedMark(item)),
     stop,
-    item.help ? html("p", { class: "note", id: `${id}-help` }, item.help) : null,
+    item.help ? html("p", { class: "visually-hidden", id: `${id}-help` }, item.help) : null,
   );
   return { id: item.id, field, say };
 }

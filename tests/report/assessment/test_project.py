@@ -153,7 +153,10 @@ def test_uplift_withholds_the_displacement_and_fails_every_clearance():
     assert item.governs == "none"
     assert not any(gap.ok for gap in done.clearances)
     assert not done.verdict.is_permitted
-    assert any("normal force falls below zero" in line and "(at " in line for line in done.warnings)
+    assert any(
+        "normal force falls below zero" in line and "(at " in line
+        for line in done.troubled_runs.values()
+    )
 
 
 @pytest.mark.parametrize("status", [one for one in Status if one is not Status.OK])
@@ -205,7 +208,7 @@ def test_the_prescriptive_route_takes_no_less_than_a_computed_displacement():
 def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
     cut = [stand_in.motion(f"CUT{k}", CUT, signs=(1,)) for k in range(11)]
     arrays = [stand_in.array("A1", 0.0), stand_in.array("A2", 0.0, x=120)]
-    (line,) = alone(cut, arrays=arrays).warnings
+    (line,) = alone(cut, arrays=arrays).troubled_runs.values()
     # From rest, (12 - 0.45 g) m/s2 over 99 whole intervals of 0.01 s, and half the first.
     speed = (12.0 - 0.45 * 9.80665) * 0.99
     found = re.fullmatch(

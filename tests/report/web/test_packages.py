@@ -32,10 +32,12 @@ class Making(SameProcess):
             self.result.set_exception(DefectError("ended"))
 
 
-def test_a_package_that_is_canceled_while_it_is_made_leaves_no_process():
+def test_a_package_that_is_canceled_while_it_is_made_leaves_no_process(monkeypatch):
+    process = Making()
+    monkeypatch.setattr("report.web.packages.making", lambda *_: process)
+
     async def run():
-        process = Making()
-        packages = Packages(lambda _: process)
+        packages = Packages()
         package = packages.begin(SESSION, Path("/nowhere/p/input.xlsx"), {})
         async with asyncio.timeout(20.0):
             while package.worker is None:
@@ -74,15 +76,17 @@ def test_a_full_disk_is_the_reason_that_a_package_failed(fails, capsys, monkeypa
     assert capsys.readouterr().err == ""
 
 
-def test_the_last_five_packages_of_a_session_are_kept():
+def test_the_last_five_packages_of_a_session_are_kept(monkeypatch):
     class AtOnce(SameProcess):
         """A process that makes a package at once."""
 
         def submit(self, fn, *args):
             return super().submit(str)
 
+    monkeypatch.setattr("report.web.packages.making", lambda *_: AtOnce())
+
     async def run():
-        packages = Packages(lambda _: AtOnce())
+        packages = Packages()
         found = []
         for k in range(7):
             found.append(packages.begin(SESSION, Path(f"/nowhere/{k}/input.xlsx"), {}))

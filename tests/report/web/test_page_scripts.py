@@ -216,7 +216,7 @@ TAKEAWAY = """
     const [make, workbook, copy, status] = document.body.children;
     let values = { friction: 0.9 };
     let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values };
-    const canceled = { state: "canceled", words: "The package was canceled." };
+    const canceled = { state: "canceled", is_over: true, words: "The package was canceled." };
     const failed = [], asked = [];
     const api = {
       announce() {},
@@ -247,7 +247,7 @@ def test_a_package_names_what_it_is_made_with_wherever_the_page_has_other_values
         const notes = [note()];
         values = { friction: 0.8 }; takeaway.compare();
         notes.push(note());
-        state = { ...state, state: "done" }; await has(".made");
+        state = { ...state, state: "done", is_over: true }; await has(".made");
         notes.push(note());
         values = { friction: 0.9 }; takeaway.compare();
         return [...notes, note()];"""
@@ -283,7 +283,7 @@ def test_a_package_is_found_on_loading_and_gone_with_its_project(page):
         const seen = [make.disabled, document.activeElement === document.body];
         takeaway.open(null);
         seen.push(make.disabled, status.textContent.slice(0, 11));
-        takeaway.open({ ...state, state: "done" }); await has(".made");
+        takeaway.open({ ...state, state: "done", is_over: true }); await has(".made");
         return [...seen, make.disabled, status.querySelectorAll("a").length];"""
     assert takeaway(page, steps) == [True, True, False, "The package", False, 4]
 
@@ -435,7 +435,7 @@ MOTIONS = """
       announce() {},
       startMotions: async (files) => (sent.push(files), state),
       packageState: async () => state,
-      cancelPackage: async () => (state = { ...state, state: "canceled", words: "Canceled." }),
+      cancelPackage: async () => (state = { ...state, state: "canceled", is_over: true, words: "Canceled." }),
       project: async (url) => ({ name: "project.zip", blob: url }),
       upload: async (files) => (opened.push(files), {}),
     };
@@ -456,7 +456,7 @@ MOTIONS = """
 
 def test_motions_that_are_made_are_opened_and_can_be_saved(page):
     steps = """
-        state = { ...state, state: "done" };
+        state = { ...state, state: "done", is_over: true };
         const link = await until("a");
         motions.offer(null); isHidden.push(element.hidden);
         return [isHidden, sent, opened, link.getAttribute("href"), failed];"""

@@ -11,9 +11,10 @@ class Clock:
         return self.now
 
 
-def test_a_session_ends_an_hour_after_its_last_use_with_its_folder(tmp_path):
+def test_a_session_ends_an_hour_after_its_last_use_with_its_folder(tmp_path, monkeypatch):
     clock = Clock()
-    all_ = Sessions(tmp_path, clock)
+    monkeypatch.setattr("time.monotonic", clock)
+    all_ = Sessions(tmp_path)
     used, unused = all_.begin(), all_.begin()
     (unused.new_folder() / "input.xlsx").write_bytes(b"x")
     clock.now = LIFE_S
@@ -34,9 +35,11 @@ def test_the_folder_of_a_session_does_not_tell_its_name(tmp_path):
     assert session.folder.stat().st_mode & 0o077 == 0
 
 
-def test_where_there_are_too_many_the_one_unused_for_longest_ends(tmp_path):
+def test_where_there_are_too_many_the_one_unused_for_longest_ends(tmp_path, monkeypatch):
     clock = Clock()
-    all_ = Sessions(tmp_path, clock, most=2)
+    monkeypatch.setattr("time.monotonic", clock)
+    monkeypatch.setattr(sessions, "MOST", 2)
+    all_ = Sessions(tmp_path)
     first, second = all_.begin(), all_.begin()
     clock.now = 1.0
     all_.find(first.id)

@@ -38,12 +38,12 @@ def processes():
     return {child.pid for child in active_children()}
 
 
-def done(number, script, first=None, **options):
+def done(number, script, first=None):
     """Run a script with so many processes, which are all ended after it."""
     others = processes()
 
     async def run():
-        pool = Workers(number, echoing, **options)
+        pool = Workers(number, echoing)
         pool.start(first or {})
         try:
             return await asyncio.wait_for(script(pool), 60.0)
@@ -177,23 +177,26 @@ def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost():
     assert (again, left) == ("after it", set())
 
 
-def test_a_job_that_takes_too_long_is_stopped_and_says_so():
+def test_a_job_that_takes_too_long_is_stopped_and_says_so(monkeypatch):
+    monkeypatch.setattr("report.web.workers.LONGEST_S", 0.3)
+
     async def script(pool):
         (lost,) = await gathered(ask(pool, "slow", seconds=30))
         return lost, (await ask(pool, "quick", number=2))["name"]
 
-    lost, quick = done(1, script, longest_s=0.3)
+    lost, quick = done(1, script)
     assert str(lost) == "This took longer than 0 s and was stopped."
     assert quick == "quick"
 
 
-def test_the_first_job_of_a_process_may_take_longer():
+def test_the_first_job_of_a_process_may_take_longer(monkeypatch):
     """Where the solver is not compiled yet it takes minutes; ended before, it would never start."""
+    monkeypatch.setattr("report.web.workers.LONGEST_S", 1.0)
 
     async def script(pool):
         return (await ask(pool, "after it"))["name"]
 
-    assert done(1, script, first={"seconds": 1.5}, longest_s=1.0) == "after it"
+    assert done(1, script, first={"seconds": 1.5}) == "after it"
 
 
 def test_an_answer_is_a_line_whatever_is_in_it():
