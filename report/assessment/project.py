@@ -47,7 +47,7 @@ from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
 from report.motions.prepare import Shaking
-from report.motions.targets import Targets, ac156, targets
+from report.motions.targets import Targets, targets
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
@@ -56,7 +56,6 @@ from solver.model import Motion, Status
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Limit
 from solver.rules.provisions import RuleSet
-from solver.rules.spectra import RequiredSpectrum
 
 THREADS = 2
 
@@ -74,8 +73,6 @@ class Assessment:
     project : ProjectInput
         As assessed: that of the sheet, except for runs with changed friction.
     rules : RuleSet
-    horizontal_target, vertical_target : RequiredSpectrum
-        AC156 at the roof.
     targets : Targets
         Target spectra of the motions: AC156 or project-specific.
     building_checks : tuple of Limit
@@ -100,8 +97,6 @@ class Assessment:
     shaking: Shaking
     project: ProjectInput
     rules: RuleSet
-    horizontal_target: RequiredSpectrum
-    vertical_target: RequiredSpectrum
     targets: Targets
     building_checks: tuple[Limit, ...]
     arrays: tuple[ArrayAssessment, ...]
@@ -348,18 +343,14 @@ def _assess(
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
     reduced, slower = reduced_friction() if reduced_friction else None, NOT_BY_VELOCITY
     if slow:
-        qualify = acceptance.qualifies
-        slower = low_velocity(data, rules, arrays, slow, motions_qualify=qualify)
+        slower = low_velocity(data, rules, arrays, slow, motions_qualify=acceptance.qualifies)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
-    horizontal, vertical = ac156(data)
     return Assessment(
         sheet=sheet,
         shaking=shaking,
         project=data,
         rules=rules,
-        horizontal_target=horizontal,
-        vertical_target=vertical,
         targets=targets(data),
         building_checks=building_limits(data, rules),
         arrays=arrays,
