@@ -273,6 +273,8 @@ def limits_of(
     prescriptive = provisions.prescriptive_checks(
         rules, slope_rad=array.slope_rad, mu=array.minimum_mu
     )
+    by_analysis = has_value and all(check.ok for check in analysis)
+    by_prescription = all(check.ok for check in prescriptive)
     return RouteLimits(
         checks=provisions.array_checks(
             rules,
@@ -283,7 +285,8 @@ def limits_of(
         ),
         analysis_checks=analysis,
         prescriptive_checks=prescriptive,
-        route=_route(has_value, analysis, prescriptive),
+        # By analysis, unless that alone is not permitted.
+        route=Route.PRESCRIPTIVE if by_prescription and not by_analysis else Route.ANALYSIS,
     )
 
 
@@ -379,13 +382,6 @@ def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
     # Both ratios of the check rise with the friction that a run demands.
     worst = max(runs, key=lambda run: run.solution.friction_demand)
     return tipping_at(worst.solution.friction_demand, worst.scene.friction, supports)
-
-
-def _route(has_value: bool, analysis: Sequence[Limit], prescriptive: Sequence[Limit]) -> Route:
-    """Return the analysis route, unless it alone is not permitted."""
-    by_analysis = has_value and all(check.ok for check in analysis)
-    by_prescription = all(check.ok for check in prescriptive)
-    return Route.PRESCRIPTIVE if by_prescription and not by_analysis else Route.ANALYSIS
 
 
 def _design_m(

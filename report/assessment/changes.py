@@ -40,13 +40,13 @@ class Changes:
     """Everything that changed since a former revision."""
 
     # of the former package
-    revision: str
-    date: str
-    items: tuple[Change, ...]
-    arrays: frozenset[str]  # ids of arrays with another result
+    revision: str = ""
+    date: str = ""
+    items: tuple[Change, ...] = ()
+    arrays: frozenset[str] = frozenset()  # ids of arrays with another result
     # array and key of results.json, or array and motion, whose number changed
-    values: frozenset[tuple[str, str]]
-    clearances: frozenset[int]  # numbers of the clearances that changed, from 1
+    values: frozenset[tuple[str, str]] = frozenset()
+    clearances: frozenset[int] = frozenset()  # numbers of the clearances that changed, from 1
 
     @property
     def is_asked_for(self) -> bool:
@@ -63,12 +63,5 @@ class Changes:
         return sum(item.kind is kind for item in self.items)
 
 
-NO_FORMER = Changes(
-    revision="",
-    date="",
-    items=(),
-    arrays=frozenset(),
-    values=frozenset(),
-    clearances=frozenset(),
-)
+NO_FORMER = Changes()
 """Of a package that is compared with none."""

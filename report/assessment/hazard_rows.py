@@ -28,30 +28,28 @@ def _is_studied(site: Site) -> bool:
 
 def _source(site: Site) -> Requirement:
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
-    if _is_studied(site):
-        found, is_complete = stated((source, ("report number", site.hazard_report), date))
-        title, limit = (
-            "Report on the site-specific hazard analysis",
-            "source, report number and date",
-        )
-        basis = site.edition.clause("site_specific")
-        remedy = "Obtain the report, and state its author, number and date on the sheet Site."
-    else:
+    if not _is_studied(site):
         found, is_complete = stated((source, date))
-        title, limit = "Source and date of the seismic parameters", "source and date"
-        basis = "seismic parameters"
-        remedy = (
-            "State on the sheet Site which tool or report the values are from, and when they were "
-            "read."
+        return condition(
+            id="hazard_source",
+            title="Source and date of the seismic parameters",
+            found=found,
+            limit="source and date",
+            basis="seismic parameters",
+            is_satisfied=is_complete,
+            remedy="State on the sheet Site which tool or report the values are from, and when "
+            "they were read.",
+            place=Place("site", 0, "hazard_source"),
         )
+    found, is_complete = stated((source, ("report number", site.hazard_report), date))
     return condition(
         id="hazard_source",
-        title=title,
+        title="Report on the site-specific hazard analysis",
         found=found,
-        limit=limit,
-        basis=basis,
+        limit="source, report number and date",
+        basis=site.edition.clause("site_specific"),
         is_satisfied=is_complete,
-        remedy=remedy,
+        remedy="Obtain the report, and state its author, number and date on the sheet Site.",
         place=Place("site", 0, "hazard_source"),
     )
 

@@ -141,7 +141,7 @@ class Assessment:
         """Verdict on the project: the worst of its limits, arrays, clearances and rows."""
         return worst(
             [
-                *(_verdict(check.ok) for check in self.building_checks),
+                *(self.limit_verdict(check) for check in self.building_checks),
                 *self._verdicts.values(),
                 *(gap.verdict for gap in self.clearances),
                 *(row.verdict for row in self.rows),
@@ -158,11 +158,11 @@ class Assessment:
     def _array_verdict(self, item: ArrayAssessment) -> Verdict:
         is_rigid = all(linked.is_rigid_enough for linked in self.linked_of(item))
         gaps = self.gaps_of(item.id)
-        has_verdicts = all(gap.is_permitted for gap in gaps)
+        has_verdicts = not math.isnan(item.design_m) and all(gap.is_permitted for gap in gaps)
+        is_ok = has_verdicts and is_rigid and self.is_sound(item)
         return worst(
             [
-                _verdict(has_verdicts and is_rigid and self.is_sound(item)),
-                _verdict(not math.isnan(item.design_m)),
+                Verdict.OK if is_ok else Verdict.NG,
                 *(gap.verdict for gap in gaps),
                 *(row.verdict for row in self.rows_of(item.array.id)),
             ]
@@ -231,6 +231,11 @@ class Assessment:
     def troubled_runs(self) -> Mapping[Status, str]:
         """Runs whose displacement is missing or not final, in words, by their status."""
         return run_warnings(self.arrays, self.project.us_first)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Runs whose displacement is missing or not final, in words."""
+        return tuple(self.troubled_runs.values())
 
     def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
         """Return the clearance of an array, from either side, with the largest D/C, if any."""
@@ -384,7 +389,3 @@ def _plan_pairs(
         return minimum_gap(data, rules, arrays, near)
 
     return plan_pairs(data, reaches_of(arrays), sheet.addresses, required)
-
-
-def _verdict(is_ok: bool) -> Verdict:
-    return Verdict.OK if is_ok else Verdict.NG

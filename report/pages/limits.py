@@ -43,7 +43,7 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
     """Return everything that prevents an OK, except clearances, by kind; nothing if all is OK."""
     arrays, is_refused = package.assessment.arrays, bool(_motion_faults(package))
     found: Mapping[str, Sequence[object]] = {
-        "warnings": tuple(package.assessment.troubled_runs.values()),
+        "warnings": package.assessment.warnings,
         "few": [array for array in arrays if array.analysis.basis is Basis.TOO_FEW],
         "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
         "models": tuple(model_troubles(package)),

@@ -30,8 +30,6 @@ from report.web.tables import Cell, ShowVerdict, cells, heads, stamp
 from report.words.units import compared
 from solver.rules.limit import Consequence
 
-ONE_AXIS, FULL = "one axis", "full"
-
 _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
 _CLEARANCE = "count array provided_m required_m demand_capacity verdict"
 
@@ -63,7 +61,6 @@ def answer(
         return None if is_provisional else stamp(found, text)
 
     return {
-        "model": ONE_AXIS if is_provisional else FULL,
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "verdict": verdict(assessment.verdict, assessment.verdict.value),

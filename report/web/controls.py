@@ -18,7 +18,7 @@ from report.sheet.schema.choices import Polarity, RuleSetName
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array
 from report.web.opened import Opened
-from report.web.values import MUS, Values, trim_unit_m, typed
+from report.web.values import MUS, Values, typed
 from report.words.counts import ids_by, ranged
 from report.words.letters import cut
 from report.words.units import Quantity, number, pair
@@ -94,7 +94,7 @@ def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
                   "Factor on all motions, and on S_DS where both change together.")  # fmt: skip
     yield _slider("s_ds", "S_DS", "×", (_LEAST, _MOST, 0.02), 1.0,
                   "Factor on S_DS alone.") | {"with_choice": {"together": "no"}}  # fmt: skip
-    is_us = trim_unit_m(sheet) > 0.01
+    is_us = sheet.project.us_first
     yield _slider("clearance", "Clearance", "in" if is_us else "mm", _TRIM[is_us], 0.0,
                   "Every side of every rectangular array moves inward by this much; the "
                   "clearances follow the plan.")  # fmt: skip

@@ -16,6 +16,7 @@ from report.sheet.schema.fields import Place
 from report.sheet.schema.links import coefficients
 from report.sheet.schema.scene import SIDES, Array, slope_rad
 from report.sheet.schema.shapes import Rectangle, Shape, gap_m
+from solver.model import INCH_M
 from solver.rules.hazard import EDITIONS
 
 Values = Mapping[str, float | str]
@@ -48,14 +49,10 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
         changed |= dict(_s_ds(sheet, factors["s_ds"]))
     if factors["intensity"] != 1.0 or factors["s_ds"] != 1.0:
         changed |= dict(_intensity(sheet, scales, factors["intensity"]))
-    if trim_m := float(values.get("clearance", 0.0)) * trim_unit_m(sheet):
+    trim_unit_m = INCH_M if sheet.project.us_first else 0.001
+    if trim_m := float(values.get("clearance", 0.0)) * trim_unit_m:
         changed |= dict(_trim(sheet, trim_m))
     return changed | dict(_polarity(sheet, values)) | dict(_rule_set(sheet, values))
-
-
-def trim_unit_m(sheet: Sheet) -> float:
-    """Return the unit [m] in which arrays are trimmed: an inch, or a millimeter."""
-    return 0.0254 if sheet.project.us_first else 0.001
 
 
 def _given(sheet: Sheet, section: str, fields: tuple[str, ...]) -> Iterator[tuple[Place, float]]:

@@ -208,7 +208,7 @@ def test_the_prescriptive_route_takes_no_less_than_a_computed_displacement():
 def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
     cut = [stand_in.motion(f"CUT{k}", CUT, signs=(1,)) for k in range(11)]
     arrays = [stand_in.array("A1", 0.0), stand_in.array("A2", 0.0, x=120)]
-    (line,) = alone(cut, arrays=arrays).troubled_runs.values()
+    (line,) = alone(cut, arrays=arrays).warnings
     # From rest, (12 - 0.45 g) m/s2 over 99 whole intervals of 0.01 s, and half the first.
     speed = (12.0 - 0.45 * 9.80665) * 0.99
     found = re.fullmatch(

@@ -63,7 +63,7 @@ def test_a_first_visit_shows_the_example_with_its_answer(client):
     assert state["problems"] == []
     assert state["answer"]["verdict"]["text"] == "OK with conditions"
     assert "conditions listed here must be met" in state["answer"]["verdict_text"]
-    assert state["answer"]["model"] == "full"
+    assert state["answer"]["model_text"].startswith("Full model")
     rows = state["answer"]["arrays"]["rows"]
     assert [cells[0]["text"] for cells in rows] == state["views"]["arrays"]
 
@@ -97,7 +97,8 @@ def test_values_that_no_page_sends_are_refused(client, values, sentence):
 
 def test_values_of_a_slider_that_moves_are_provisional_and_carry_no_verdict(client):
     found = asked(client, {"friction": 0.95}, moving=True).json()
-    assert (found["model"], found["reasons"]) == ("one axis", [])
+    assert found["model_text"].startswith("Provisional: each motion in one axis")
+    assert found["reasons"] == []
     verdicts = [item["verdict"] for item in (found, *found["plan"]["described"])]
     verdicts += [cells[-1] for name in ("arrays", "clearances") for cells in found[name]["rows"]]
     assert set(verdicts) == {None}

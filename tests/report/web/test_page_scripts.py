@@ -430,12 +430,13 @@ MOTIONS = """
     document.body.innerHTML = "<div hidden></div>";
     const [element] = document.body.children;
     let state = { ticket: "t", state: "running", words: "Motion 1 of 7", part: 0.2 };
+    const canceled = { state: "canceled", is_over: true, words: "Canceled." };
     const sent = [], failed = [], opened = [];
     const api = {
       announce() {},
       startMotions: async (files) => (sent.push(files), state),
       packageState: async () => state,
-      cancelPackage: async () => (state = { ...state, state: "canceled", is_over: true, words: "Canceled." }),
+      cancelPackage: async () => (state = { ...state, ...canceled }),
       project: async (url) => ({ name: "project.zip", blob: url }),
       upload: async (files) => (opened.push(files), {}),
     };
