@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import StrEnum
 
 from report.assessment.overrides import OVERRIDDEN, as_adopted, mark_of
@@ -344,16 +344,13 @@ def assess_array(
         needed=needed,
         prescriptive=prescriptive,
         floor_m=floor_m,
-        route=limits.route,
+        **{each.name: getattr(limits, each.name) for each in fields(limits)},
         is_permitted=(motions_qualify or limits.route is Route.PRESCRIPTIVE)
         and all(check.ok for check in limits.of_route),
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),
         uplift=min((motion.uplift for motion in runs), key=lambda found: found.n_min_g),
-        checks=limits.checks,
-        analysis_checks=limits.analysis_checks,
-        prescriptive_checks=limits.prescriptive_checks,
         interconnection_n=interconnection_n(data, rules, array),
         # The input itself, if it has no override and no departure.
         adopted=None

@@ -38,7 +38,6 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     if verdict is not Verdict.NG:
         return of_rows
     statuses = {run.result.status for run in item.runs}
-    is_rigid = all(linked.is_rigid_enough for linked in assessment.linked_of(item))
     on_motions = item.governs is not item.governs.PRESCRIPTIVE
     return [
         # Up to its colon a sentence says what happened, and after it what follows.
@@ -47,7 +46,7 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
         *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
         *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
-        *([] if is_rigid else ["one rigid block"]),
+        *([] if assessment.is_rigid_enough(item) else ["one rigid block"]),
         *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
         *of_rows,
     ]

@@ -156,10 +156,9 @@ class Assessment:
         return self._verdicts[item.id]
 
     def _array_verdict(self, item: ArrayAssessment) -> Verdict:
-        is_rigid = all(linked.is_rigid_enough for linked in self.linked_of(item))
         gaps = self.gaps_of(item.id)
         has_verdicts = not math.isnan(item.design_m) and all(gap.is_permitted for gap in gaps)
-        is_ok = has_verdicts and is_rigid and self.is_sound(item)
+        is_ok = has_verdicts and self.is_rigid_enough(item) and self.is_sound(item)
         return worst(
             [
                 Verdict.OK if is_ok else Verdict.NG,
@@ -219,9 +218,9 @@ class Assessment:
         """Return the rows about an array or a motion."""
         return self._rows_by_subject.get(subject, ())
 
-    def linked_of(self, array: ArrayAssessment) -> Sequence[LinkedArray]:
-        """Return an array as a row of linked blocks, where the workbook requests it."""
-        return [linked for linked in self.linked if linked.design.id == array.id]
+    def is_rigid_enough(self, item: ArrayAssessment) -> bool:
+        """Whether one rigid block is adequate for an array, where the workbook asks."""
+        return all(row.is_rigid_enough for row in self.linked if row.design.id == item.id)
 
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""

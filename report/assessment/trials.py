@@ -98,7 +98,6 @@ class Trials:
         self.array = array
         self._pool = pool
         self._runs = runs
-        self._was_permitted = array.satisfies_limits
         self._done: dict[tuple[int, int, bool], ArrayAssessment] = {}
 
     def satisfies(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
@@ -123,7 +122,7 @@ class Trials:
 
     def _passes(self, row: Clearance | None, mu: int, s_ds: int, *, every: bool) -> bool:
         trial = self._tried(mu, s_ds, every=every)
-        if not is_final(trial) or (self._was_permitted and not trial.satisfies_limits):
+        if not is_final(trial) or (self.array.satisfies_limits and not trial.satisfies_limits):
             return False
         return row is None or single_array_check(self.given, self._data(s_ds), trial, row).ok
 

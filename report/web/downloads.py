@@ -16,20 +16,12 @@ from starlette.routing import Route
 
 from report.making import OUTPUTS
 from report.web.desk import RefusedError, desk_of, session_of
-from report.web.packages import Package, State, copied
+from report.web.packages import TYPES, Package, State, copied
 from report.web.receiving import receive_json, received
 from report.web.uploads import remove
 from report.web.worker import PROJECT, motions_made
 from report.web.workers import Rank
 from solver.model import InputError
-
-_TYPES = {
-    ".pdf": "application/pdf",
-    ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
-    ".json": "application/json",
-    ".dxf": "image/vnd.dxf",
-    ".zip": "application/zip",
-}
 
 
 def package_routes() -> list[Route]:
@@ -52,7 +44,7 @@ async def workbook(request: Request) -> Response:
         data = await run_in_threadpool(path.read_bytes)
     finally:
         await run_in_threadpool(path.unlink, missing_ok=True)
-    return _attached(Response(data, media_type=_TYPES[".xlsx"]), session.workbook.name)
+    return _attached(Response(data, media_type=TYPES[".xlsx"]), session.workbook.name)
 
 
 async def _begin(request: Request) -> Response:
@@ -102,7 +94,7 @@ async def _file(request: Request) -> Response:
     path = package.out / name
     if package.state is not State.DONE or name not in (*OUTPUTS, PROJECT) or not path.is_file():
         raise HTTPException(404, "There is no such file of this package")
-    response = FileResponse(path, media_type=_TYPES[path.suffix])
+    response = FileResponse(path, media_type=TYPES[path.suffix])
     return response if "view" in request.query_params else _attached(response, name)
 
 

@@ -17,7 +17,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
-from report.making import STEPS
+from report.making import OUTPUTS, STEPS
 from report.web.sessions import Session
 from report.web.values import Values
 from report.web.worker import MOTIONS, made, making, motions_made
@@ -28,6 +28,15 @@ LONGEST_S = 900.0
 KEPT = 5
 """Packages that a session keeps; older ones are removed."""
 
+
+TYPES = {
+    ".pdf": "application/pdf",
+    ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
+    ".json": "application/json",
+    ".dxf": "image/vnd.dxf",
+    ".zip": "application/zip",
+}
+"""Of the files that are given away, in the order in which the page offers them."""
 
 Task = Callable[[Path, Path], str]
 """What a process makes of a workbook: a package, `made`, or a suite, `motions_made`."""
@@ -143,6 +152,7 @@ class Packages:
             "state": package.state.value,
             "is_over": package.state.is_over,
             "words": f"In line, place {queued.index(package) + 1}" if is_queued else package.words,
+            "files": [name for end in TYPES for name in OUTPUTS if name.endswith(end)],
             "part": None if is_queued else package.step / (_STEPS[package.task] + 1),
         }
 

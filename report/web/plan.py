@@ -65,7 +65,9 @@ def plan(
     given, missing = gaps
     has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
-    paper = plan_on_paper(assessment, _size(wide_px), words, has_verdicts=has_verdicts).paper
+    wide, tall, key = wide_px / _PX, _TALL_PX / _PX, _KEY_PX / _PX
+    size = PlanSize(wide=wide, tall=tall, key_wide=wide, key_tall=key, is_screen=True)
+    paper = plan_on_paper(assessment, size, words, has_verdicts=has_verdicts).paper
     return {
         "title": "Roof plan to scale",
         "described": [
@@ -89,11 +91,6 @@ def _sheet_px(room_px: int) -> tuple[int, int]:
     """Return the width of the widest sheet that there is room for, and from where on none is."""
     more = bisect(_WIDE_PX[1:], room_px)
     return _WIDE_PX[more], (*_WIDE_PX[1:], _MOST_PX)[more]
-
-
-def _size(wide_px: float) -> PlanSize:
-    wide, tall, key = wide_px / _PX, _TALL_PX / _PX, _KEY_PX / _PX
-    return PlanSize(wide=wide, tall=tall, key_wide=wide, key_tall=key, is_screen=True)
 
 
 def _sentence(row: ClearanceResult, fmt: UnitFormat) -> str:

@@ -5,12 +5,6 @@ import { button, html, note, replace } from "./make.js";
 
 const POLL_MS = 500;
 const WHAT = "The package and the workbook get the values of the page.";
-const FILES = [
-  ["calc-package.pdf", "Calc package"],
-  ["results.xlsx", "results.xlsx"],
-  ["results.json", "results.json"],
-  ["plan.dxf", "plan.dxf"],
-];
 
 /**
  * Make packages at the click of `make`; returns what to call when values change (`compare`) and when a
@@ -96,7 +90,7 @@ function showPackage(status, api, told, { cancel, keepsFocus }) {
     showProgress(status, api, told, cancel);
     if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
   } else if (told.state === "done") {
-    showFiles(status, told.ticket);
+    showFiles(status, told);
     if (keepsFocus && hasLostFocus()) status.querySelector("a").focus();
     api.announce("The package is made. Its files can be saved.");
   } else {
@@ -131,8 +125,8 @@ export function showProgress(status, api, { words, part }, cancel) {
   else bar.value = part;
 }
 
-function showFiles(status, ticket) {
-  const made = FILES.map(([name, label]) => html("a", { href: `/api/package/${ticket}/${name}`, download: name }, label));
+function showFiles(status, { ticket, files }) {
+  const made = files.map((name) => html("a", { href: `/api/package/${ticket}/${name}`, download: name }, name.endsWith(".pdf") ? "Calc package" : name));
   replace(status, html("p", { class: "made" }, made, madeWith()));
 }
 

@@ -215,7 +215,7 @@ TAKEAWAY = """
     document.body.innerHTML = `${button}${button}${button}<div></div>`;
     const [make, workbook, copy, status] = document.body.children;
     let values = { friction: 0.9 };
-    let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values };
+    let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values, files: [] };
     const canceled = { state: "canceled", is_over: true, words: "The package was canceled." };
     const failed = [], asked = [];
     const api = {
