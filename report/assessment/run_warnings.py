@@ -30,7 +30,8 @@ def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> Mapping[S
 
 def _place(runs: Sequence[tuple[str, str, OrientedRun]]) -> str:
     """Return the arrays and motions of runs that are given with the ids of theirs."""
-    arrays, motions = (tuple(dict.fromkeys(each[k] for each in runs)) for k in (0, 1))
+    arrays = tuple(dict.fromkeys(array for array, _, _ in runs))
+    motions = tuple(dict.fromkeys(motion for _, motion, _ in runs))
     of = f"{'Array' if len(arrays) == 1 else 'Arrays'} {', '.join(arrays)}"
     if len(motions) > _MOST_NAMED:
         return f"{of}, {len(runs)} runs of {len(motions)} motions"

@@ -26,15 +26,14 @@ _MOST_COLUMNS = 40
 def problems(path: Path, error: InputError) -> list[Mapping[str, Any]]:
     """Return the problems of a workbook, each with the row of its first cell."""
     try:
-        book = [open_book(path)]
+        book = open_book(path)
     except InputError:
-        book = []
+        book = None
     return [_shown(path, book, problem) for problem in grouped(error.parts)]
 
 
-def _shown(path: Path, book: Sequence[OpenBook], problem: Group) -> Mapping[str, Any]:
+def _shown(path: Path, book: OpenBook | None, problem: Group) -> Mapping[str, Any]:
     cell = next(iter(problem.cells), "")
-    rows = [_row(each, problem.sheet, cell) for each in book if cell]
     return {
         "file": path.name,
         "text": problem.line,
@@ -43,7 +42,7 @@ def _shown(path: Path, book: Sequence[OpenBook], problem: Group) -> Mapping[str,
         "sheet": problem.sheet,
         "cell": cell,
         "cells": listed(problem.cells),
-        "row": next((row for row in rows if row), None),
+        "row": _row(book, problem.sheet, cell) if book and cell else None,
     }
 
 

@@ -14,8 +14,12 @@ export function mountPackage({ make, status }, api, { values, words, guarded }) 
   let turn = 0; // of the package that is shown; another one, or another project, takes the next
   let shown = null; // what the server told of it last
 
+  // Beside a package, what it is made with where the page has other values; no words where not.
   function compare() {
-    if (shown) noteValues(status, isSame(shown.values, values()) ? "" : words(shown.values));
+    const line = status.querySelector(".made-with");
+    if (!shown || !line) return;
+    const when = status.querySelector(".made") ? "Made" : "Started";
+    line.textContent = isSame(shown.values, values()) ? "" : `${when} before the last change of values, with ${words(shown.values)}.`;
   }
 
   // Show a package until it is over, from what `begin` promises that the server tells of it.
@@ -96,14 +100,6 @@ function showPackage(status, api, told, { cancel, keepsFocus }) {
   } else {
     say(status, api, told.words);
   }
-}
-
-// Beside a package, what it is made with where the page has other values; no words where not.
-function noteValues(status, words) {
-  const shown = status.querySelector(".made-with");
-  if (!shown) return;
-  const when = status.querySelector(".made") ? "Made" : "Started";
-  shown.textContent = words && `${when} before the last change of values, with ${words}.`;
 }
 
 /** Show how far a package is; the elements stay while it is made, so that Cancel keeps the focus. */

@@ -215,7 +215,8 @@ TAKEAWAY = """
     document.body.innerHTML = `${button}${button}${button}<div></div>`;
     const [make, workbook, copy, status] = document.body.children;
     let values = { friction: 0.9 };
-    let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values, files: [] };
+    let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values };
+    state.files = ["calc-package.pdf"];
     const canceled = { state: "canceled", is_over: true, words: "The package was canceled." };
     const failed = [], asked = [];
     const api = {
