@@ -216,7 +216,7 @@ TAKEAWAY = """
     const [make, workbook, copy, status] = document.body.children;
     let values = { friction: 0.9 };
     let state = { ticket: "t", state: "running", words: "Plans", part: 0.2, values };
-    state.files = ["calc-package.pdf"];
+    state.files = ["calc-package.pdf", "results.xlsx", "results.json", "plan.dxf"];
     const canceled = { state: "canceled", is_over: true, words: "The package was canceled." };
     const failed = [], asked = [];
     const api = {
