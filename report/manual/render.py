@@ -103,7 +103,7 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         summary(verification),
         section("manual/scope", "Scope and terms"),
         checks(verification),
-        section("manual/methods", "Methods compared", methods=METHODS.values()),
+        section("manual/methods", "Methods compared", methods=tuple(METHODS.values())),
         work(verification),
         stability(verification),
         convergence(verification),
