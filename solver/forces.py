@@ -1,7 +1,6 @@
 """Forces on a block at the samples: driving acceleration and normal force.
 
-Integrates no motion (`solver.kernels.one_axis`, `solver.kernels.two_axes` and `solver.kernels.row`
-do) and checks no input. Read `forces`.
+Integrates no motion (`solver.sliding` does) and checks no input. Read `forces`.
 """
 
 from __future__ import annotations
@@ -11,10 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from solver.kernels import two_axes as kernel
 from solver.model import Floats, Scene
-
-_ROUNDING = 1e-12
-"""More than the relative rounding error of the square of a ratio of forces."""
+from solver.records.record import read_only
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,21 +32,22 @@ class Forces:
     across_mps2: Floats
     normal_mps2: Floats
 
-    @property
-    def friction_demand(self) -> float:
-        """Largest |G| / N; inf if the normal force is zero or negative at a sample.
 
-        The maximum is at a sample: between samples the point G / N moves along a straight line.
-        """
-        if np.min(self.normal_mps2) <= 0.0:
-            return math.inf
-        # The ratios themselves are needed only where their squares, which are faster, are largest.
-        with np.errstate(over="ignore"):
-            square = np.square(self.down_mps2 / self.normal_mps2)
-            square += np.square(self.across_mps2 / self.normal_mps2)
-        largest = square >= (1.0 - _ROUNDING) * square.max()
-        drive = np.hypot(self.down_mps2[largest], self.across_mps2[largest])
-        return float(np.max(drive / self.normal_mps2[largest]))
+def friction_demand(scene: Scene) -> float:
+    """Return the largest |G| / N; inf if the normal force is zero or negative at a sample.
+
+    The maximum is at a sample: between samples the point G / N moves along a straight line.
+    """
+    sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
+    demand: float = kernel.friction_demand(*components(scene), sn, cs, scene.g_mps2, scene.scale)
+    return demand
+
+
+def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
+    """Return the record along, across and up [m/s2]; zeros for what it does not have."""
+    along, *others = scene.ax_mps2, scene.ay_mps2, scene.az_mps2
+    across, up = (each if each.size else read_only(np.zeros_like(along)) for each in others)
+    return along, across, up
 
 
 def forces(scene: Scene) -> Forces:

@@ -105,6 +105,9 @@ SETTLES = 2.0
 FADED = 40.0
 """Exponent beyond which a friction law equals its fast coefficient within rounding error."""
 
+NEARLY = 1.0 - 1e-12
+"""Less than 1 by more than the relative rounding error of the square of a ratio of forces."""
+
 STIFF = 300.0
 """Step / time in which the direction settles, above which `_creeping` is tried."""
 
@@ -793,6 +796,23 @@ def _hides(sx, sy, vx, vy, gx, gy, cs, reach, top):
 def _sample(ax, ay, az, i, p, q):
     """G and c at sample i."""
     return p[0] + p[1] * az[i] - p[2] * ax[i], p[3] * ay[i], q[0] + q[1] * az[i] + q[2] * ax[i]
+
+
+@ieee(cache=KEPT, nogil=True)
+def friction_demand(ax, ay, az, sn, cs, g, scale):
+    """Largest |G| / N of the samples; inf if N is zero or negative at one."""
+    demand = most = 0.0
+    for i in range(ax.size):
+        along, weight = scale * ax[i], g + scale * az[i]
+        normal = weight * cs + along * sn
+        if not normal > 0.0:
+            return np.inf
+        down, across = weight * sn - along * cs, scale * ay[i]
+        square = (down / normal) * (down / normal) + (across / normal) * (across / normal)
+        # The ratio itself is needed only where its square, which is faster, may be the largest.
+        if square >= NEARLY * most:
+            demand, most = max(demand, math.hypot(down, across) / normal), max(most, square)
+    return demand
 
 
 @jit()

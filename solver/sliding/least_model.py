@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from solver.forces import forces
+from solver.forces import friction_demand
 from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
@@ -148,7 +148,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
         If a model is forced that the scene does not allow.
     """
     started = time.perf_counter()
-    demand = forces(scene).friction_demand
+    demand = friction_demand(scene)
     if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
         solution = _lifted(scene)
     elif settings.forced is None:

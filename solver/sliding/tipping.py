@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from solver.forces import forces
+from solver.forces import friction_demand
 from solver.model import Friction, InputError, Scene
 
 
@@ -97,7 +97,7 @@ def tipping(scene: Scene, supports: Supports) -> Tipping:
     InputError
         With every length that is not above 0.
     """
-    return tipping_at(forces(scene).friction_demand, scene.friction, supports)
+    return tipping_at(friction_demand(scene), scene.friction, supports)
 
 
 def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from solver.forces import components
 from solver.kernels import one_axis
 from solver.kernels import two_axes as kernel
 from solver.model import (
@@ -22,7 +23,6 @@ from solver.model import (
     SlideResult,
     Status,
 )
-from solver.records.record import read_only
 from solver.rivals.methods import minimum_normal
 from solver.sliding.one_axis import prepared, sample_times, without_displacement
 
@@ -179,7 +179,7 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
 def _rounding_m(scene: Scene, outcome: TwoAxesOutcome) -> float:
     """Return what rounding error of the accelerations and of the positions adds up to [m]."""
     friction, seconds = scene.friction, scene.dt_s * (scene.ax_mps2.size - 1)
-    along, across, up = (float(np.abs(a).max()) for a in _components(scene))
+    along, across, up = (float(np.abs(a).max()) for a in components(scene))
     most = max(friction.mu_slow, friction.mu_fast, friction.mu_static)
     terms = abs(scene.scale) * (along + across) + (1.0 + most) * (
         scene.g_mps2 + abs(scene.scale) * up
@@ -218,20 +218,13 @@ def _bounded(scene: Scene, tolerance: float) -> TwoAxesOutcome:
     return replace(outcome, n_steps=steps)
 
 
-def _components(scene: Scene) -> tuple[Floats, Floats, Floats]:
-    """Return the record along, across and up [m/s2]; zeros for what it does not have."""
-    still = read_only(np.zeros_like(scene.ax_mps2))
-    across, up = (each if each.size else still for each in (scene.ay_mps2, scene.az_mps2))
-    return scene.ax_mps2, across, up
-
-
 def _run(scene: Scene, step: float, events: Floats, samples: Floats) -> TwoAxesOutcome:
     friction, cs = scene.friction, math.cos(scene.slope_rad)
     law = None
     if not friction.is_constant:
         drop = friction.mu_fast - friction.mu_slow
         law = (friction.mu_fast, drop, friction.rate_s_per_m, friction.mu_static)
-    ax, ay, az = _components(scene)
+    ax, ay, az = components(scene)
     top, end = np.empty(7), np.empty(4)
     outcome, error, n_stops, n_events, n_steps = kernel.slide_plane(
         ax,

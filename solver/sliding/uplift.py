@@ -45,9 +45,12 @@ class Uplift:
 def uplift(scene: Scene) -> Uplift:
     """Return when and how far N falls below zero, exactly for N linear between samples."""
     normal, dt = normal_mps2(scene), scene.dt_s
+    n_min_g = float(normal.min()) / scene.g_mps2
+    if n_min_g >= 0.0:
+        return Uplift(n_min_g=n_min_g, t_first_s=math.nan, duration_s=0.0, times=0)
     below, starts = _below(normal), _starts(normal)
     return Uplift(
-        n_min_g=float(normal.min()) / scene.g_mps2,
+        n_min_g=n_min_g,
         t_first_s=float(starts[0]) * dt if starts.size else math.nan,
         duration_s=float(below.sum()) * dt,
         times=starts.size,

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.forces import forces
+from solver.forces import friction_demand
 from solver.kernels import one_axis as kernel
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation, Scene, Status, coulomb
 from solver.sliding import least_model
@@ -233,4 +233,4 @@ def _demands(track: Track, scenes: Floats) -> Floats:
 
 def demand_at(track: Track, slope_mu_scale: Floats) -> float:
     """Return the friction demand at a slope [rad] and scale; inf for uplift."""
-    return forces(scene_of(track.scene, slope_mu_scale)).friction_demand
+    return friction_demand(scene_of(track.scene, slope_mu_scale))

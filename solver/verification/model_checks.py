@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from solver.forces import forces
+from solver.forces import friction_demand
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Friction, Motion, Scene, Status, coulomb
 from solver.records.record import read_only
 from solver.sliding import least_model, one_axis, two_axes
@@ -238,7 +238,7 @@ def _choices(triple: Motion) -> Iterator[Check]:
     source = "Number of the simplest sufficient model (section 12)"
     case = MODEL_CASES[1]
     full = scene_of(triple, case, coulomb(case.mu))
-    peak = forces(full).friction_demand
+    peak = friction_demand(full)
     law = Friction(mu_slow=0.3, mu_fast=0.4, rate_s_per_m=30.0, mu_static=0.3)
     faint = faded(full, 1e-4)
     level = replace(faint, az_mps2=read_only(1e-5 * full.az_mps2))

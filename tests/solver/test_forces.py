@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from blocks import block
-from solver.forces import Forces, forces
+from solver.forces import forces, friction_demand
 
 RNG = np.random.default_rng(3)
 AX, AY, AZ = RNG.normal(0.0, 3.0, (3, 50))
@@ -35,18 +35,22 @@ def test_components_that_are_absent_are_zero():
 
 
 @pytest.mark.parametrize("size", [1e-200, 1.0, 1e100, 1e200])
-def test_the_friction_demand_is_to_the_last_bit_the_largest_ratio(size):
-    wave = np.random.default_rng(5).normal(0.0, 4.0, (2, 1000))
-    drive = Forces(
-        down_mps2=size * wave[0], across_mps2=size * wave[1], normal_mps2=9.0 - wave[0] / 9
-    )
-    ratios = np.hypot(drive.down_mps2, drive.across_mps2) / drive.normal_mps2
-    assert drive.friction_demand == ratios.max()
+@pytest.mark.parametrize("slope", [0.0, -0.2])
+def test_the_friction_demand_is_to_the_last_bit_the_largest_ratio(size, slope):
+    wave = np.random.default_rng(5).normal(0.0, 4.0, (3, 1000))
+    sides, up = size * wave[:2], wave[2] / 9
+    run = block(*sides, up, slope=slope if size <= 1.0 else 0.0, g=9.0)
+    on_plane = forces(run)
+    ratios = np.hypot(on_plane.down_mps2, on_plane.across_mps2) / on_plane.normal_mps2
+    assert on_plane.normal_mps2.min() > 0.0
+    assert friction_demand(run) == ratios.max()
 
 
 def test_the_friction_demand_is_the_largest_between_the_samples_too():
-    demand = forces(scene(AX, AY, AZ)).friction_demand
+    demand = friction_demand(scene(AX, AY, AZ))
     fine, at = np.linspace(0.0, 49.0, 49_001), np.arange(50.0)
     between = [np.interp(fine, at, a) for a in (AX, AY, AZ)]
-    assert demand == pytest.approx(forces(scene(*between)).friction_demand, rel=1e-14)
-    assert forces(scene(AX, AY, 10.0 * AZ)).friction_demand == math.inf
+    assert demand == pytest.approx(friction_demand(scene(*between)), rel=1e-14)
+    assert friction_demand(scene(AX, AY, 10.0 * AZ)) == math.inf
+    alone = forces(scene(AX))
+    assert friction_demand(scene(AX)) == np.abs(alone.down_mps2 / alone.normal_mps2).max()

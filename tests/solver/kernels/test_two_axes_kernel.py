@@ -62,9 +62,11 @@ def run_all(scenes=SCENES):
         ax, ay = readonly(along), readonly(across)
         az = readonly(vertical if len(vertical) else np.zeros(ax.size))
         bounds = [one_axis.bounds(a) for a in (ax, ay, az)]
+        slope = sn, math.sqrt(1.0 - sn * sn)
+        numbers.append(two_axes.friction_demand(ax, ay, az, *slope, G, 1.0))
         for step, most in ((1e-6, 12), (1e-13, 20)):
             top, end = np.empty(7), np.empty(4)
-            settings = (0.05, sn, math.sqrt(1.0 - sn * sn), mu, G, 1.0, step, most, 2000, law)
+            settings = (0.05, *slope, mu, G, 1.0, step, most, 2000, law)
             nothing = np.empty((0, 4)), np.empty((4, 0))
             run = slide(ax, ay, az, *bounds, *settings, *nothing, top, end)
             events, history = np.full((run[3], 4), np.nan), np.full((4, ax.size), np.nan)

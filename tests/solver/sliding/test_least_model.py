@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from blocks import block, shaking
-from solver.forces import forces
+from solver.forces import friction_demand
 from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.sliding.least_model import Model, Settings, history, solve
@@ -44,7 +44,7 @@ def test_a_block_that_friction_holds_is_not_run():
 
 @pytest.mark.parametrize("factor", [0.999, 1.001])
 def test_the_friction_demand_tells_slip_from_none(factor):
-    near = replace(FULL, friction=coulomb(forces(FULL).friction_demand * factor))
+    near = replace(FULL, friction=coulomb(friction_demand(FULL) * factor))
     moved = two_axes.run(near).prd_m
     assert (solve(near).model is Model.NO_SLIP) == (moved == 0.0)
     assert (moved > 0.0) == (factor < 1.0)
