@@ -138,9 +138,10 @@ def check_clearance(
     governing, direction = max(sides, key=lambda a: nan_is_worst(a[0].permitted_toward_m(a[1])))
     design_m = governing.permitted_toward_m(direction)
     # As entered: a trial with other friction on one side does not make them unlike.
-    entered = {array.id: array for array in data.arrays}
-    other = entered.get(row.object) or next(o for o in data.objects if o.id == row.object)
-    neighbor, importance = _across(data, rules, entered[row.array], other)
+    near = next(array for array in data.arrays if array.id == row.array)
+    rows: Sequence[Array | RoofObject] = (*data.arrays, *data.objects)
+    other = next(each for each in rows if each.id == row.object)
+    neighbor, importance = _across(data, rules, near, other)
     found = ClearanceCheck(
         clearance=row,
         basis=data.basis_of(row),

@@ -103,7 +103,7 @@ def hull(points: Iterable[Point]) -> Outline:
     """Return the convex hull of points, from the leftmost one on."""
     import shapely
 
-    found = shapely.get_coordinates(shapely.LineString(list(points)).convex_hull)
+    found = shapely.get_coordinates(shapely.convex_hull(shapely.linestrings(list(points))))
     around = ring([(x, y) for x, y in found.tolist()])
     first = around.index(min(around))
     return (*around[first:], *around[:first])

@@ -208,7 +208,10 @@ def plan_pairs(
         Returns the required separation of a pair [m], and its mark.
     """
     pairs = [(each, *required(each)) for each in _pairs(data, reaches, addresses)]
-    return tuple(replace(each, required_m=value_m, mark=mark) for each, value_m, mark in pairs)
+    return tuple(
+        each if math.isnan(value_m) else replace(each, required_m=value_m, mark=mark)
+        for each, value_m, mark in pairs
+    )
 
 
 def bare_edges(data: ProjectInput) -> tuple[BareEdge, ...]:

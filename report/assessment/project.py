@@ -345,11 +345,17 @@ def _assess(
     )
     links = data.links if reduced_friction else ()
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
+    clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
+    pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
+    rows = [
+        *project_rows(data, shaking.prepared),
+        *motion_rows(acceptance, (item.route for item in arrays)),
+        *(row for item in arrays for row in array_rows(data, item)),
+    ]
+    # Last, as these runs are begun last.
     reduced, slower = reduced_friction() if reduced_friction else None, NOT_BY_VELOCITY
     if slow:
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=acceptance.qualifies)
-    clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
     return Assessment(
         sheet=sheet,
         shaking=shaking,
@@ -363,9 +369,7 @@ def _assess(
         pairs=pairs,
         acceptance=acceptance,
         rows=(
-            *project_rows(data, shaking.prepared),
-            *motion_rows(acceptance, (item.route for item in arrays)),
-            *(row for item in arrays for row in array_rows(data, item)),
+            *rows,
             *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
             *pathway_rows(data, arrays, clearances),
             *plan_rows(data, [pair for pair in pairs if pair.is_listed]),

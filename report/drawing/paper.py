@@ -77,10 +77,8 @@ class Paper:
 
     def at(self, point: Point) -> Point:
         """Return where a point of the plan [m] is on paper."""
-        x, y = (
-            start + v / self.scale.m_per_in for start, v in zip(self.origin, point, strict=True)
-        )
-        return x, y
+        (x, y), m_per_in = self.origin, self.scale.m_per_in
+        return x + point[0] / m_per_in, y + point[1] / m_per_in
 
     def frame(self, shape: Rectangle) -> Frame:
         """Return where a rectangle of the plan is on paper."""

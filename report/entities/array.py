@@ -309,7 +309,7 @@ def array_result(
     has_runs: bool = True,
     **marks: str,
 ) -> ArrayResult:
-    """Return an array with its limits, with or without its runs, and the marks of its fields."""
+    """Return an array with its limits, and with its runs and directions if asked for, marked."""
     motions = item.motions if has_runs else ()
     given = item.array.interconnection_n
     required, provided = compared(item.interconnection_n, math.nan if given is None else given)
@@ -339,7 +339,7 @@ def array_result(
         rounds=rounds,
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
-        directions={direction: direction_result(item, direction) for direction in item.directions},
+        directions={way: direction_result(item, way) for way in item.directions if has_runs},
         peaks=tuple(map(peak_result, motions)),
         runs=tuple(run_result(motion, run) for motion in motions for run in motion.runs),
     )

@@ -141,9 +141,9 @@ class Entity(BaseModel):
     """Fields in the order of their columns on a sheet of results.xlsx; others follow."""
 
     # what follows a value, by field: marks of provisions and overrides, the cause of a verdict
-    marks: SkipJsonSchema[Mapping[str, str]] = Field(default={}, exclude=True)
+    marks: SkipJsonSchema[Mapping[str, str]] = Field(default_factory=dict, exclude=True)
     # rounding that keeps an order visible, by field
-    rounds: SkipJsonSchema[Mapping[str, Show]] = Field(default={}, exclude=True)
+    rounds: SkipJsonSchema[Mapping[str, Show]] = Field(default_factory=dict, exclude=True)
     style: SkipJsonSchema[str] = Field(default="", exclude=True)  # of the row
 
     @classmethod

@@ -146,18 +146,18 @@ def _room(
     a, b = (shapes.get(str(name)) for name in (array, other))
     if a is None or b is None or provided is None:
         return
+    gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
+    if gap >= -1e-9 and provided <= gap + gap_tolerance_m(gap):
+        return
     boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
     noun = "rectangles" if boxes else "outlines"
-    gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
-    is_us = us_first(draft)
-    given = pair(provided, Quantity.SIZE, is_us)
-    at = places_of(draft, (str(array), str(other)), where)
+    given, most = (pair(max(m, 0.0), Quantity.SIZE, us_first(draft)) for m in (provided, gap))
+    at, text = places_of(draft, (str(array), str(other)), where), f"provided clearance is {given}"
     if gap < -1e-9:
-        text = f"provided clearance is {given}, but {array} and {other} overlap in plan"
+        text += f", but {array} and {other} overlap in plan"
         yield Finding.error(place, text, f"correct their {noun} in {at}")
-    elif provided > gap + gap_tolerance_m(gap):
-        most = pair(max(gap, 0.0), Quantity.SIZE, is_us)
-        text = f"provided clearance is {given}, but {array} and {other} are {most} apart in plan"
+    else:
+        text += f", but {array} and {other} are {most} apart in plan"
         yield Finding.error(place, text, f"reduce it, or correct the {noun} in {at}")
 
 

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
+from operator import attrgetter
 from typing import Annotated, Any, Self
 
 from pydantic import Field, PrivateAttr
@@ -87,7 +89,7 @@ class Placed(Frozen):
 
 def rectangle(sides: object) -> Rectangle | None:
     """Return the rectangle of a row that has all four sides."""
-    x_from, x_to, y_from, y_to = (getattr(sides, side) for side in SIDES)
+    x_from, x_to, y_from, y_to = _sides_of(sides)
     if x_from is None or x_to is None or y_from is None or y_to is None:
         return None
     return Rectangle(x_from, x_to, y_from, y_to)
@@ -95,6 +97,7 @@ def rectangle(sides: object) -> Rectangle | None:
 
 SIDES = ("x_from_m", "x_to_m", "y_from_m", "y_to_m")
 """Fields of a rectangle in roof plan."""
+_sides_of = attrgetter(*SIDES)
 
 
 class Roof(Placed):
@@ -110,6 +113,7 @@ class Roof(Placed):
     """In plan, counterclockwise from +x: 90 is +y."""
 
 
+@lru_cache
 def friction_law(
     mu: float, mu_fast: float | None, rate_s_per_m: float | None, mu_static: float | None
 ) -> Friction:
