@@ -8,7 +8,7 @@ import { button, html, replace } from "./make.js";
 import { mountMotions } from "./motions.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { dropVerdicts, showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
+import { showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
@@ -189,14 +189,12 @@ function showAnswer(next, values) {
   showPicked();
 }
 
-// The values stay, and no verdict of them: drawn anew they would hold up what is asked.
+// The values stay, and the look of the page hides their verdicts: drawn anew they would hold up what
+// is asked.
 function keepFormer() {
   document.body.dataset.values = "former";
-  const { rows, ...table } = answer.arrays;
-  const bare = rows.map((cells) => cells.map((cell) => (cell?.look ? null : cell)));
-  answer = { ...answer, verdict: null, arrays: { ...table, rows: bare } };
+  answer = { ...answer, verdict: null };
   plan.dropVerdicts();
-  for (const id of ["arrays", "clearances"]) dropVerdicts(part(id));
 }
 
 function showPicked() {

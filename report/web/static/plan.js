@@ -22,9 +22,8 @@ export function mountPlan(element, ask) {
       update(element, drawing(plan));
       look();
     },
-    /** Take out what is a verdict, of values that stay while others are computed. */
+    /** Take the verdicts out of the description, of values that stay while others are computed. */
     dropVerdicts() {
-      for (const mark of element.querySelectorAll("[class^=ng-]")) mark.remove();
       const described = element.querySelector("desc");
       if (described) described.textContent = latest.described.map(({ text }) => `${text}.`).join(" ");
     },

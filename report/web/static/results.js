@@ -7,11 +7,6 @@ function tag(verdict) {
   return verdict ? html("strong", { class: `tag is-${verdict.look}` }, verdict.text) : html("span", { class: "note" }, "–");
 }
 
-/** Take the verdicts out of a table whose values stay while others are computed. */
-export function dropVerdicts(element) {
-  for (const found of element.querySelectorAll("td .tag")) found.replaceWith(tag(null));
-}
-
 /** Show the verdict of a full answer: the causes of NG whole, and what else needs attention. */
 export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
   const causes = reasons.filter(({ level }) => level === "NG");

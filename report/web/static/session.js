@@ -2,6 +2,7 @@
 
 const REST_MS = 160;
 const STILL_MS = 50; // after which the full model is asked ahead, in case the slider rests here
+const STEP_MS = 400; // after which a step is answered in one axis, if the full answer is not there
 
 /**
  * Return the session's runner of assessments.
@@ -60,12 +61,22 @@ export function createSession(assess, show, fail) {
     values: () => ({ ...values }),
     /** Take the values of a project; nothing is asked, and what was asked is dropped. */
     load: (all) => changed(all, false),
-    /** A slider moves: answer in one axis, and in full once it has rested. */
-    move(id, value) {
+    /**
+     * A slider moves: answer in one axis, and in full once it has rested. After a first step, which
+     * is no drag, it rests as a rule: answer in full at once, in one axis only if that takes long.
+     */
+    move(id, value, isStep = false) {
+      const isFirst = !isMoving;
       changed({ [id]: value }, true);
+      show({ phase: "moving" });
+      if (isStep && isFirst) {
+        isPaused = true;
+        ahead.begin();
+        timer = setTimeout(askMoving, STEP_MS);
+        return;
+      }
       timer = setTimeout(pause, REST_MS);
       ahead.plan();
-      show({ phase: "moving" });
       askMoving();
     },
     /** The pointer let the slider go: it rests. */
@@ -100,6 +111,7 @@ function createAhead(ask, arrived) {
     asked = null;
   }
   return {
+    begin,
     plan() {
       timer = setTimeout(begin, STILL_MS);
     },

@@ -29,7 +29,7 @@ function slider(item, values, session) {
     "aria-describedby": item.help ? `${id}-help` : null,
     on: {
       input: () => {
-        session.move(item.id, input.valueAsNumber);
+        session.move(item.id, input.valueAsNumber, !input.matches(":active"));
         mark();
       },
       pointerup: session.release,

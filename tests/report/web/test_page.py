@@ -137,15 +137,15 @@ def test_while_a_slider_moves_there_is_no_verdict_and_the_page_says_which_model(
 
 WATCH = """() => {
   window.seen = [];
+  const visible = (all) => [...document.querySelectorAll(all)]
+    .filter((one) => one.checkVisibility({ visibilityProperty: true }));
   const look = () => window.seen.push({
-    tags: [...document.querySelectorAll(".tag, .ng-box")]
-      .filter((tag) => tag.checkVisibility({ visibilityProperty: true }))
-      .map((tag) => tag.textContent),
+    tags: visible(".tag, .ng-box").map((tag) => tag.textContent),
     verdict: document.querySelector("#verdict").innerText,
     said: document.querySelector("#live").textContent + document.querySelector("desc").textContent,
     captions: [...document.querySelectorAll(".results caption")]
       .map((caption) => getComputedStyle(caption, "::after").content),
-    heavy: document.querySelectorAll(".ng-area").length,
+    heavy: visible(".ng-area").length,
   });
   const ofSlider = (event) => event.target.type === "range" && look();
   for (const kind of ["change", "click"]) document.addEventListener(kind, look);

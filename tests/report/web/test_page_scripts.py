@@ -135,6 +135,36 @@ def test_what_was_asked_ahead_is_asked_again_where_the_slider_went_on(page):
     assert session(page, steps) == [asked, [], [["rest", 2]]]
 
 
+def test_a_step_that_is_no_drag_is_answered_in_full_at_once(page):
+    steps = """
+        session.move("x", 1, true);
+        asked[0].done(); await tick();
+        return [asked.map(({ moving }) => moving), answers()];"""
+    assert session(page, steps) == [[False], [["rest", 1]]]
+
+
+def test_after_a_step_the_slider_may_go_on(page):
+    steps = """
+        for (const x of [1, 2]) session.move("x", x, true);
+        asked[0].done(); asked[1].done(); await tick();
+        session.release();
+        asked[2].done(); await tick();
+        return [asked.map(({ moving, values }) => [moving, values.x]), answers()];"""
+    asked = [[False, 1], [True, 2], [False, 2]]
+    assert session(page, steps) == [asked, [["moving", 2], ["rest", 2]]]
+
+
+def test_a_step_whose_full_answer_takes_long_is_answered_in_one_axis_meanwhile(page):
+    steps = """
+        session.move("x", 1, true);
+        while (asked.length < 2) await new Promise((done) => setTimeout(done, 20));
+        asked[1].done(); await tick();
+        const phase = shown.at(-1).phase;
+        asked[0].done(); await tick();
+        return [asked.map(({ moving }) => moving), phase, answers()];"""
+    assert session(page, steps) == [[False, True], "settling", [["moving", 1], ["rest", 1]]]
+
+
 UNITS = {
     "sliders": [
         {"id": "friction", "label": "Friction", "unit": "×", "step": 0.01, "typed": 1},
