@@ -63,52 +63,30 @@ def centered(x: float, y: float, wide: float, tall: float) -> Frame:
 Corners = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
 
-class _Frames:
-    """Frames as a table with a row for each, which grows without being copied each time."""
-
-    def __init__(self) -> None:
-        self._rows, self._count = np.empty((256, 4)), 0
-
-    @property
-    def table(self) -> Corners:
-        return self._rows[: self._count]
-
-    def add(self, frames: Sequence[Frame] | Corners) -> None:
-        end = self._count + len(frames)
-        if end > len(self._rows):
-            self._rows = np.vstack((self.table, np.empty((end, 4))))
-        self._rows[self._count : end] = frames
-        self._count = end
-
-    def remove(self, frame: Frame) -> None:
-        first = int(np.flatnonzero((self.table == frame).all(axis=1))[0])
-        self._rows[first : self._count - 1] = self._rows[first + 1 : self._count]
-        self._count -= 1
-
-
 class Placer:
-    """Labels placed so far, and what they should not cover."""
+    """Labels placed so far, and what they should not cover: each a table with a row for a frame."""
 
     def __init__(self, page: Frame) -> None:
         self._page = page
-        self._taken, self._threads, self._lines, self._walls = (_Frames() for _ in range(4))
+        self._taken, self._threads, self._lines, self._walls = (np.empty((0, 4)) for _ in range(4))
 
     def take(self, frame: Frame) -> None:
         """Reserve a frame: no label will touch it."""
-        self._taken.add([frame])
+        self._taken = np.vstack((self._taken, frame))
 
     def release(self, frame: Frame) -> None:
         """Give a reserved frame back."""
-        self._taken.remove(frame)
+        first = int(np.flatnonzero((self._taken == frame).all(axis=1))[0])
+        self._taken = np.delete(self._taken, first, axis=0)
 
     def avoid(self, frame: Frame) -> None:
         """Mark a line or a small object, covered only where there is no other room."""
-        self._lines.add([frame])
+        self._lines = np.vstack((self._lines, frame))
 
     def wall(self, frame: Frame) -> None:
         """Mark a side of an array: as `avoid`, and no leader will cross it."""
         self.avoid(frame)
-        self._walls.add([frame])
+        self._walls = np.vstack((self._walls, frame))
 
     def take_first(self, frames: Sequence[Frame], within: Sequence[Frame] = ()) -> int | None:
         """Reserve the first of some frames that touches no label and no line; None if all do.
@@ -120,12 +98,12 @@ class Placer:
         """
         if not frames:
             return None
-        low, high = _ends(frames)
+        low, high = np.split(np.array(frames), 2, axis=1)
         taken = (low < self._page[:2]).any(axis=1) | (high > self._page[2:]).any(axis=1)
-        everything = np.vstack((self._taken.table, self._threads.table))
-        taken |= _touches(low, high, everything, 0.0).any(axis=1)
+        taken |= _touches(low, high, np.vstack((self._taken, self._threads)), 0.0).any(axis=1)
         if within:
-            taken |= _touches(*_ends(within), self._walls.table, 0.0).any(axis=1)
+            low, high = np.split(np.array(within), 2, axis=1)
+            taken |= _touches(low, high, self._walls, 0.0).any(axis=1)
         if taken.all():
             return None
         first = int(np.argmin(taken))
@@ -134,10 +112,8 @@ class Placer:
 
     def take_segment(self, a: Point, b: Point) -> None:
         """Reserve a line between two points: no label will touch it, leaders may cross it."""
-        (x, y), last = a, max(2, math.ceil(math.dist(a, b) / 0.06)) - 1
-        dx, dy = (b[0] - x) / last, (b[1] - y) / last
-        points = [*((k * dx + x, k * dy + y) for k in range(last)), b]
-        self._threads.add([centered(*point, 0.02, 0.02) for point in points])
+        points = np.linspace(a, b, max(2, math.ceil(math.dist(a, b) / 0.06)))
+        self._threads = np.vstack((self._threads, np.hstack((points - 0.01, points + 0.01))))
 
     def place(
         self,
@@ -161,9 +137,8 @@ class Placer:
         page = self._page if within is None else within
         if wide > page.wide or tall > page.tall:
             return None
-        frames = (self._taken, self._threads, self._lines, self._walls)
-        tables = (each.table.tobytes() for each in frames)
-        frame = _placed((wide, tall), near, page, maximum, *tables)
+        tables = (self._taken, self._threads, self._lines, self._walls)
+        frame = _placed((wide, tall), near, page, maximum, *(table.tobytes() for table in tables))
         if frame is not None:
             self.take(frame)
         return frame
@@ -212,12 +187,6 @@ def _best(
         return np.inf, None
     x0, y0 = (float(v) for v in low[best])
     return float(total[best]), Frame(x0, y0, x0 + label[0], y0 + label[1])
-
-
-def _ends(frames: Sequence[Frame]) -> tuple[Corners, Corners]:
-    """Return the lower left and the upper right corners of frames."""
-    rows = np.array(frames)
-    return rows[:, :2], rows[:, 2:]
 
 
 def _touches(low: Corners, high: Corners, frames: Corners, clear: float) -> Corners:
