@@ -12,7 +12,6 @@ import numpy as np
 
 from solver.kernels import two_axes as kernel
 from solver.model import Floats, Scene
-from solver.records.record import read_only
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,9 +44,10 @@ def friction_demand(scene: Scene) -> float:
 
 def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     """Return the record along, across and up [m/s2]; zeros for what it does not have."""
-    along, *others = scene.ax_mps2, scene.ay_mps2, scene.az_mps2
-    across, up = (each if each.size else read_only(np.zeros_like(along)) for each in others)
-    return along, across, up
+    still = np.zeros_like(scene.ax_mps2)
+    still.setflags(write=False)  # as all records are: for another array numba compiles once more
+    across, up = (each if each.size else still for each in (scene.ay_mps2, scene.az_mps2))
+    return scene.ax_mps2, across, up
 
 
 def forces(scene: Scene) -> Forces:

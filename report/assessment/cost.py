@@ -12,7 +12,7 @@ from report.sheet.schema import ProjectInput
 LONG_S = 60.0
 """A report that costs more says so before it starts."""
 
-# Processor time [s] measured on one machine; every measured report is within 7 % of the sum.
+# Processor time [s] of one machine; on its slow days a report took up to 1.9 times the sum.
 _CONSTANT_S, _ARRAY_S, _MOTION_S = 6.4, 0.45, 0.33
 # Per million samples of the motions: spectra and figures, then the runs of arrays that differ.
 _SAMPLES_S, _RUNS_S = 61.0, 7.3

@@ -16,7 +16,7 @@ export function createSession(assess, show, fail) {
   let version = 0; // of the values
   let timer = 0;
   let isMoving = false; // a slider moved since the full model was last asked
-  let isPaused = false; // and has stayed where it is for a while
+  let isPaused = false; // and has stayed where it is for a while, or is taken to rest after a step
 
   // Ask, and show the answer where it still is one: `isCurrent` gets the version that was asked.
   async function ask(moving, phase, isCurrent) {
@@ -35,13 +35,12 @@ export function createSession(assess, show, fail) {
   });
   const askFull = createLane(async () => !isMoving && ask(false, "rest", (asked) => asked === version));
 
-  function changed(next, moves) {
+  function changed(next, moves, rests = false) {
     clearTimeout(timer);
     ahead.drop();
     values = { ...values, ...next };
     version += 1;
-    isMoving = moves;
-    isPaused = false;
+    [isMoving, isPaused] = [moves, rests];
   }
 
   // A provisional answer that is under way is shown first, unless the full one is there.
@@ -61,23 +60,14 @@ export function createSession(assess, show, fail) {
     values: () => ({ ...values }),
     /** Take the values of a project; nothing is asked, and what was asked is dropped. */
     load: (all) => changed(all, false),
-    /**
-     * A slider moves: answer in one axis, and in full once it has rested. After a first step, which
-     * is no drag, it rests as a rule: answer in full at once, in one axis only if that takes long.
-     */
+    /** A slider moves: answer in one axis, and in full once it rests; a step, at first, in full at once. */
     move(id, value, isStep = false) {
-      const isFirst = !isMoving;
-      changed({ [id]: value }, true);
+      const rests = isStep && !isMoving;
+      changed({ [id]: value }, true, rests);
+      ahead.plan(rests ? 0 : STILL_MS);
+      timer = setTimeout(rests ? askMoving : pause, rests ? STEP_MS : REST_MS);
       show({ phase: "moving" });
-      if (isStep && isFirst) {
-        isPaused = true;
-        ahead.begin();
-        timer = setTimeout(askMoving, STEP_MS);
-        return;
-      }
-      timer = setTimeout(pause, REST_MS);
-      ahead.plan();
-      askMoving();
+      if (!rests) askMoving();
     },
     /** The pointer let the slider go: it rests. */
     release: () => isMoving && rest(),
@@ -111,9 +101,9 @@ function createAhead(ask, arrived) {
     asked = null;
   }
   return {
-    begin,
-    plan() {
-      timer = setTimeout(begin, STILL_MS);
+    plan(after) {
+      if (after === 0) begin();
+      else timer = setTimeout(begin, after);
     },
     drop,
     isThere: () => asked?.isThere === true,
