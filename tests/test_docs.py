@@ -105,7 +105,7 @@ def commanded(folder):
     """
     laid_out, printed = {}, {}
 
-    def kept(html, drawn, attached):
+    def kept(html, drawn=MappingProxyType({}), attached=tuple):
         files = tuple(attached())
         if (html, files) not in laid_out:
             laid_out[html, files] = lay_out(html, drawn, lambda: files)

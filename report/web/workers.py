@@ -94,9 +94,11 @@ class Workers:
         rivals = [each for each in self._waiting if each.origin.key == origin.key]
         if any(each.origin.number > origin.number for each in rivals):
             raise StaleError
-        # A slider that moves ends what waits of the values before; the full model of the same
-        # values, asked ahead, does not end its provisional answer.
-        for each in (each for each in rivals if each.rank >= rank):
+        # A slider that moves ends what waits of the values before. The full model and the
+        # provisional answer of the same values do not end each other, whichever is asked first.
+        for each in rivals:
+            if each.rank < rank or (each.rank > rank and each.job["values"] == job["values"]):
+                continue
             self._waiting.remove(each)
             if not each.answer.done():
                 each.answer.set_exception(StaleError())

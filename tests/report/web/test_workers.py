@@ -85,7 +85,7 @@ def test_an_answer_that_comes_with_the_end_does_not_keep_the_processes():
 
 def ask(pool, name, rank=Rank.AT_REST, key="p", number=1, **job):
     place = JobOrigin((key, "assess"), number)
-    return asyncio.create_task(pool.ask({"name": name, **job}, rank, place))
+    return asyncio.create_task(pool.ask({"name": name, "values": name, **job}, rank, place))
 
 
 async def gathered(*tasks):
@@ -126,6 +126,18 @@ def test_a_move_ends_what_waits_and_the_full_model_asked_ahead_does_not_end_the_
     _, late, before, move, ahead = done(1, script)
     assert {type(late), type(before)} == {StaleError}
     assert (move["name"], ahead["name"]) == ("move", "ahead")
+
+
+def test_the_full_model_asked_first_waits_on_beside_the_provisional_answer_of_its_values():
+    async def script(pool):
+        running = await busy(pool)
+        jobs = [("step", Rank.AT_REST), ("meanwhile", Rank.MOVING)]
+        tasks = [
+            ask(pool, name, rank, number=n, values=1) for n, (name, rank) in enumerate(jobs, 1)
+        ]
+        return await gathered(running, *tasks)
+
+    assert [each["name"] for each in done(1, script)] == ["busy", "step", "meanwhile"]
 
 
 def test_quick_jobs_go_first_and_equal_ones_in_order():
@@ -226,5 +238,5 @@ def test_where_no_process_starts_no_job_waits_and_the_next_one_is_answered_once_
 
     (lost,), again = asyncio.run(run())
     assert isinstance(lost, LostError)
-    assert again == {"name": "b"}
+    assert again["name"] == "b"
     assert capsys.readouterr().err.count("OSError: no process left") == 1
