@@ -6,6 +6,7 @@ what it can meanwhile. Read `make`.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
@@ -95,15 +96,14 @@ class Request:
 
 def read(source: Path, out: Path | None, since: Path | None) -> Request:
     """Read a workbook and former results, and check that the package can be written."""
-    from report.results.publish import check_apart, check_writable
+    from report.results.publish import check_apart, output_folder
     from report.sheet.reading.read import read
     from report.typeset.letters import check_letters
 
     former = _former(since)
     sheet = read(source)
-    folder = out or sheet.path.parent / "out"
     check_letters(sheet)
-    check_writable(folder)
+    folder = output_folder(out, sheet.path.parent, "out", OUTPUTS)
     beside = [sheet.path.parent / document.path for document in sheet.documents]
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else []), *beside])
     return Request(sheet=sheet, folder=folder, former=former, since=since)
@@ -113,8 +113,11 @@ def _former(since: Path | None) -> tuple[Compared, ...]:
     """Return former results, if any: what reads them is loaded only then."""
     if since is None:
         return ()
+    from report.results.publish import STAMP, warn_if_mixed
     from report.results.since import read_former
 
+    if os.path.lexists(since.parent / STAMP):
+        warn_if_mixed(since.parent, OUTPUTS)
     return (read_former(since),)
 
 

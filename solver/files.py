@@ -1,99 +1,204 @@
-"""Writes a file whole or not at all, and sweeps up what a killed writer left.
+"""Writes files whole, one or a set, by one process at a time; follows nothing in their places.
 
-Knows no format. A set of files is written by `report.results.publish`.
+Knows no format. What the files of a package are: `report.results.publish`. Read `write_all`.
 """
 
 from __future__ import annotations
 
-import fcntl
 import os
-import re
 import secrets
-from contextlib import suppress
+import shutil
+import stat
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
 
 from solver.model import InputError
 
-_PART = re.compile(r"\.roofslip-[0-9a-f]{16}\.part")
+LOCK = ".roofslip-lock"
+WAIT_S = 60.0
+"""How long a process waits for another that writes to the same folder [s]."""
 
 
 def write_whole(path: Path, content: bytes, *, replace: bool = True) -> None:
-    """Write a file whole: a full disk or a killed process leaves the former file, or none.
-
-    A link is replaced, not followed. What a killed process left hidden in the folder is removed.
-
-    Parameters
-    ----------
-    replace : bool
-        Whether an existing file may be replaced; the new one has its permissions.
+    """Write a file at a path that the user gave, as `write_all` does; a link there is followed.
 
     Raises
     ------
     InputError
         If the file cannot be written, or exists and may not be replaced.
     """
-    try:
-        _sweep(path.parent)
-        part, file = _begun(path.parent)
-        try:
-            with file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-                if replace and path.is_file() and not path.is_symlink():
-                    part.chmod(path.stat().st_mode & 0o777)
-                _place(part, path, replace)
-        finally:
-            part.unlink(missing_ok=True)
-    except FileExistsError as error:
-        raise InputError(f"{path}: already exists; give another name, or move the file") from error
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror})") from error
-
-
-def _begun(folder: Path) -> tuple[Path, BinaryIO]:
-    """Create a hidden file, locked for as long as it is open: its writer lives."""
-    while True:
-        part = folder / f".roofslip-{secrets.token_hex(8)}.part"
-        file = part.open("xb")
-        _lock(file.fileno(), fcntl.LOCK_EX)
-        if part.exists():
-            return part, file
-        file.close()  # another process swept it up before it was locked
-
-
-def _sweep(folder: Path) -> None:
-    """Remove the hidden files whose writers have ended."""
-    for name in filter(_PART.fullmatch, os.listdir(folder)):
-        with suppress(OSError):
-            left = os.open(folder / name, os.O_WRONLY | os.O_NOFOLLOW | os.O_CLOEXEC)
-            try:
-                if _lock(left, fcntl.LOCK_EX | fcntl.LOCK_NB):
-                    (folder / name).unlink()
-            finally:
-                os.close(left)
-
-
-def _lock(file: int, how: int) -> bool:
-    """Lock a file; False where another process has it, or the file system has no locks."""
-    try:
-        fcntl.flock(file, how)
-    except OSError:
-        return False
-    return True
-
-
-def _place(part: Path, path: Path, replace: bool) -> None:
     if replace:
-        os.replace(part, path)
-        return
+        path = Path(os.path.realpath(path))
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: cannot be written (No such file or directory)")
+    write_all({path.name: content}, path.parent, replace=replace)
+
+
+def write_all(files: Mapping[str, bytes], folder: Path, *, replace: bool = True) -> None:
+    """Write files to a folder: all of them or none, unless the process is killed.
+
+    Each is written whole under a random name and then renamed, in the order given. A process that
+    is killed leaves every file old or new, and perhaps some of those names.
+
+    Parameters
+    ----------
+    files : mapping of str to bytes
+        By name, which may include subfolders.
+    replace : bool
+        Whether existing files may be replaced; the new ones have their permissions.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be written, is in no plain place, or exists and may not be replaced. Then
+        no file has changed.
+    """
+    with ExitStack() as added, ExitStack() as sweep, ExitStack() as undo:
+        target = folder
+        try:
+            parts = []
+            for name, content in files.items():
+                target = folder / name
+                if not replace and os.path.lexists(target):
+                    raise _exists(target)
+                check_plain(target, folder)
+                add_folder(target.parent, added)
+                parts.append(_hidden(target.parent, sweep))
+                with parts[-1].open("xb") as file:
+                    file.write(content)
+                    file.flush()
+                    os.fsync(file.fileno())
+            for part, name in zip(parts, files, strict=True):
+                target = folder / name
+                if replace:
+                    _replace(part, target, sweep, undo)
+                else:
+                    _add(part, target)
+                    undo.callback(target.unlink)
+        except OSError as error:
+            close = "; close it in other programs" if isinstance(error, PermissionError) else ""
+            raise InputError(
+                f"{target}: cannot be written ({error.strerror}){close}. No file was changed"
+            ) from error
+        undo.pop_all()
+        added.pop_all()
+
+
+def check_plain(
+    path: Path, within: Path, *, is_folder: bool = False, in_place: bool = False
+) -> None:
+    """Refuse what a stranger may have put where a file or folder is written.
+
+    Parameters
+    ----------
+    within : Path
+        Folder that the user gave; below it, nothing on the way to the path may be a link.
+    in_place : bool
+        Whether the file is opened for writing, which another name of the same file would tell.
+
+    Raises
+    ------
+    InputError
+        If a link, pipe or device is there, or a folder for a file or the reverse.
+    OSError
+        If that cannot be found out.
+    """
+    place = within
+    for part in path.relative_to(within).parts:
+        place /= part
+        try:
+            found = place.lstat()
+        except FileNotFoundError:
+            return
+        wants_folder = is_folder or place != path
+        if stat.S_ISLNK(found.st_mode):
+            what = f"is a link to {os.readlink(place)}"
+        elif in_place and stat.S_ISREG(found.st_mode) and found.st_nlink > 1:
+            what = "is also the file of another name (a hard link)"
+        elif (stat.S_ISDIR if wants_folder else stat.S_ISREG)(found.st_mode):
+            continue
+        elif stat.S_ISDIR(found.st_mode) or stat.S_ISREG(found.st_mode):
+            what = "is a file, not a folder" if wants_folder else "is a folder, not a file"
+        else:
+            what = "is a pipe or a device"
+        raise InputError(f"{place}: {what}, and is not written to; move it away")
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold the lock of a folder, which ends with its process.
+
+    Raises
+    ------
+    InputError
+        If another process holds it for `WAIT_S`, or something else has its name.
+    OSError
+        If the folder cannot be written to.
+    """
+    from filelock import FileLock, Timeout
+
+    check_plain(folder / LOCK, folder, in_place=True)
+    lock = FileLock(folder / LOCK, timeout=WAIT_S)
+    try:
+        lock.acquire()
+    except Timeout as error:
+        raise InputError(
+            f"{folder}: another command has been writing there for {WAIT_S:g} s; wait until it ends"
+        ) from error
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+def _hidden(folder: Path, sweep: ExitStack) -> Path:
+    """Return a random name in a folder; what has it at the end is removed."""
+    path = folder / f".roofslip-{secrets.token_hex(8)}.part"
+    sweep.callback(path.unlink, missing_ok=True)
+    return path
+
+
+def add_folder(folder: Path, undo: ExitStack) -> None:
+    """Create a folder and those above it; undoing removes those that were not there, if empty."""
+    missing = [path for path in (folder, *folder.parents) if not path.exists()]
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in reversed(missing):
+        undo.callback(_remove_empty, path)
+
+
+def _remove_empty(folder: Path) -> None:
+    with suppress(OSError):
+        folder.rmdir()
+
+
+def _replace(part: Path, target: Path, sweep: ExitStack, undo: ExitStack) -> None:
+    """Put a file in its place; what was there is put back when another one cannot be written."""
+    if target.exists():
+        former = _hidden(target.parent, sweep)
+        try:
+            os.link(target, former)
+        except OSError:  # a file system without hard links
+            shutil.copy2(target, former)
+        undo.callback(os.replace, former, target)
+        part.chmod(target.stat().st_mode & 0o777)
+    else:
+        undo.callback(target.unlink, missing_ok=True)
+    os.replace(part, target)
+
+
+def _add(part: Path, target: Path) -> None:
+    """Put a file where none is, as nobody else does meanwhile."""
     try:
         # Unlike a rename, a hard link is refused where the name exists, even as a dangling link.
-        os.link(part, path)
-    except FileExistsError:
-        raise
+        os.link(part, target)
+    except FileExistsError as error:
+        raise _exists(target) from error
     except OSError:  # a file system without hard links
-        if os.path.lexists(path):
-            raise FileExistsError(path) from None
-        os.replace(part, path)
+        if os.path.lexists(target):
+            raise _exists(target) from None
+        os.replace(part, target)
+
+
+def _exists(path: Path) -> InputError:
+    return InputError(f"{path}: already exists; give another name, or move the file")

@@ -121,13 +121,13 @@ def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
 
 def _repaired(source: Path) -> list[str]:
     """Restore the formulas that were typed over; return the addresses of their cells."""
-    from report.sheet.reading.archive import open_book
-    from report.sheet.reading.parts import Formula, write_cells
+    from report.sheet.reading.parts import Formula
+    from report.sheet.writing.filled import changing
     from report.sheet.writing.live import overwritten
 
-    book = open_book(source)
-    lost = [item for item in overwritten(book) if item.can_be_restored]
-    write_cells(book.path, {item.position: Formula(item.formula) for item in lost})
+    with changing(source) as change:
+        lost = [item for item in overwritten(change.book) if item.can_be_restored]
+        change.fill({item.position: Formula(item.formula) for item in lost})
     return [item.position.address for item in lost]
 
 

@@ -163,24 +163,24 @@ def suite(
         raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
     # The compilation, each motion, and the chart.
     with input_errors(into or folder), Progress(count + 2) as progress:
-        from report.results.motions import suite_beside
-        from report.results.publish import check_writable, publish
+        from report.results.motions import add_suite, suite_rows
+        from report.results.publish import output_folder, publish
         from report.sheet.reading.read import read
         from report.suite.files import generate, suite_table
         from report.suite.inputs import check_folder, read_seeds
 
         check_folder(folder, count)
-        check_writable(folder)
+        output_folder(folder, folder, "")
         sheet = read(into) if into else None
         asked = {"s_ds_g": s_ds_g, "z_over_h": z_over_h, "code": code, "tail": tail}
         given = {name: value for name, value in asked.items() if value is not None}
         targets, taken = _targets(given, target, sheet)
-        write = suite_beside(sheet.book, folder, count, targets.source(seed)) if sheet else None
+        rows = suite_rows(sheet.book, folder, count, targets.source(seed)) if sheet else []
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
         progress("compiling the solver (first run only)")
         motions, files = generate(targets, count, seed, seeds, progress)
-        if write:
-            has_formulas = write(files)
+        if into:
+            has_formulas = add_suite(into, folder, rows, files).has_formulas
         else:
             publish(files, folder)
     for line in (*taken, *suite_table(motions, targets), *seeds.notes):
@@ -218,8 +218,8 @@ def rows(
     """
     with input_errors(source), TemporaryDirectory() as temporary:
         from report.motions.sets import sets_of, table
-        from report.results.motions import add_motions, set_rows
-        from report.sheet.reading.archive import open_book
+        from report.results.motions import row_cells, set_rows
+        from report.sheet.writing.filled import changing
         from report.web.uploads import unpack
         from solver.model import InputError
 
@@ -241,13 +241,14 @@ def rows(
         if not sets:
             raise InputError("no set of two horizontal records and a vertical one to take")
         if project:
-            book = open_book(project)
             about = {"recorded_at": at, "units": units, "dt_s": None if math.isnan(dt_s) else dt_s}
-            added, files = set_rows(book, folder, sets, about)
-            has_formulas = add_motions(book.path, added, files)
-            click.echo(f"{book.path.parent}: {numbered(len(files), 'record')} copied.")
-            click.echo(f"{book.path}: {numbered(len(added), 'row')} added to the sheet Motions.")
-            say_next(book.path, has_formulas)
+            with changing(project) as change:
+                added, change.files = set_rows(change.book, folder, sets, about)
+                change.fill(row_cells(change.book, added))
+            path, count = change.book.path, len(change.files)
+            click.echo(f"{path.parent}: {numbered(count, 'record')} copied.")
+            click.echo(f"{path}: {numbered(len(added), 'row')} added to the sheet Motions.")
+            say_next(path, change.has_formulas)
 
 
 def _in_library(source: Path) -> Path:

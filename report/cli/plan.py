@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from report.drawing.read_dxf import RoofDrawing
     from report.sheet.schema.choices import LayerKind
     from report.sheet.schema.fields import DraftRow
+    from report.sheet.writing.filled import WorkbookChange
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
 WEIGHT_CHOICES = ("lb", "kip", "N", "kN", "kg")
@@ -78,41 +79,43 @@ def read(
     """
     from report.drawing.fill import changes
     from report.drawing.plan_read import plan_of
-    from report.sheet.reading.read import read as read_sheet
-    from report.sheet.writing.filled import fill_cells
+    from report.sheet.reading.read import read_book
+    from report.sheet.writing.filled import changing
     from report.words.units import LENGTHS
     from solver.model import InputError
 
     gap_m = gap[0] * LENGTHS[gap[1]]
-    with input_errors(project):
-        sheet = read_sheet(project)
-    rows = (row for row in sheet.draft["layers"] if {"layer", "kind"} <= row.keys())
-    named = {row["layer"]: row["kind"] for row in rows}
-    with input_errors(drawing):
-        drawn, unit_m = _read(drawing, units)
-        drawn, turn = _turned(drawn, rotate)
-        layers = choose(drawn, named, given, accept)
-        found = plan_of(drawn, unit_m, {**named, **layers}, gap_m)
-    with input_errors(project):
+    with input_errors(project), changing(project) as change:
+        rows = read_book(change.book).draft["layers"]
+        known = (row for row in rows if {"layer", "kind"} <= row.keys())
+        named = {row["layer"]: row["kind"] for row in known}
+        with input_errors(drawing):
+            drawn, unit_m = _read(drawing, units)
+            drawn, turn = _turned(drawn, rotate)
+            layers = choose(drawn, named, given, accept)
+            found = plan_of(drawn, unit_m, {**named, **layers}, gap_m)
         if not (found.roof or found.arrays or found.objects):
             unread = list(_unread(found)) or ["the drawing has no closed lines"]
             raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
-        has_formulas = fill_cells(sheet.book, changes(sheet.book, found, layers, replace=replace))
+        change.fill(changes(change.book, found, layers, replace=replace))
+        try:
+            more = _add_clearances(change)
+        except InputError as error:
+            more = [
+                f"Clearances are not added yet: {error.problems[0]}.",
+                f"Once the workbook has no errors, run: {called()} plan clearances {project}",
+            ]
     lines = (
         *turn,
         *(_line(place, gap_m) for place in (*found.roof, *found.arrays, *found.objects)),
         *_unread(found),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
+        f"{change.book.path}: the plan is filled in.",
+        *more,
     )
     for text in lines:
         click.echo(plain(text))
-    click.echo(f"{sheet.path}: the plan is filled in.")
-    try:
-        has_formulas |= _with_clearances(project)
-    except InputError as error:
-        click.echo(plain(f"Clearances are not added yet: {error.problems[0]}."))
-        click.echo(f"Once the workbook has no errors, run: {called()} plan clearances {project}")
-    say_next(project, has_formulas)
+    say_next(project, change.has_formulas)
 
 
 @plan.command()
@@ -125,21 +128,24 @@ def clearances(project: Path) -> None:
     plan, rounded down, and say so in the column Distance from: a condition of the package until
     they are confirmed. Rows that stand are kept.
     """
-    with input_errors(project):
-        has_formulas = _with_clearances(project)
-    say_next(project, has_formulas)
+    from report.sheet.writing.filled import changing
+
+    with input_errors(project), changing(project) as change:
+        lines = _add_clearances(change)
+    for line in lines:
+        click.echo(plain(line))
+    say_next(project, change.has_formulas)
 
 
-def _with_clearances(project: Path) -> bool:
-    """Add the rows that a workbook lacks; return whether formulas keep their former values."""
+def _add_clearances(change: WorkbookChange) -> Sequence[str]:
+    """Add the rows of clearances that a workbook lacks; return what to print of them."""
     from report.assessment.plan_clearances import missing_rows, without_clearances
     from report.assessment.project import assess
     from report.motions.prepare import prepare
-    from report.sheet.reading.read import read as read_sheet
-    from report.sheet.writing.filled import fill_cells
+    from report.sheet.reading.read import read_book
     from solver.model import InputError
 
-    sheet, not_run = read_sheet(project), []
+    sheet, not_run = read_book(change.book), []
     arrays: Sequence[ArrayAssessment] = ()
     with Progress(1) as progress:
         try:
@@ -150,11 +156,8 @@ def _with_clearances(project: Path) -> bool:
         except InputError as error:
             not_run = [f"the motions are not run: {error.problems[0]}"]
     cells, found = missing_rows(sheet, arrays)
-    lines = [*not_run, *found]
-    has_formulas = bool(cells) and fill_cells(sheet.book, cells)
-    for line in lines:
-        click.echo(plain(line))
-    return has_formulas
+    change.fill(cells)
+    return [*not_run, *found]
 
 
 def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
@@ -236,24 +239,23 @@ def ballast(
     from report.drawing.fill import ballast_changes
     from report.sheet.checking.grouped import listed
     from report.sheet.checking.plan_checks import shapes_of
-    from report.sheet.reading.read import read as read_sheet
-    from report.sheet.writing.filled import fill_cells
+    from report.sheet.reading.read import read_book
+    from report.sheet.writing.filled import changing
     from report.words.units import LENGTHS, WEIGHTS
     from solver.model import InputError
 
     block_n = block_weight[0] * WEIGHTS[block_weight[1]]
     with input_errors(ballast_map):
         rows = read_map(ballast_map, LENGTHS[units])
-    with input_errors(project):
-        sheet = read_sheet(project)
+    with input_errors(project), changing(project) as change:
+        sheet = read_book(change.book)
         shapes = shapes_of(sheet.draft)
         arrays = {row["id"]: row for row in sheet.draft["arrays"] if row.get("id") in shapes}
         found, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not found:
             raise InputError("no block of the map is within an array of the plan")
         weights = {name: load.blocks * block_n for name, load in found.items()}
-        cells = ballast_changes(sheet.book, weights, replace=replace)
-        has_formulas = fill_cells(sheet.book, cells)
+        change.fill(ballast_changes(change.book, weights, replace=replace))
     for name, row in arrays.items():
         text = _balance(row, found[name], weights[name]) if name in found else "no blocks"
         click.echo(plain(f"{name}: {text}"))
@@ -261,7 +263,7 @@ def ballast(
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
         click.echo(f"outside of every array: {lines}")
     click.echo(f"{sheet.path}: the ballast weights are filled in.")
-    say_next(project, has_formulas)
+    say_next(project, change.has_formulas)
 
 
 def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:

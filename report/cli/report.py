@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -58,24 +59,28 @@ def new(folder: Path, units: str, example: bool, study: bool) -> None:
 def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> Path:
     """Write a workbook and its records folder; never overwrite a workbook or a record."""
     from report.sheet.schema.choices import UnitsFirst
-    from report.sheet.writing.example import write_example
+    from report.sheet.writing.example import example_files
     from report.sheet.writing.template import write_template
     from report.study.template import write_study
+    from solver.files import add_folder, check_plain, write_all
     from solver.model import InputError
 
     path = folder / "input.xlsx"
     if os.path.lexists(path):  # a dangling link as well
         raise InputError(f"{path}: already exists; choose another folder, or move the file")
+    records = folder / "records"
+    check_plain(records, folder, is_folder=True)
     try:
-        records = folder / "records"
         if is_example and records.is_dir() and any(records.iterdir()):
             raise InputError(f"{records}: is not empty; choose another folder")
-        records.mkdir(parents=True, exist_ok=True)
-        if is_example:
-            write_example(folder, UnitsFirst(units))
-        else:
-            write = write_study if is_study else write_template
-            write(path, units=UnitsFirst(units))
+        with ExitStack() as undo:
+            add_folder(records, undo)
+            if is_example:
+                write_all(example_files(UnitsFirst(units)), folder, replace=False)
+            else:
+                write = write_study if is_study else write_template
+                write(path, units=UnitsFirst(units))
+            undo.pop_all()
     except OSError as error:
         raise InputError(
             f"{path}: cannot be written ({error.strerror}); choose another folder"

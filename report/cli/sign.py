@@ -28,11 +28,13 @@ def sign(file: Path, p12: Path, password: str | None, time_stamp: str, out: Path
     The package itself stays as it is, and verifies as before. Nothing is sent anywhere but to URL.
     """
     from report.proof.sign import signed
-    from solver.files import write_whole
+    from solver.files import check_plain, write_whole
     from solver.model import InputError
 
     target = out or file.with_name(f"{file.stem}-signed.pdf")
     with input_errors(file):
+        if out is None:
+            check_plain(target, file.parent)
         password = _asked() if password is None else password
         if target.exists() and target.samefile(file):
             raise InputError("the signed package needs a name of its own; choose another --out")

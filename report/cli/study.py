@@ -6,7 +6,7 @@ Read `make` first: one line for each step from workbook to files.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from contextlib import suppress
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -43,9 +43,10 @@ def study(
     A study that was killed goes on where it was. `roofslip new DIR --study` writes a blank
     workbook.
     """
-    from report.results.publish import check_apart, check_writable
+    from report.results.publish import check_apart, output_folder
     from report.study.extra import ARROW, extra
     from report.study.files import TABLE
+    from report.study.manifest import NAME
     from report.study.run import estimate, planned
 
     with input_errors(source):
@@ -56,8 +57,7 @@ def study(
         if dry_run:
             _print_estimate(estimate(plan))
             return
-        folder = out or beside / "out" / "study"
-        check_writable(folder)
+        folder = output_folder(out, beside, "out/study", (TABLE, NAME))
         check_apart([TABLE], folder, [source, source / "input.xlsx"])
         with Progress(quiet=quiet) as progress, no_collections():
             results, files = make(plan, folder, scheduler, progress, allow_matched=allow_matched)
@@ -77,16 +77,16 @@ def make(
     allow_matched: bool,
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
     """Run a study and publish its files; another run to the same folder waits until it ends."""
-    from report.results.publish import locked, publish
+    from report.results.publish import publish
     from report.study.exports import EXPORTS
     from report.study.files import study_files
     from report.study.run import RUNS, run_study
-    from solver.model import InputError
+    from solver.files import add_folder, check_plain, locked
 
     runs = folder / RUNS
-    added = [path for path in (runs, *runs.parents) if not path.exists()]
-    runs.mkdir(parents=True, exist_ok=True)
-    try:
+    check_plain(runs, folder, is_folder=True)
+    with ExitStack() as undo:
+        add_folder(runs, undo)  # where nothing ran, as with no cluster, nothing new stays
         with locked(runs):
             results = run_study(
                 plan, folder, scheduler=scheduler, progress=progress, allow_matched=allow_matched
@@ -97,12 +97,7 @@ def make(
             for name in EXPORTS:
                 if name not in files:
                     (folder / name).unlink(missing_ok=True)
-    except InputError:
-        # Such as a cluster that does not answer: nothing ran, and nothing new stays.
-        with suppress(OSError):
-            for path in added:
-                path.rmdir()
-        raise
+        undo.pop_all()
     return results, files
 
 

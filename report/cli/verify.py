@@ -22,27 +22,28 @@ STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 0.1, 7, 33, 2)
 """Usual shares of the time of the steps that a verification reports, as with --quick."""
 
 _FOLDER = Existing(file_okay=False)
+_USUAL = "out"
 
 
 @click.command()
-@click.option("--out", type=SOURCE, default=Path("out"), show_default=True,
-              help="Folder for the outputs.")  # fmt: skip
+@click.option("--out", type=SOURCE, help="Folder for the outputs; default: out.")
 @click.option("--quick", is_flag=True, help="Run fewer records, cases and settings; takes seconds.")
 @click.option("--records", type=_FOLDER, help="Folder of recorded motions. Files with three "
               "components are run with every model; roof_575_market (ground and floor records of "
               "575 Market Street) is compared with the building model.")  # fmt: skip
 @click.option("--table", type=_FOLDER, help="Folder of shake-table tests: tests.csv and the "
               "table accelerations. Measured slip is compared with the computed one.")  # fmt: skip
-def verify(out: Path, quick: bool, records: Path | None, table: Path | None) -> None:
+def verify(out: Path | None, quick: bool, records: Path | None, table: Path | None) -> None:
     """Check the solver and the comparison methods; write verification.pdf, its table and charts.
 
     The exit code is 1 if a check fails, or if the tests of a shake table are not accepted; the
     outputs are written in any case.
     """
-    from report.results.publish import check_writable, publish
+    from report.results.publish import output_folder, publish
 
-    with input_errors(table or records or out), Progress(STEPS) as progress, no_collections():
-        check_writable(out)
+    source = table or records or out or Path(_USUAL)
+    with input_errors(source), Progress(STEPS) as progress, no_collections():
+        out = output_folder(out, Path(), _USUAL)
         verification, files = _verification(quick, records, table, progress)
         progress("writing the files")
         publish(files, out)

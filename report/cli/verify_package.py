@@ -5,6 +5,7 @@ Takes the input out of the package into a folder of its own, runs `report` on it
 
 from __future__ import annotations
 
+import os
 import sys
 import tempfile
 from concurrent.futures import Executor
@@ -26,7 +27,7 @@ from report.cli.terminal import (
     plain,
     print_json,
 )
-from report.making import STEPS, make
+from report.making import OUTPUTS, STEPS, make
 from report.words.command import as_typed
 
 if TYPE_CHECKING:
@@ -80,9 +81,12 @@ def _proof(
     from report.proof.updates import appended
     from report.proof.verdict import Written, compared, failed
     from report.provenance.files import fingerprint
+    from report.results.publish import STAMP, warn_if_mixed
     from solver.model import InputError
 
     package = open_package(file)
+    if os.path.lexists(file.parent / STAMP):
+        warn_if_mixed(file.parent, OUTPUTS)
     later = appended(package)
     workbook, former = take_out(package, folder / "input", records)
     try:

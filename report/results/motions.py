@@ -1,51 +1,27 @@
 """Motions that are added to a project: their records beside the workbook, and rows of Motions.
 
-Read `add_motions`.
+Read `row_cells`.
 """
 
 from __future__ import annotations
 
-import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from report.motions.files import BAR
 from report.motions.sets import Sets
-from report.results.publish import STAMP, stamp, write_all
+from report.results.publish import STAMP, stamp
 from report.sheet.checking.motion_checks import LABELS
-from report.sheet.reading.archive import OpenBook, open_book
+from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.growing import GrowingTable
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition
-from report.sheet.writing.filled import fill_cells
+from report.sheet.writing.filled import WorkbookChange, changing
+from solver.files import check_plain
 from solver.model import InputError, Problem
 
 Row = Mapping[str, Value]
 """A motion by the fields of `report.sheet.schema.MotionInput`; those not given stay blank."""
-
-
-def add_motions(workbook: Path, rows: Sequence[Row], files: Mapping[str, bytes]) -> bool:
-    """Write files by their path from the workbook, and rows of motions: all of it or nothing.
-
-    Returns
-    -------
-    bool
-        Whether the workbook has formulas, whose cached values stay.
-
-    Raises
-    ------
-    InputError
-        If a motion stands in the workbook already, or something cannot be written.
-    """
-    book = open_book(workbook)
-    cells = row_cells(book, rows)
-    with TemporaryDirectory() as folder:
-        copy = Path(folder) / book.path.name
-        shutil.copyfile(book.path, copy)
-        has_formulas = fill_cells(open_book(copy), cells)
-        write_all({**files, book.path.name: copy.read_bytes()}, book.path.parent)
-    return has_formulas
 
 
 def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Value]:
@@ -84,12 +60,8 @@ def name_beside(book: OpenBook, path: Path) -> str:
     return name
 
 
-def suite_beside(
-    book: OpenBook, folder: Path, count: int, source: str
-) -> Callable[[Mapping[str, bytes]], bool]:
-    """Return what writes the files of a suite to a folder, and their motions into the workbook.
-
-    It returns as `add_motions`; what that would refuse of the rows is refused before it is called.
+def suite_rows(book: OpenBook, folder: Path, count: int, source: str) -> list[Row]:
+    """Return the rows of the motions of a suite that is to be written to a folder.
 
     Raises
     ------
@@ -102,12 +74,25 @@ def suite_beside(
         cells = (motion, *(f"{beside}/{motion}-{axis}.csv" for axis in "xyz"), source)
         rows.append(dict(zip(("id", *LABELS, "source"), cells, strict=True)))
     row_cells(book, rows)
+    return rows
 
-    def write(files: Mapping[str, bytes]) -> bool:
-        placed = {f"{beside}/{name}": data for name, data in files.items()}
-        return add_motions(book.path, rows, placed | {f"{beside}/{STAMP}": stamp(files)})
 
-    return write
+def add_suite(
+    workbook: Path, folder: Path, rows: Sequence[Row], files: Mapping[str, bytes]
+) -> WorkbookChange:
+    """Write the files of a suite to a folder and its rows into a workbook: all of it or nothing.
+
+    Raises
+    ------
+    InputError
+        As `suite_rows`, of the workbook as it is now, or if something cannot be written.
+    """
+    with changing(workbook) as change:
+        beside = name_beside(change.book, folder)
+        change.fill(row_cells(change.book, rows))
+        stamped = {**files, STAMP: stamp(files)}
+        change.files |= {f"{beside}/{name}": data for name, data in stamped.items()}
+    return change
 
 
 def set_rows(
@@ -131,6 +116,7 @@ def set_rows(
         if source.resolve().is_relative_to(home.resolve()):
             names[file] = name_beside(book, source)
             continue
+        check_plain(target, home)
         names[file], content = name_beside(book, target), source.read_bytes()
         if not target.exists():
             files[names[file]] = content

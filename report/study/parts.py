@@ -20,7 +20,7 @@ import numpy as np
 
 from report.study.extra import ARROW, extra
 from report.study.manifest import NAME, machine
-from solver.files import write_whole
+from solver.files import check_plain, write_all
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError
 from solver.sliding.least_model import Model
@@ -29,6 +29,8 @@ from solver.studies.runs import LENGTHS, STATUSES, Rows, Runner, run_part
 
 JOURNAL = ".done.jsonl"
 """Hidden, so that readers of the folder skip it."""
+
+_PARTS = "part-?????.parquet"
 
 BYTES_A_ROW = 40.0
 """Size of a row on disk, for `--dry-run`: five lengths, and keys that repeat."""
@@ -238,7 +240,7 @@ def read_part(folder: Path, done: Done) -> bytes:
 
 def keep(folder: Path, content: bytes, done: Done, identity: str) -> None:
     """Write a part, and then its line in the journal."""
-    write_whole(folder / part_name(done.number), content)
+    write_all({part_name(done.number): content}, folder)
     line = json.dumps({"identity": identity, **asdict(done)}).encode() + b"\n"
     # Appended in one write: lines of two processes do not mix.
     journal = os.open(folder / JOURNAL, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
@@ -250,7 +252,7 @@ def keep(folder: Path, content: bytes, done: Done, identity: str) -> None:
 
 
 def begin(folder: Path, manifest: Mapping[str, Any]) -> None:
-    """Write the manifest, and remove what is left of other runs: parts written aside.
+    """Write the manifest, and end the last line of the journal.
 
     Raises
     ------
@@ -259,13 +261,25 @@ def begin(folder: Path, manifest: Mapping[str, Any]) -> None:
     """
     folder.mkdir(parents=True, exist_ok=True)
     _check_own(folder)
-    for path in folder.glob(".roofslip-*.part"):
-        path.unlink(missing_ok=True)
     journal = folder / JOURNAL
     if journal.exists() and not journal.read_bytes().endswith(b"\n"):
         with journal.open("ab") as file:
             file.write(b"\n")  # ends a torn line
-    write_whole(folder.parent / NAME, json.dumps(manifest, indent=1).encode() + b"\n")
+    write_all({NAME: json.dumps(manifest, indent=1).encode() + b"\n"}, folder.parent)
+
+
+def check_places(out: Path, folder: Path) -> None:
+    """Refuse what is no plain file in the places of the manifest, the journal and the parts.
+
+    Raises
+    ------
+    InputError
+    """
+    check_plain(out / NAME, out)
+    check_plain(folder, out, is_folder=True)
+    check_plain(folder / JOURNAL, out, in_place=True)
+    for path in folder.glob(_PARTS):
+        check_plain(path, out)
 
 
 def _check_own(folder: Path) -> None:
@@ -273,7 +287,7 @@ def _check_own(folder: Path) -> None:
     listed = {part_name(line["number"]) for line in _journal(folder)}
     foreign = [
         path.name
-        for path in sorted(folder.glob("part-?????.parquet"))
+        for path in sorted(folder.glob(_PARTS))
         if path.name not in listed and _IDENTITY not in path.read_bytes()
     ]
     if foreign:
@@ -319,7 +333,7 @@ def finished(folder: Path, manifest: Mapping[str, Any], done: Sequence[Done]) ->
     counts = {model.title: sum(part.models.get(model.title, 0) for part in done) for model in Model}
     models = {title: count for title, count in counts.items() if count}
     ours = {part_name(part.number) for part in done}
-    for path in folder.glob("part-?????.parquet"):
+    for path in folder.glob(_PARTS):
         if path.name not in ours:
             path.unlink()
     machines = sorted({part.machine for part in done})

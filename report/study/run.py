@@ -16,6 +16,7 @@ from report.study.parts import (
     BYTES_A_ROW,
     Done,
     begin,
+    check_places,
     done_parts,
     finished,
     run_missing,
@@ -23,7 +24,7 @@ from report.study.parts import (
 from report.study.plan import StudyPlan, plan_study
 from report.study.read import read_study
 from report.study.results import StudyResults, results_of
-from solver.files import write_whole
+from solver.files import write_all
 
 RUNS = "runs"
 """Folder of the parts, in the folder of the outputs."""
@@ -116,6 +117,7 @@ def run_study(
     extra(ARROW)
     out = Path(out)
     folder, campaign = out / RUNS, plan.campaign
+    check_places(out, folder)
     manifest = manifest_of(campaign, plan.about)
     check_former(folder, manifest)
     identity, names = str(manifest["identity"]), plan.motions.buildings
@@ -141,7 +143,7 @@ def run_study(
     progress("computing the curves and the capacities")
     results = results_of(plan, folder, done, full, allow_matched=allow_matched)
     full["capacity_runs"] = results.capacity_runs
-    write_whole(out / NAME, json.dumps(full, indent=1).encode() + b"\n")
+    write_all({NAME: json.dumps(full, indent=1).encode() + b"\n"}, out)
     return results
 
 

@@ -6,8 +6,9 @@ from pathlib import Path
 
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import sections_of
-from report.sheet.writing.template import book_of, save
+from report.sheet.writing.template import book_of, saved
 from report.study.schema import StudyInput
+from solver.files import write_whole
 
 
 def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = None) -> None:
@@ -20,4 +21,4 @@ def write_study(path: Path, *, units: UnitsFirst, example: StudyInput | None = N
     """
     sections = sections_of(StudyInput)
     book, _ = book_of(sections, sections[0].sheet, units, example)
-    save(book, path, units)
+    write_whole(path, saved(book, units))

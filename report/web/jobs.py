@@ -19,7 +19,7 @@ from report.sheet.reading.archive import open_book
 from report.sheet.reading.parts import changed
 from report.sheet.reading.read import read
 from report.sheet.reading.what_if import cells
-from report.sheet.writing.filled import fill_cells
+from report.sheet.writing.filled import filled
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import check, controls, shown
@@ -124,9 +124,7 @@ def write(workbook: Path, job: Json) -> Json:
 def add_clearances(workbook: Path, job: Json) -> Json:
     """Write the workbook with the clearances that it lacks to another path."""
     added, _ = missing_rows(_open(workbook).sheet, _as_typed(workbook).arrays)
-    path = Path(job["to"])
-    path.write_bytes(workbook.read_bytes())
-    fill_cells(open_book(path), added)
+    Path(job["to"]).write_bytes(filled(open_book(workbook), added).data)
     return {}
 
 

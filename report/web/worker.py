@@ -94,7 +94,7 @@ def motions_made(workbook: Path, out: Path) -> str:
     """Make motions for the site of a workbook and list them in it, likewise; zip the project."""
 
     def do() -> None:
-        from report.results.motions import suite_beside
+        from report.results.motions import add_suite, suite_rows
         from report.sheet.reading.read import read
         from report.suite.files import generate
         from report.suite.inputs import read_seeds
@@ -103,11 +103,11 @@ def motions_made(workbook: Path, out: Path) -> str:
         sheet = read(workbook)
         targets, _ = site_targets(sheet)
         records = workbook.parent / "records"
-        write = suite_beside(sheet.book, records, MOTIONS, targets.source(SEED))
+        rows = suite_rows(sheet.book, records, MOTIONS, targets.source(SEED))
         tell("Preparing the motions")
         no_seeds, say = read_seeds(()), lambda doing: tell(capitalized(doing))
         _, files = generate(targets, MOTIONS, SEED, no_seeds, say)
-        write(files)
+        add_suite(workbook, records, rows, files)
         out.mkdir(exist_ok=True)
         left_out = {out, Path(tempfile.gettempdir())}
         with ZipFile(out / PROJECT, "w", ZIP_DEFLATED) as archive:

@@ -2,7 +2,7 @@
 
 A writer of sets is killed while it publishes; two writers publish to one folder at once while it is
 read; and `roofslip report` is killed as it would write a set over another that differs in every
-file, half of the times in its last second. What a kill leaves, the next run finishes.
+file, half of the times in its last second. The next run makes whole what a kill left.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from measure import ROOT, SMOKE, command, figure
 from openpyxl import load_workbook
 
 from report.making import OUTPUTS
-from report.results.publish import STAMP, finish
+from report.results.publish import STAMP
 
 KILLS, SETS, REPORT_KILLS = (2, 20, 1) if SMOKE else (100, 800, 10)
 PROJECT = ROOT / "projects" / "conditions"
@@ -78,12 +78,12 @@ def publishing(folder: Path) -> int:
         child.wait()
         child.stdout.close()
         untold += state(folder) == (True, False)
-        finish(folder)
-        left = any(path.is_dir() for path in folder.iterdir())
-        unfinished += left or state(folder) != (True, True)
+        child = writer(folder, 10_000 * trial, 1, 10_000 * trial + 1)
+        child.communicate()
+        unfinished += state(folder) != (True, True)
     figure("writers killed while they publish", KILLS)
     figure("mixed sets that the stamp accepts", untold)
-    figure("sets that the next run does not finish", unfinished)
+    figure("sets that the next run does not make whole", unfinished)
     return untold + unfinished
 
 
@@ -143,13 +143,12 @@ def reports(top: Path) -> int:
         left = hashes(out)
         kept, replaced = kept + (left == sets[0]), replaced + (left == sets[1])
         is_accepted = left not in sets and agrees(out)
-        finish(out)
-        is_unfinished = hashes(out) not in sets or any(path.is_dir() for path in out.iterdir())
-        wrong += is_accepted or is_unfinished
+        assert started(other, out).wait() == 0
+        wrong += is_accepted or hashes(out) != sets[1]
     figure("runs of `report` killed", REPORT_KILLS)
     figure("runs that left the old set", kept)
     figure("runs that left the new set", replaced)
-    figure("mixed sets accepted, or not finished by the next run", wrong)
+    figure("mixed sets accepted, or not made whole by the next run", wrong)
     return wrong
 
 

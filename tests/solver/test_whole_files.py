@@ -1,15 +1,14 @@
 """A file is written whole or not at all."""
 
 import os
-import signal
 import subprocess
 import sys
+from contextlib import contextmanager
 
 import pytest
 
 from places import ROOT
-from solver import files
-from solver.files import write_whole
+from solver.files import LOCK, locked, write_all, write_whole
 from solver.model import InputError
 
 
@@ -42,12 +41,159 @@ def test_what_exists_is_not_replaced_unless_asked_for(tmp_path, path, kind):
     assert [entry.name for entry in tmp_path.iterdir()] == ["a.csv"]
 
 
-def test_a_link_is_replaced_and_not_followed(tmp_path, path):
+def test_a_link_that_the_user_gave_is_followed(tmp_path, path):
     target = tmp_path / "target.csv"
     target.write_bytes(b"old")
     path.symlink_to(target)
     write_whole(path, b"new")
-    assert (target.read_bytes(), path.read_bytes()) == (b"old", b"new")
+    assert path.is_symlink()
+    assert target.read_bytes() == b"new"
+
+
+def placed(kind, path, outside):
+    """Put something in the place of a file, which leads to a file outside or to none."""
+    match kind:
+        case "link":
+            path.symlink_to(outside)
+        case "dangling link":
+            path.symlink_to(outside.with_name("nowhere"))
+        case "device":
+            path.symlink_to(os.devnull)
+        case "pipe":
+            os.mkfifo(path)
+        case "folder":
+            path.mkdir()
+
+
+TOLD = {
+    "link": "is a link to .*/outside",
+    "dangling link": "is a link to .*/nowhere",
+    "device": "is a link to /dev/null",
+    "pipe": "is a pipe or a device",
+    "folder": "is a folder, not a file",
+}
+
+
+@pytest.mark.parametrize("kind", TOLD)
+@pytest.mark.parametrize("name", ["b.csv", "sub/b.csv"])
+def test_nothing_is_written_through_what_is_in_the_place_of_a_file(tmp_path, kind, name):
+    outside, folder = tmp_path / "outside", tmp_path / "here"
+    (folder / "sub").mkdir(parents=True)
+    outside.write_bytes(b"old")
+    (folder / "a.csv").write_bytes(b"old")
+    placed(kind, folder / name, outside)
+    with pytest.raises(InputError, match=rf"{name}: {TOLD[kind]}.*; move it away"):
+        write_all({"a.csv": b"new", name: b"new"}, folder)
+    assert sorted(os.listdir(tmp_path)) == ["here", "outside"]
+    assert outside.read_bytes() == (folder / "a.csv").read_bytes() == b"old"
+    assert not list(folder.rglob(".*"))
+
+
+@pytest.mark.parametrize("kind", ["link", "file"])
+def test_nothing_is_written_through_what_is_in_the_place_of_a_folder(tmp_path, kind):
+    (tmp_path / "outside").mkdir()
+    here = tmp_path / "here"
+    here.mkdir()
+    if kind == "link":
+        (here / "sub").symlink_to(tmp_path / "outside")
+    else:
+        (here / "sub").write_bytes(b"")
+    told = "is a link to .*/outside" if kind == "link" else "is a file, not a folder"
+    with pytest.raises(InputError, match=rf"here/sub: {told}"):
+        write_all({"sub/deep/a.csv": b"new"}, here)
+    assert os.listdir(tmp_path / "outside") == []
+
+
+def test_a_folder_that_the_user_gave_may_be_a_link(tmp_path):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "given").symlink_to(tmp_path / "real")
+    write_all({"sub/a.csv": b"new"}, tmp_path / "given")
+    assert (tmp_path / "real" / "sub" / "a.csv").read_bytes() == b"new"
+
+
+def test_a_file_of_two_names_is_replaced_in_one(tmp_path, path):
+    path.write_bytes(b"old")
+    os.link(path, tmp_path / "other")
+    write_all({"a.csv": b"new"}, tmp_path)
+    assert (path.read_bytes(), (tmp_path / "other").read_bytes()) == (b"new", b"old")
+
+
+@pytest.mark.parametrize("replace", [True, False])
+@pytest.mark.parametrize("name", ["a.csv", "b.csv", "sub/d.csv", "c.csv"])
+@pytest.mark.parametrize("has_links", [True, False])
+def test_of_a_set_that_cannot_be_written_nothing_is(
+    tmp_path, monkeypatch, replace, name, has_links
+):
+    before = dict.fromkeys(("a.csv", "b.csv", "c.csv"), b"old") if replace else {}
+    folder, failures = tmp_path / "here", [1]
+    if replace:
+        write_all(before, folder)
+    link, rename = os.link, os.replace
+
+    def linked(source, target):
+        if target == folder / name or not has_links:
+            refused()
+        link(source, target)
+
+    def renamed(source, target):
+        if target == folder / name and failures:
+            failures.pop()
+            refused()
+        rename(source, target)
+
+    monkeypatch.setattr(os, "link", linked)
+    monkeypatch.setattr(os, "replace", renamed)
+    told = rf"{name}: cannot be written .*not permitted.*in other programs. No file was changed"
+    with pytest.raises(InputError, match=told):
+        write_all(dict.fromkeys(("a.csv", "b.csv", "sub/d.csv", "c.csv"), b"new"), folder,
+                  replace=replace)  # fmt: skip
+    assert {path.name: path.read_bytes() for path in folder.glob("*")} == before
+    assert folder.exists() == replace
+
+
+def test_a_second_process_waits_for_the_first_and_then_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr("solver.files.WAIT_S", 0.2)
+    with locked(tmp_path):
+        with pytest.raises(InputError, match=r"another command has been writing there for 0\.2 s"):
+            locked(tmp_path).__enter__()
+        with locked_elsewhere(tmp_path) as other:
+            assert other.poll() is None  # it waits
+    with locked(tmp_path):
+        pass
+    assert os.listdir(tmp_path) == []
+
+
+@contextmanager
+def locked_elsewhere(folder):
+    """A process that takes the lock of a folder once it can."""
+    script = "import sys; from pathlib import Path; from solver.files import locked\n"
+    script += "print(flush=True)\nwith locked(Path(sys.argv[1])): print(flush=True)"
+    command = [sys.executable, "-c", script, str(folder)]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) as child:
+        child.stdout.readline()
+        yield child
+        child.kill()
+
+
+@pytest.mark.parametrize("kind", [*TOLD, "hard link"])
+def test_a_lock_is_not_opened_through_what_is_in_its_place(tmp_path, kind):
+    outside, folder = tmp_path / "outside", tmp_path / "here"
+    folder.mkdir()
+    outside.write_bytes(b"old")
+    placed(kind, folder / LOCK, outside)
+    if kind == "hard link":
+        os.link(outside, folder / LOCK)
+    told = TOLD.get(kind, "is also the file of another name")
+    with pytest.raises(InputError, match=rf"{LOCK}: {told}"):
+        locked(folder).__enter__()
+    assert outside.read_bytes() == b"old"
+
+
+def test_a_lock_that_a_killed_process_left_holds_nobody_up(tmp_path):
+    (tmp_path / LOCK).touch()
+    with locked(tmp_path):
+        pass
+    assert os.listdir(tmp_path) == []
 
 
 @pytest.mark.parametrize("replace", [True, False])
@@ -77,63 +223,16 @@ def test_a_file_system_without_hard_links_is_written_to(path, monkeypatch):
         write_whole(path, b"newer", replace=False)
 
 
-# Begins to write and waits for ever with half a file.
-WRITER = """
-import os, sys, time
-from pathlib import Path
-from solver.files import write_whole
-os.fsync = lambda file: (print(flush=True), time.sleep(1000))
-write_whole(Path(sys.argv[1]), b"half")
-"""
-
-
-def test_what_a_killed_writer_left_is_swept_up_and_nothing_else(tmp_path):
-    command = [sys.executable, "-c", WRITER, tmp_path / "b.csv"]
-    writers = [subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) for _ in range(2)]
-    killed, living = writers
-    for writer in writers:
-        writer.stdout.readline()
-    foreign = {".roofslip-notes.part", ".roofslip-0123456789abcdef.part.txt", "notes.part"}
-    for name in foreign:
-        (tmp_path / name).write_text("of the user")
-    (tmp_path / ".roofslip-0123456789abcdef.part").symlink_to(tmp_path / "notes.part")
-    killed.send_signal(signal.SIGKILL)
-    killed.wait()
-    before = set(os.listdir(tmp_path))
-    write_whole(tmp_path / "a.csv", b"1")
-    left = set(os.listdir(tmp_path))
-    assert (len(before - left), left - before) == (1, {"a.csv"})
-    assert foreign < left
-    living.kill()
-    living.wait()
-    write_whole(tmp_path / "a.csv", b"2")
-    assert set(os.listdir(tmp_path)) == foreign | {"a.csv", ".roofslip-0123456789abcdef.part"}
-    for writer in writers:
-        writer.stdout.close()
-
-
-def test_a_file_that_is_swept_before_it_is_locked_is_begun_again(tmp_path, path, monkeypatch):
-    swept, flock = [], files.fcntl.flock
-
-    def late(file, how):
-        if not swept:
-            swept.extend(os.listdir(tmp_path))
-            (tmp_path / swept[0]).unlink()
-        flock(file, how)
-
-    monkeypatch.setattr(files.fcntl, "flock", late)
-    write_whole(path, b"1")
-    assert len(swept) == 1
-    assert os.listdir(tmp_path) == ["a.csv"]
-
-
-def test_a_file_system_without_locks_is_written_to_and_not_swept(tmp_path, path, monkeypatch):
-    monkeypatch.setattr(files.fcntl, "flock", refused)
+def test_only_names_that_are_written_are_touched(tmp_path, path):
     left = tmp_path / ".roofslip-0123456789abcdef.part"
-    left.touch()
+    os.mkfifo(left)
+    kept = {".roofslip-fedcba9876543210.part": "of the user", ".roofslip-notes.part": "mine"}
+    for name, text in kept.items():
+        (tmp_path / name).write_text(text)
     write_whole(path, b"1")
-    assert path.read_bytes() == b"1"
-    assert left.exists()
+    assert left.is_fifo()
+    assert {name: (tmp_path / name).read_text() for name in kept} == kept
+    assert set(os.listdir(tmp_path)) == {"a.csv", left.name, *kept}
 
 
 def test_a_replaced_file_keeps_its_permissions(path):

@@ -57,7 +57,8 @@ class OpenBook:
     """A workbook with the values last computed by the program that saved it."""
 
     path: Path
-    sha256: str  # of the file
+    data: bytes  # of the file
+    sha256: str
     book: Workbook
     scans: Mapping[str, Scan]  # by the title of the sheet
     calculation: Mapping[str, str]  # how it was calculated when it was saved, as the file says it
@@ -65,7 +66,7 @@ class OpenBook:
     def __reduce__(self) -> tuple[Callable[[], OpenBook], tuple[()]]:
         """Reach another process without cells: nothing is read from them once motions run."""
         same = partial(OpenBook, path=self.path, sha256=self.sha256, calculation=self.calculation)
-        return partial(same, book=Workbook(), scans={}), ()
+        return partial(same, data=b"", book=Workbook(), scans={}), ()
 
     def extent(self, title: str) -> Extent:
         """Return the extent of a sheet's values."""
@@ -84,8 +85,12 @@ def open_book(path: Path) -> OpenBook:
     InputError
         If there is none, or it is another type of file, damaged, or too large.
     """
-    path = _located(path)
-    data = _read(path)
+    path = located(path)
+    return book_of(path, _read(path))
+
+
+def book_of(path: Path, data: bytes) -> OpenBook:
+    """Open a workbook from the content that its file has, or will have; raises as `open_book`."""
     with _zip(data) as archive:
         _check_sizes(archive)
         _check_kind(archive)
@@ -96,6 +101,7 @@ def open_book(path: Path) -> OpenBook:
         raise InputError(f"its sheets cannot all be read; {REOPEN}")
     return OpenBook(
         path=path,
+        data=data,
         sha256=hashlib.sha256(data).hexdigest(),
         book=book,
         scans=scans,
@@ -103,7 +109,8 @@ def open_book(path: Path) -> OpenBook:
     )
 
 
-def _located(path: Path) -> Path:
+def located(path: Path) -> Path:
+    """Return the path of a workbook, or of `input.xlsx` in a folder; raises as `open_book`."""
     if path.is_dir():
         path = path / "input.xlsx"
     if not path.exists():

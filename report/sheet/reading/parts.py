@@ -12,7 +12,6 @@ import re
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from xml.parsers import expat
 from xml.sax.saxutils import escape, unescape
 
@@ -21,7 +20,6 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from report.sheet.reading.archive import sheet_parts
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.scan import REOPEN
-from solver.files import write_whole
 from solver.model import InputError
 
 
@@ -82,23 +80,6 @@ class _Sheet:
             said["style"] for at, said, *_ in self.columns if column in at and "style" in said
         )
         return next(styles, "")
-
-
-def write_cells(path: Path, changes: Mapping[CellPosition, Value]) -> None:
-    """Change cells of a workbook; the file is replaced when the new one is complete.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read or written, a sheet is missing, or a cell shares its formula.
-    """
-    if not changes:
-        return
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from error
-    write_whole(path, changed(data, changes))
 
 
 def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:

@@ -136,7 +136,12 @@ Sheet = SheetOf[ProjectInput]
 
 
 def read(path: Path) -> Sheet:
-    """Read the input workbook at a path, or `input.xlsx` in a folder; run nothing.
+    """Read the input workbook at a path, or `input.xlsx` in a folder; raises as `read_book`."""
+    return read_book(open_book(path))
+
+
+def read_book(book: OpenBook) -> Sheet:
+    """Read an input workbook; run nothing.
 
     Raises
     ------
@@ -144,7 +149,6 @@ def read(path: Path) -> Sheet:
         If there is no workbook to read. `Sheet.project` raises the errors within it, and
         `report.motions.prepare` those together with the errors of its records.
     """
-    book = open_book(path)
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
         raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
     sheet = read_as(ProjectInput, book, faults)

@@ -1,13 +1,12 @@
 """The example: a warehouse roof with three arrays, and its seven motions from seeded noise.
 
 `roofslip new --example` writes it, and `projects/example` is what that gives. Read
-`write_example`.
+`example_files`.
 """
 
 from __future__ import annotations
 
 import datetime as dt
-import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,7 +22,7 @@ from report.sheet.writing.rows import (
     roof_object,
 )
 from report.sheet.writing.shipped import EXAMPLE
-from report.sheet.writing.template import write_template
+from report.sheet.writing.template import template, write_template
 
 if TYPE_CHECKING:
     from solver.synthesis.suite import SuiteMotion
@@ -35,11 +34,11 @@ COUNT, SEED = 7, 1566
 SOURCE = f"AC156 spectrum at the roof, seed {SEED}"
 
 
-def write_example(folder: Path, units: UnitsFirst = UnitsFirst.US) -> None:
-    """Write records/, as they are shipped, and input.xlsx to a folder."""
-    records = folder / "records"
-    shutil.copytree(EXAMPLE / "records", records, dirs_exist_ok=True, copy_function=shutil.copyfile)
-    write_workbook(folder, units)
+def example_files(units: UnitsFirst = UnitsFirst.US) -> dict[str, bytes]:
+    """Return records/, as they are shipped, and input.xlsx by their names."""
+    records = sorted((EXAMPLE / "records").iterdir())
+    files = {f"records/{path.name}": path.read_bytes() for path in records}
+    return files | {"input.xlsx": template(units, project(units))}
 
 
 def write_workbook(folder: Path, units: UnitsFirst = UnitsFirst.US) -> None:

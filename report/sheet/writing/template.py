@@ -30,7 +30,12 @@ from solver.files import write_whole
 
 
 def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | None = None) -> None:
-    """Write or replace an input workbook, with the values of a project or blank but for defaults.
+    """Write or replace an input workbook, which `template` returns."""
+    write_whole(path, template(units, example))
+
+
+def template(units: UnitsFirst, example: ProjectInput | None = None) -> bytes:
+    """Return an input workbook, with the values of a project or blank but for defaults.
 
     Parameters
     ----------
@@ -45,7 +50,7 @@ def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | Non
     write_counts(book, layout, write_start(book))
     mark_lost(book, layout)
     color_tabs(book)
-    save(book, path, units)
+    return saved(book, units)
 
 
 def book_of(
@@ -74,11 +79,11 @@ def book_of(
     return book, layout
 
 
-def save(book: Workbook, path: Path, units: UnitsFirst) -> None:
-    """Set up the pages of a finished book and write it; programs compute it when they open it."""
+def saved(book: Workbook, units: UnitsFirst) -> bytes:
+    """Set up the pages of a finished book and return it; programs compute it when they open it."""
     for sheet in book.worksheets:
         style.finish(sheet, units.is_us)
     book.calculation.fullCalcOnLoad = True
     buffer = io.BytesIO()
     book.save(buffer)
-    write_whole(path, buffer.getvalue())
+    return buffer.getvalue()

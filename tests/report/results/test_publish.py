@@ -7,14 +7,18 @@ import hashlib
 import os
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
+import warnings
 from contextlib import contextmanager
 
 import pytest
 
-from report.results.publish import STAMP, check_apart, finish, locked, publish
+from places import ROOT
+from report.results.publish import STAMP, check_apart, output_folder, publish, warn_if_mixed
+from solver.files import locked
 from solver.model import InputError
 
 
@@ -49,10 +53,6 @@ def before_each_replacement(monkeypatch):
     return calling
 
 
-class Killed(BaseException):
-    """The end of a process at one moment."""
-
-
 OLD = {"a.txt": b"old a", "b.txt": b"old b"}
 NEW = {"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}
 
@@ -71,14 +71,17 @@ def test_files_are_published_together(tmp_path):
 def test_a_file_that_cannot_be_replaced_changes_nothing_and_is_named(tmp_path):
     publish(OLD, tmp_path)
     (tmp_path / "c.txt").mkdir()
-    with pytest.raises(InputError, match=r"c\.txt: cannot be replaced .*close it"):
+    with (
+        pytest.raises(InputError, match=r"c\.txt: is a folder"),
+        pytest.warns(match="c.txt not as"),
+    ):
         publish(NEW, tmp_path)
     assert names_in(tmp_path) == ["a.txt", "b.txt", "c.txt", STAMP]
     assert contents(tmp_path) == OLD
     assert is_whole(tmp_path)
 
 
-@pytest.mark.parametrize("at", ["forward.json", "a.txt", "b.txt", STAMP])
+@pytest.mark.parametrize("at", ["a.txt", "b.txt", STAMP])
 def test_ctrl_c_while_files_are_replaced_leaves_one_whole_set(
     tmp_path, before_each_replacement, at
 ):
@@ -91,7 +94,7 @@ def test_ctrl_c_while_files_are_replaced_leaves_one_whole_set(
 
     with before_each_replacement(interrupted), pytest.raises(KeyboardInterrupt):
         publish(NEW, tmp_path)
-    assert contents(tmp_path) == (OLD if at == "forward.json" else NEW)
+    assert contents(tmp_path) == OLD
     assert names_in(tmp_path) == [*sorted(contents(tmp_path)), STAMP]
     assert is_whole(tmp_path)
 
@@ -150,11 +153,11 @@ def numbers_of(folder):
     return {path.read_bytes().split()[0] for path in names}
 
 
-def test_a_run_killed_at_any_moment_leaves_the_old_set_or_the_new_one(tmp_path):
+def test_a_run_killed_at_any_moment_leaves_a_set_or_a_mixture_that_is_told(tmp_path):
     rng = random.Random(1)
     (tmp_path / "user.txt").write_text("of the user")
     (tmp_path / ".roofslip-notes").mkdir()
-    (tmp_path / ".roofslip-notes" / "mine.txt").write_text("of the user")
+    (tmp_path / ".roofslip-notes" / "forward.json").write_text('{"user.txt": false}')
     for trial in range(4):
         child = writer(tmp_path, 1000 * trial, 1)
         child.stdout.readline()
@@ -162,56 +165,98 @@ def test_a_run_killed_at_any_moment_leaves_the_old_set_or_the_new_one(tmp_path):
         end(child)
         # A reader who checks the stamp never takes a mixture for a set.
         assert not is_whole(tmp_path) or len(numbers_of(tmp_path)) == 1
-        finish(tmp_path)
-        assert is_whole(tmp_path)
-        assert len(numbers_of(tmp_path)) == 1
-    publish({"e.txt": b"5"}, tmp_path)
-    left = [name for name in names_in(tmp_path) if name.startswith(".")]
-    assert left == [".roofslip-notes"]
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            warn_if_mixed(tmp_path, FILES)
+        assert bool(told) == (not is_whole(tmp_path))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        publish(FILES, tmp_path)
+    assert is_whole(tmp_path)
+    assert numbers_of(tmp_path) == {b"5"}
     assert (tmp_path / "user.txt").read_text() == "of the user"
-    assert (tmp_path / ".roofslip-notes" / "mine.txt").read_text() == "of the user"
+    assert (tmp_path / ".roofslip-notes" / "forward.json").exists()
 
 
-@pytest.mark.parametrize("step", range(1, 12))
-def test_a_run_killed_after_any_rename_is_finished_by_the_next(
-    tmp_path, before_each_replacement, step
+FILES = dict.fromkeys(("a.txt", "b.txt", "c.txt", "sub/d.txt"), b"5")
+
+
+@pytest.mark.parametrize("stop", ["a.txt", "b.txt", "c.txt", STAMP])
+def test_a_set_cut_off_before_any_replacement_is_told_and_made_whole_by_the_next(
+    tmp_path, monkeypatch, stop
 ):
     publish(OLD, tmp_path)
-    left = [step]
-
-    def counted(*_):
-        left[0] -= 1
-        if left[0] <= 0:  # nothing is done from there on
-            raise Killed
-
-    try:
-        with before_each_replacement(counted):
-            publish(NEW, tmp_path)
-    except Killed:
-        finish(tmp_path)
-    else:
-        assert step > 5
-    assert is_whole(tmp_path)
-    # The first one puts the journal in place.
-    assert contents(tmp_path) == (OLD if step == 1 else NEW)
-
-
-def test_a_set_half_put_back_is_put_back_by_the_next_run(tmp_path, before_each_replacement):
-    former = OLD | {"c.txt": b"old c"}
-    publish(former, tmp_path)
-
-    def failing(source, target):
-        if target == str(tmp_path / "c.txt"):
-            raise PermissionError(13, "Permission denied")
-        if target == str(tmp_path / "b.txt") and "old" in source:
-            raise Killed
-
-    with before_each_replacement(failing), pytest.raises(Killed):
+    cut_off = writer_killed_at(tmp_path, stop)
+    assert cut_off.returncode == -signal.SIGKILL
+    parts = [name for name in names_in(tmp_path) if name.endswith(".part")]
+    if stop == "a.txt":
         publish(NEW, tmp_path)
-    assert not is_whole(tmp_path)
-    finish(tmp_path)
+    else:
+        mixed = {"b.txt": "a.txt", "c.txt": "a.txt, b.txt", STAMP: "a.txt, b.txt, c.txt"}[stop]
+        with pytest.warns(
+            match=rf"{mixed} not as {STAMP} says: a run was cut off, or the file was"
+        ):
+            publish(NEW, tmp_path)
+    assert contents(tmp_path) == NEW
     assert is_whole(tmp_path)
-    assert contents(tmp_path) == former
+    # Only names that are written are touched: what was staged stays, hidden.
+    assert [name for name in names_in(tmp_path) if name.startswith(".")] == parts
+
+
+CUT_OFF = """
+import os, signal, sys
+from pathlib import Path
+from report.results.publish import publish
+rename = os.replace
+def renamed(source, target):
+    if Path(target).name == sys.argv[2]:
+        os.kill(os.getpid(), signal.SIGKILL)
+    rename(source, target)
+os.replace = renamed
+publish({"a.txt": b"new a", "b.txt": b"new b", "c.txt": b"new c"}, Path(sys.argv[1]))
+"""
+
+
+def writer_killed_at(folder, name):
+    command = [sys.executable, "-c", CUT_OFF, str(folder), name]
+    return subprocess.run(command, cwd=ROOT, check=False)
+
+
+def test_a_first_run_that_was_cut_off_is_told(tmp_path):
+    writer_killed_at(tmp_path, "b.txt")
+    with pytest.warns(match="a.txt not as"):
+        publish(NEW, tmp_path)
+    assert is_whole(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["a.txt", STAMP])
+@pytest.mark.parametrize("kind", ["pipe", "link", "endless"])
+def test_what_is_no_file_is_not_read_for_the_stamp(tmp_path, kind, name):
+    publish(OLD, tmp_path)
+    path = tmp_path / name
+    path.unlink()
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "link":
+        (tmp_path / "same").write_bytes(OLD["a.txt"])
+        path.symlink_to("same")
+    else:
+        with path.open("wb") as file:
+            file.truncate(10**13)  # without a block on the disk
+    with pytest.warns(match="a.txt"):
+        warn_if_mixed(tmp_path, OLD)
+
+
+def test_a_usual_folder_is_refused_where_it_is_a_link_and_one_that_is_given_is_not(tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "out").symlink_to(tmp_path / "elsewhere")
+    for usual in ("out", "out/study"):
+        with pytest.raises(InputError, match=r"out: is a link to .*/elsewhere, and is not written"):
+            output_folder(None, tmp_path, usual)
+    assert output_folder(tmp_path / "out", tmp_path, "out") == tmp_path / "out"
+    (tmp_path / "out" / "b.txt").symlink_to(tmp_path)
+    with pytest.raises(InputError, match=r"out/b.txt: is a link"):
+        output_folder(tmp_path / "out", tmp_path, "out", ["a.txt", "b.txt"])
 
 
 def test_two_runs_at_once_never_mix_their_sets(tmp_path):
@@ -228,14 +273,12 @@ def test_two_runs_at_once_never_mix_their_sets(tmp_path):
             seen |= numbers
     for child in children:
         end(child)
-    finish(tmp_path)
-    assert is_whole(tmp_path)
     assert len(seen) > 2
 
 
 def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("report.results.publish.WAIT_S", 0.2)
-    words = "another run has been writing there for 0.2 s"
+    monkeypatch.setattr("solver.files.WAIT_S", 0.2)
+    words = "another command has been writing there for 0.2 s"
     with locked(tmp_path), pytest.raises(InputError, match=words):
         publish(OLD, tmp_path)
     assert contents(tmp_path) == {}

@@ -21,9 +21,9 @@ from openpyxl import load_workbook
 from test_study_read import at, command, given, sheet_rows, with_study, write
 
 import printed
+import stranger
 from report.cli.main import main
 from report.cli.study import make
-from report.results.publish import locked
 from report.study import figures, files
 from report.study.exports import (
     component_id,
@@ -33,6 +33,7 @@ from report.study.exports import (
     probabilities_of,
 )
 from report.study.files import study_html
+from report.study.parts import JOURNAL
 from report.study.prescribed import compare
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
@@ -41,6 +42,7 @@ from report.study.words import design_words, headline
 from report.typeset.pdf import lay_out
 from report.words.units import Quantity
 from solver import solve
+from solver.files import LOCK, locked
 from solver.model import InputError, coulomb
 from solver.studies.fragility import UNKNOWN, Lognormal
 
@@ -556,16 +558,16 @@ def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
     (tmp_path / "out").write_text("mine")
     done = command(folder)
     assert done.exit_code == 2
-    assert "is a file, not a folder; choose another folder" in done.output
+    assert "is a file, not a folder, and is not written to" in done.output
 
 
 def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("report.results.publish.WAIT_S", 0.1)
+    monkeypatch.setattr("solver.files.WAIT_S", 0.1)
     folder = write(tmp_path, small())
     runs = folder / "out" / "study" / "runs"
     runs.mkdir(parents=True)
     plan, _ = planned(folder)
-    with locked(runs), pytest.raises(InputError, match="another run has been writing there"):
+    with locked(runs), pytest.raises(InputError, match="another command has been writing there"):
         make(plan, runs.parent, "", lambda _: None, allow_matched=False)
     assert list(runs.iterdir()) == []
 
@@ -588,3 +590,25 @@ def test_an_array_has_probabilities_where_each_state_has_a_lognormal_or_all_its_
     array = SimpleNamespace(states=(state,))
     assert has_probabilities(array) == has
     assert known_states(array) == ((state,) if is_known else ())
+
+
+STUDY = ("out", "out/study", "out/study/runs", "out/study/manifest.json", "out/study/study.xlsx",
+         f"out/study/runs/{JOURNAL}", "out/study/runs/part-00000.parquet",
+         f"out/study/runs/{LOCK}")  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("place", "kind"),
+    [(place, kind) for place in STUDY for kind in ("link", "dangling link", "pipe", "device")]
+    + [(place, "hard link") for place in STUDY if place.endswith((JOURNAL, LOCK))],
+)
+def test_a_study_is_not_written_through_what_is_in_its_place(tmp_path, place, kind):
+    outside = tmp_path / "outside"
+    outside.write_bytes(b"theirs")
+    job = write(tmp_path / "job", small())
+    (job / place).parent.mkdir(parents=True, exist_ok=True)
+    stranger.occupied(job / place, kind, outside)
+    before = stranger.state(tmp_path)
+    told = command(job).output
+    assert f"{job / place}: is a" in told
+    assert stranger.state(tmp_path) == before

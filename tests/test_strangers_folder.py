@@ -1,0 +1,272 @@
+"""Commands in a folder that a stranger made: nothing outside is touched, nothing hangs."""
+
+import errno
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import commands
+import report.suite.files
+import sheets
+import waves
+from places import ROOT
+from report.sheet.reading.growing import GrowingTable
+from report.sheet.reading.read import read
+from report.sheet.writing.filled import changing
+from sketch import BOX_FT, Sketch
+from solver.files import LOCK
+from stranger import KINDS, occupied, state
+
+
+@pytest.fixture(autouse=True)
+def no_hang():
+    """A command that opens a pipe would wait for ever."""
+    signal.alarm(120)
+    yield
+    signal.alarm(0)
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """Motions of sines at once."""
+    monkeypatch.setattr(
+        report.suite.files, "make_suite", lambda *_, count, **__: waves.suite(count)
+    )
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A project, and beside it what the commands are given."""
+    for axis in "xyz":
+        waves.plain(tmp_path / "library" / f"KJM-{axis}.csv", dt_s=0.02, count=300)
+    sketch = Sketch()
+    sketch.ring("PV", BOX_FT, "A9")
+    sketch.saved(tmp_path)
+    x, y = (sum(pair) / 2 for pair in (X, Y))
+    (tmp_path / "map.csv").write_text(f"x,y,blocks\n{x},{y},100\n")
+    sheets.make(tmp_path / "job", clearances=sheets.project().clearances[:1])
+    return tmp_path / "job"
+
+
+A1 = sheets.project().arrays[0].shape
+X, Y = (A1.x_from_m, A1.x_to_m), (A1.y_from_m, A1.y_to_m)
+
+
+def rows(job):
+    return ("motion", "rows", job.parent / "library", job, "--at", "roof")
+
+
+def suite(job):
+    return ("motion", "suite", job.parent / "job" / "made", "--into", job, "--count", 1)
+
+
+def plan_read(job):
+    return ("plan", "read", job.parent / "roof.dxf", job, "--layer", "PV=array")
+
+
+def clearances(job):
+    return ("plan", "clearances", job)
+
+
+def ballast(job):
+    more = ("--units", "m", "--block-weight", 32, "lb", "--replace")
+    return ("plan", "ballast", job.parent / "map.csv", job, *more)
+
+
+def repair(job):
+    return ("check", "--repair", job)
+
+
+WRITERS = (rows, suite, clearances, ballast, repair, plan_read)
+"""Every command that changes the workbook."""
+
+
+def spoiled(job):
+    """Type over a formula, so that there is something to repair."""
+    sheets.edit(job / "input.xlsx", lambda book: setattr(sheets.formula_cells(book)[0], "value", 1))
+
+
+@pytest.mark.parametrize("writer", WRITERS)
+def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
+    spoiled(folder)
+    outside = folder.parent / "theirs.xlsx"
+    (folder / "input.xlsx").rename(outside)
+    (folder / "input.xlsx").symlink_to(outside)
+    before = state(folder.parent)
+    told = commands.refused(*writer(folder))
+    assert f"{folder / 'input.xlsx'}: is a link to {outside}, and is not written to" in told
+    assert state(folder.parent) == before
+
+
+@pytest.mark.parametrize("writer", WRITERS)
+def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
+    spoiled(folder)
+    link = folder / "given.xlsx"
+    link.symlink_to(folder / "input.xlsx")
+    before = (folder / "input.xlsx").read_bytes()
+    words = [link if word == folder else word for word in writer(folder)]
+    commands.printed(*words)
+    assert link.is_symlink()
+    assert (folder / "input.xlsx").read_bytes() != before
+    assert (folder / "input.before.xlsx").read_bytes() == before
+
+
+@pytest.mark.parametrize("lock", ["~$input.xlsx", ".~lock.input.xlsx#"])
+@pytest.mark.parametrize("writer", WRITERS)
+def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock):
+    spoiled(folder)
+    (folder / lock).write_bytes(b"")
+    before = state(folder.parent)
+    told = commands.refused(*writer(folder))
+    assert f"{folder / lock}: is there, so a program has the workbook open; close it there" in told
+    assert "delete that file if none has" in told
+    assert state(folder.parent) == before
+    (folder / lock).unlink()
+    commands.printed(*writer(folder))
+
+
+@pytest.mark.parametrize("writer", WRITERS)
+def test_the_workbook_as_it_was_is_kept_by_one_name(folder, writer):
+    spoiled(folder)
+    before = (folder / "input.xlsx").read_bytes()
+    (folder / "input.before.xlsx").write_bytes(b"of the command before")
+    commands.printed(*writer(folder))
+    assert (folder / "input.before.xlsx").read_bytes() == before
+    assert (folder / "input.xlsx").read_bytes() != before
+    names = {"input.xlsx", "input.before.xlsx", "records", "made"}
+    assert {path.name for path in folder.iterdir()} <= names
+
+
+PLACES = ("input.before.xlsx", LOCK, "records/KJM-x.csv", "records")
+
+
+@pytest.mark.parametrize(
+    ("place", "kind"),
+    [(place, kind) for place in PLACES for kind in KINDS if (place, kind) != ("records", "folder")],
+)
+def test_nothing_is_written_through_what_is_in_a_place(folder, place, kind):
+    outside = folder.parent / "outside"
+    if place != "records":
+        outside.write_bytes(b"theirs")
+    occupied(folder / place, kind, outside)
+    before = state(folder.parent)
+    told = commands.refused(*rows(folder))
+    where = {"link": str(outside), "dangling link": "nowhere", "device": os.devnull}
+    assert f"{folder / place}: is a" in told
+    assert where.get(kind, kind) in told
+    assert state(folder.parent) == before
+
+
+TRAP = '{"../stolen.txt": true, "../../stolen.txt": true, "theirs.txt": false}'
+
+
+def test_no_instruction_is_read_from_a_folder(folder):
+    """Journals of an earlier version replaced, removed and moved files as they said."""
+    spoiled(folder)
+    (folder / "theirs.txt").write_text("theirs")
+    for home in (folder, folder / "records", folder / "made"):
+        for name in ("forward.json", "back.json"):
+            trap = home / f".roofslip-{name[:3]}"
+            for part in ("new", "old"):
+                (trap / part).mkdir(parents=True)
+            (trap / name).write_text(TRAP)
+            (trap / "new" / "theirs.txt").write_text("stolen")
+        (home / ".roofslip-0123456789abcdef.part").symlink_to(folder.parent)
+    os.mkfifo(folder / ".roofslip-fedcba9876543210.part")
+    before = state(folder.parent)
+    for writer in WRITERS:
+        commands.printed(*writer(folder))
+    after = state(folder.parent)
+    assert {name: after[name] for name in before if not name.startswith("job/input")} == {
+        name: what for name, what in before.items() if not name.startswith("job/input")
+    }
+
+
+@pytest.mark.parametrize("kind", ["link", "dangling link", "pipe", "device"])
+@pytest.mark.parametrize(
+    "place", ["out", "out/calc-package.pdf", "out/roofslip.sha256", f"out/{LOCK}"]
+)
+def test_a_report_is_not_written_through_what_is_in_its_place(folder, place, kind, monkeypatch):
+    (folder / place).parent.mkdir(exist_ok=True)
+    occupied(folder / place, kind, folder.parent / "library")
+    before = state(folder.parent)
+    monkeypatch.setattr("report.making.lay_out", lambda *_: {"results.json": b"{}"})
+    told = commands.refused("report", folder)
+    assert f"{folder / place}: is a" in told
+    assert state(folder.parent) == before
+
+
+def test_other_outputs_are_not_written_through_a_link(tmp_path, monkeypatch):
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    (tmp_path / "new").mkdir()
+    for name in ("out", "new/records"):
+        (tmp_path / name).symlink_to(outside)
+    monkeypatch.chdir(tmp_path)
+    assert f"out: is a link to {outside}" in commands.refused("verify", "--quick")
+    for more in ((), ("--example",), ("--study",)):
+        told = commands.refused("new", tmp_path / "new", *more)
+        assert f"records: is a link to {outside}" in told
+    (tmp_path / "a.pdf").write_bytes(b"%PDF")
+    (tmp_path / "a-signed.pdf").symlink_to(tmp_path / "nowhere")
+    told = commands.refused("sign", tmp_path / "a.pdf", "--p12", tmp_path / "a.pdf")
+    assert f"a-signed.pdf: is a link to {tmp_path / 'nowhere'}" in told
+    assert list(outside.iterdir()) == []
+    assert [path.name for path in (tmp_path / "new").iterdir()] == ["records"]
+
+
+@pytest.mark.parametrize("more", [(), ("--example",), ("--study",)])
+def test_a_new_project_on_a_full_disk_says_so_and_leaves_nothing(tmp_path, monkeypatch, more):
+    flushed = []
+
+    def full(file):
+        flushed.append(file)
+        if len(flushed) == (5 if more == ("--example",) else 1):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    told = commands.refused("new", tmp_path / "deep" / "new", *more)
+    assert "cannot be written (No space left on device). No file was changed" in told
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_plan_with_its_clearances_is_one_write(folder, monkeypatch):
+    before, replaced, rename = len(read(folder).draft["arrays"]), [], os.replace
+
+    def renamed(source, target):
+        replaced.append(Path(target).name)
+        rename(source, target)
+
+    monkeypatch.setattr(os, "replace", renamed)
+    commands.printed(*plan_read(folder))
+    assert replaced == ["input.before.xlsx", "input.xlsx"]
+    assert len(read(folder).draft["arrays"]) == before + 1
+
+
+HOLDS_S = 3.0
+
+ROWS = """
+import sys
+from report.cli.main import main
+print(flush=True)
+main(sys.argv[1:])
+"""
+
+
+def test_of_two_commands_at_once_none_loses_a_row(folder):
+    command = [sys.executable, "-c", ROWS, *map(str, rows(folder))]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) as other:
+        with changing(folder) as change:
+            other.stdout.readline()
+            time.sleep(HOLDS_S)  # in which the other one reads, if it does not wait
+            table = GrowingTable.of(change.book, "arrays")
+            change.fill({table.position(table.rows("id", "A1")[0], "mu"): 0.123})
+        other.stdout.read()
+        assert other.wait() == 0
+    data = read(folder).project
+    assert (data.motions[-1].id, data.arrays[0].mu) == ("KJM", 0.123)
