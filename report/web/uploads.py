@@ -16,6 +16,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path, PurePosixPath
 from typing import IO
 
+from report.sheet.writing.filled import BEFORE
 from solver.model import InputError
 
 MB = 1_000_000
@@ -85,8 +86,9 @@ class _Room:
     def take(self, name: str, content: IO[bytes]) -> None:
         """Write one file."""
         path = checked(name)
-        # Hidden files, and the lock of an open workbook.
-        if any(part.startswith((".", "~$")) or part == "__MACOSX" for part in path.parts):
+        # Hidden files, the lock of an open workbook, and what it was before a command changed it.
+        hidden = any(part.startswith((".", "~$")) or part == "__MACOSX" for part in path.parts)
+        if hidden or name.endswith(BEFORE):
             return
         if len(self.paths) >= MOST_FILES:
             raise InputError(f"more than {MOST_FILES} files; drop the workbook and its records")

@@ -96,6 +96,7 @@ def motions_made(workbook: Path, out: Path) -> str:
     def do() -> None:
         from report.results.motions import add_suite, suite_rows
         from report.sheet.reading.read import read
+        from report.sheet.writing.filled import BEFORE
         from report.suite.files import generate
         from report.suite.inputs import read_seeds
         from report.suite.site import site_targets
@@ -112,7 +113,7 @@ def motions_made(workbook: Path, out: Path) -> str:
         left_out = {out, Path(tempfile.gettempdir())}
         with ZipFile(out / PROJECT, "w", ZIP_DEFLATED) as archive:
             for path in sorted(workbook.parent.rglob("*")):
-                if left_out.isdisjoint((path, *path.parents)):
+                if left_out.isdisjoint((path, *path.parents)) and not path.name.endswith(BEFORE):
                     archive.write(path, path.relative_to(workbook.parent))
 
     return _failure(do)

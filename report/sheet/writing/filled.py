@@ -18,6 +18,9 @@ from report.sheet.writing.live import BROKEN, live_formulas
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 
+BEFORE = ".before.xlsx"
+"""Ends the name under which a workbook is kept as it was before the last command changed it."""
+
 _OPEN_ELSEWHERE = ("~${}", ".~lock.{}#")
 """Files that Excel and LibreOffice put beside a workbook while they have it open."""
 
@@ -64,7 +67,7 @@ def changing(source: Path) -> Iterator[WorkbookChange]:
         before = change.book.data
         yield change
         if change.files or change.book.data != before:
-            copy = {f"{path.stem}.before.xlsx": before}
+            copy = {f"{path.stem}{BEFORE}": before}
             write_all({**change.files, **copy, path.name: change.book.data}, path.parent)
 
 

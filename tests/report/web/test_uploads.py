@@ -135,6 +135,7 @@ def test_files_that_are_refused_are_refused_with_the_reason(files, problem, tmp_
         (("a/input.xlsx", "a/out/results.xlsx"), "a/input.xlsx"),
         (("a/work.xlsx", "a/out/results.xlsx"), "a/work.xlsx"),
         (("work.xlsx", "~$work.xlsx", ".hidden/input.xlsx"), "work.xlsx"),
+        (("work.xlsx", "work.before.xlsx"), "work.xlsx"),
         (("__MACOSX/input.xlsx", "b/INPUT.XLSX", "other.xlsx"), "b/INPUT.XLSX"),
     ],
 )

@@ -63,7 +63,7 @@ def test_motions_are_made_into_the_copy_and_its_zip(tmp_path, monkeypatch):
         names = set(archive.namelist())
         archive.extractall(tmp_path / "unpacked")
     assert {"input.xlsx", "records/motion-07-z.csv", "records/suite.json"} <= names
-    assert not any(name.startswith(("out", "own")) for name in names)
+    assert not any(name.startswith(("out", "own", "input.before")) for name in names)
     made = read(tmp_path / "unpacked" / "input.xlsx").project.motions
     assert [motion.id for motion in made] == [f"motion-{k:02d}" for k in range(1, MOTIONS + 1)]
     assert made[0].record == "records/motion-01-x.csv"
