@@ -3,18 +3,36 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+import re
+from collections.abc import Collection, Iterable
 from itertools import islice
 from pathlib import Path
 
 _MOST_LISTED = 2_000
+_IGNORED = re.compile(r"[\s_-]|(?<!\d)0+(?=\d)")
+_LOCKS = ("~$", ".~lock.")  # of workbooks that a program has open
 
 
-def nearest(value: str, names: Iterable[str]) -> str:
-    """Return the name that is spelled nearly as a value, ignoring case; empty for none."""
-    folded = {name.casefold(): name for name in names}
-    close = difflib.get_close_matches(value.casefold(), folded, n=1)
-    return folded[close[0]] if close else ""
+def nearest(value: str, names: Iterable[str], taken: Collection[str] = ()) -> str:
+    """Return the name that is spelled as a value but for case, blanks, hyphens and leading zeros.
+
+    Else the one that is spelled nearly so. Of several as near it is the one that is not taken;
+    empty for none, and for several.
+    """
+    wanted, plain = _plain(value), {name: _plain(name) for name in names}
+    near = difflib.get_close_matches(wanted, dict.fromkeys(plain.values()), n=_MOST_LISTED)
+    ratios = {each: difflib.SequenceMatcher(None, each, wanted).ratio() for each in near}
+    close = [
+        name
+        for name, each in plain.items()
+        if ratios.get(each) == max(ratios.values(), default=0.0)
+    ]
+    left = [name for name in close if name not in taken] or close
+    return left[0] if len(left) == 1 else ""
+
+
+def _plain(name: str) -> str:
+    return _IGNORED.sub("", name.casefold())
 
 
 def meant(path: Path) -> str:
@@ -24,9 +42,8 @@ def meant(path: Path) -> str:
     """
     try:
         lost = [each for each in (path, *path.parents) if not each.exists()][-1]
-        near = nearest(
-            lost.name, (each.name for each in islice(lost.parent.iterdir(), _MOST_LISTED))
-        )
+        there = [each.name for each in islice(lost.parent.iterdir(), _MOST_LISTED)]
+        near = nearest(lost.name, [name for name in there if not name.startswith(_LOCKS)])
     except (OSError, IndexError):
         return ""
     whole = lost.parent / near / path.relative_to(lost)

@@ -5,9 +5,10 @@ import shutil
 import pytest
 from click.testing import CliRunner
 
+import commands
 from places import ROOT
 from report.cli.main import main
-from solver.meant import meant
+from solver.meant import meant, nearest
 
 
 @pytest.fixture
@@ -54,3 +55,35 @@ def test_each_command_asks_about_a_path_that_nearly_fits(folder, monkeypatch, ar
     done = CliRunner().invoke(main, arguments)
     assert done.exit_code == 2
     assert "did you mean 'project'?" in done.output
+
+
+@pytest.mark.parametrize(
+    ("value", "names", "found"),
+    [
+        ("RTU-1", ["RTU 1", "RTU-3", "RTU-2"], "RTU 1"),
+        ("a1", ["A01", "A11", "A2"], "A01"),
+        ("RM_1", ["RM-01", "RM-10"], "RM-01"),
+        ("RTU-1", ["RTU-2", "RTU-3"], ""),  # a tie
+        ("A-1", ["A 1", "A1"], ""),
+        ("Skylite", ["Skylight", "RTU"], "Skylight"),
+        ("x", [], ""),
+    ],
+)
+def test_names_are_compared_without_blanks_hyphens_and_leading_zeros_first(value, names, found):
+    assert nearest(value, names) == found
+    assert nearest(value, names[::-1]) == found
+
+
+def test_of_names_as_near_the_one_that_is_free_is_meant():
+    names = [f"RM{k}-x.csv" for k in range(1, 4)]
+    assert nearest("RM-x.csv", names) == ""
+    assert nearest("RM-x.csv", names, taken=["RM2-x.csv", "RM3-x.csv"]) == "RM1-x.csv"
+    assert nearest("RM-x.csv", names, taken=["RM3-x.csv"]) == ""
+
+
+def test_the_lock_file_of_a_workbook_is_never_meant(tmp_path):
+    for name in ("My Project.xlsx", "~$input.xlsx", "~$My Project.xlsx", ".~lock.input.xlsx#"):
+        (tmp_path / name).write_bytes(b"")
+    assert f"did you mean '{tmp_path / 'My Project.xlsx'}'?" in commands.refused("check", tmp_path)
+    (tmp_path / "other.xlsx").write_bytes(b"")
+    assert "did you mean" not in commands.refused("check", tmp_path)

@@ -111,11 +111,14 @@ def book_of(path: Path, data: bytes) -> OpenBook:
 
 def located(path: Path) -> Path:
     """Return the path of a workbook, or of `input.xlsx` in a folder; raises as `open_book`."""
+    asked = meant(path)
     if path.is_dir():
+        books = [each for each in path.glob("*.xlsx") if not each.name.startswith("~$")]
+        asked = f"did you mean '{books[0]}'?" if len(books) == 1 else ""
         path = path / "input.xlsx"
     if not path.exists():
         wanted = "give a workbook, or a folder that holds input.xlsx"
-        raise InputError(f"no such file; {meant(path) or wanted}")
+        raise InputError(f"no such file; {asked or wanted}")
     if not path.is_file():
         raise InputError("not a file; give a workbook, or a folder that holds input.xlsx")
     if path.suffix.lower() != ".xlsx":

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import posixpath
+from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
@@ -37,8 +38,12 @@ class Document:
     sha256: str
 
 
-def path_beside(folder: Path, name: str, max_bytes: int, example: str) -> Path:
+def path_beside(
+    folder: Path, name: str, max_bytes: int, example: str, taken: Collection[str] = ()
+) -> Path:
     """Return the file of a name, which must lie within the workbook's folder.
+
+    Names that are taken are not the ones that may have been meant.
 
     Raises
     ------
@@ -54,7 +59,7 @@ def path_beside(folder: Path, name: str, max_bytes: int, example: str) -> Path:
         if not path.is_relative_to(folder.resolve()):
             raise InputError(f"'{name}' is a link to a file outside the workbook's folder; {where}")
         if not path.exists():
-            raise InputError(f"'{name}' does not exist; {_meant(folder, name) or where}")
+            raise InputError(f"'{name}' does not exist; {_meant(folder, name, taken) or where}")
         if not path.is_file():
             raise InputError(f"'{name}' is not a file; {where}")
         size = path.stat().st_size
@@ -70,12 +75,13 @@ def path_beside(folder: Path, name: str, max_bytes: int, example: str) -> Path:
     return path
 
 
-def _meant(folder: Path, name: str) -> str:
+def _meant(folder: Path, name: str, taken: Collection[str]) -> str:
     """Ask for the file whose name nearly fits, in the named folder or one of the workbook's."""
     wanted = PurePosixPath(name)
     near = islice(chain((folder / wanted).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
     by_stem = grouped_by((path for path in near if path.is_file()), lambda path: path.stem)
-    alike = by_stem.get(nearest(wanted.stem, by_stem), [])
+    stems = [PurePosixPath(each).stem for each in taken]
+    alike = by_stem.get(nearest(wanted.stem, by_stem, stems), [])
     files = [path.relative_to(folder).as_posix() for path in alike]
     return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""
 

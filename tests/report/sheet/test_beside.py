@@ -83,3 +83,13 @@ def test_one_file_in_both_cells_is_named_twice(workbook):
         ("Test report file", "both.pdf"),
         ("Letter of review", "both.pdf"),
     ]
+
+
+def test_a_record_that_another_motion_has_is_not_the_one_that_was_meant(workbook):
+    for name in ("x", "x2", "x3"):
+        path = workbook.parent / "records" / f"{name}.csv"
+        path.rename(path.with_name(f"RM{name[1:] or 1}-x.csv"))
+    records = {"M1": "RM-x.csv", "M2": "RM2-x.csv", "M3": "RM3-x.csv"}
+    cells = {f"Motions/{at}/Horizontal record": f"records/{r}" for at, r in records.items()}
+    (problem,) = problems(type_into(workbook, cells))
+    assert "'records/RM-x.csv' does not exist; did you mean 'records/RM1-x.csv'?" in problem
