@@ -105,7 +105,7 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
     for index, motion in enumerate(prepared):
         if drifts(motion):
             largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
-            found, most, _ = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, data.us_first)
+            found, most = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, data.us_first)
             yield condition(
                 id="drift",
                 title="Final displacement of the record",
@@ -221,8 +221,8 @@ def _found_and_required(neighbor: PlanNeighbor, us_first: bool) -> tuple[str, st
         gap = pair(neighbor.gap_m, Quantity.SIZE, us_first)
         return f"differs from the plan: {given} entered, {gap} measured", "as in the plan"
     required_m = neighbor.required_m
-    least, gap, up = compared_pairs(required_m, neighbor.gap_m, Quantity.SIZE, us_first)
-    required = NO_DESIGN if math.isnan(required_m) else f"≥ {least}{neighbor.mark}{up}"
+    least, gap = compared_pairs(required_m, neighbor.gap_m, Quantity.SIZE, us_first)
+    required = NO_DESIGN if math.isnan(required_m) else f"≥ {least}{neighbor.mark}"
     return f"{NOT_GIVEN}; {gap} in plan", required
 
 
@@ -274,13 +274,13 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
     """Yield the weight per plan area beside what the engineers of roof and wind state."""
     here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
     if capacity_pa is not None:
-        found, most, up = compared_pairs(here_pa, capacity_pa, Quantity.PRESSURE, data.us_first)
+        found, most = compared_pairs(here_pa, capacity_pa, Quantity.PRESSURE, data.us_first)
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
             subject=array.id,
             found=found,
-            limit=f"≤ {most}{up}",
+            limit=f"≤ {most}",
             basis="roof capacity",
             is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
             consequence=Consequence.NG,
@@ -355,10 +355,10 @@ def _provided(
 ) -> Mapping[str, Any]:
     """Return what is found and required of a value that a workbook may give, and what follows."""
     given = math.nan if value is None else value
-    least, had, up = compared_pairs(required, given, quantity, us_first)
+    least, had = compared_pairs(required, given, quantity, us_first)
     return {
         "found": NOT_GIVEN if value is None else had,
-        "limit": NO_DESIGN if math.isnan(required) else f"≥ {least}{up}",
+        "limit": NO_DESIGN if math.isnan(required) else f"≥ {least}",
         "is_satisfied": given >= required,
         "consequence": Consequence.CONDITION if value is None else Consequence.NG,
     }
@@ -379,7 +379,7 @@ def pathway_rows(
         if gap.neighbor is Neighbor.LIKE:
             slides = [gap.design_m]
         left_m = row.provided_m - math.fsum(slides)
-        least, left, up = compared_pairs(row.pathway_m, left_m, Quantity.SIZE, data.us_first)
+        least, left = compared_pairs(row.pathway_m, left_m, Quantity.SIZE, data.us_first)
         terms = " − ".join(pair(m, Quantity.SIZE, data.us_first) for m in (row.provided_m, *slides))
         found = f"{terms} = {left}{gap.design_mark}"
         yield Requirement(
@@ -387,7 +387,7 @@ def pathway_rows(
             title=f"Fire pathway {row.array} to {row.object} after displacement",
             subject=row.array,
             found=NO_DESIGN if math.isnan(left_m) else found,
-            limit=f"≥ {least}{up}",
+            limit=f"≥ {least}",
             basis="fire code, as entered",
             is_satisfied=left_m >= row.pathway_m * (1.0 - _NOISE),
             consequence=Consequence.NG,

@@ -18,7 +18,7 @@ from report.assessment.pending_runs import PendingRuns
 from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict, condition
 from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
-from report.words.units import Quantity, number, pair
+from report.words.units import Quantity, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
@@ -196,7 +196,7 @@ def _outcome(alone: ArrayAssessment, slow: LowVelocityAssessment, us_first: bool
     yield (
         "no design displacement"
         if math.isnan(design_m)
-        else f"design displacement {pair(design_m, Quantity.DISPLACEMENT, us_first)}"
+        else f"design displacement {pair(design_m, Quantity.DISPLACEMENT, us_first, no_less)}"
     )
     if alone.has_unpermitted_value:
         yield NOT_PERMITTED

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from jinja2.runtime import Context
 
 
-OF_PACKAGE = ("both", "clause", "friction_basis", "mark", "of_check", "rule_length")
+OF_PACKAGE = ("both", "both_up", "clause", "friction_basis", "mark", "of_check", "rule_length")
 """Filters that are methods of the data of a package."""
 
 

@@ -18,7 +18,7 @@ from report.drawing.sheet import Gap, PlanSheet
 from report.drawing.widths import TYPE_PT, width_in
 from report.sheet.schema.shapes import Point, Rectangle, between
 from report.words.counts import grouped_by
-from report.words.units import compared
+from report.words.units import beside, no_less
 
 RADIUS_IN = 0.1
 NG_TALL_IN = TYPE_PT / 72.0 + 0.03
@@ -127,13 +127,12 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
 
 def _provided(plan: PlanSheet, gap: Gap) -> str:
     of, fmt = gap.of, plan.fmt
-    show_required, show_provided = compared(of.required_m, of.provided_m)
-    provided = fmt.short(of.provided_m, show=show_provided)
+    provided = fmt.short(of.provided_m, show=beside(of.required_m, of.provided_m))
     if of.is_given:
         return provided
     # It is in no table.
     mark = "" if math.isnan(of.required_m) else of.mark
-    required = fmt.short(of.required_m, show=show_required)
+    required = fmt.short(of.required_m, show=no_less)
     return f"not given; in plan {provided}, required {required}{mark}"
 
 

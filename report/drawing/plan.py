@@ -26,7 +26,7 @@ from report.drawing.layers import Layer, PlanDrawing, PlanLine, PlanText
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.scene import ROOF
 from report.sheet.schema.shapes import Point, label_point, mean
-from report.words.units import Quantity, Unit, compared_pairs, number, pair
+from report.words.units import Quantity, Unit, compared_pairs, no_less, number, pair
 
 TEXT_SHARE = 1.0 / 120.0
 """Height of texts, as a share of the larger side of the plan."""
@@ -97,7 +97,7 @@ def _gap_lines(assessment: Assessment) -> Iterator[PlanLine]:
 
 def gap_words(gap: PlanGap, us_first: bool) -> str:
     """Return what a gap says, numbered as in the workbook, in both systems of units."""
-    required, provided, _ = compared_pairs(gap.required_m, gap.provided_m, Quantity.SIZE, us_first)
+    required, provided = compared_pairs(gap.required_m, gap.provided_m, Quantity.SIZE, us_first)
     required = "no value" if math.isnan(gap.required_m) else required + _by(gap.mark)
     verdict = "no verdict" if gap.verdict is Verdict.NONE else gap.verdict.value
     start = f"{gap.number}: provided {provided}"
@@ -131,7 +131,7 @@ def _array_notes(assessment: Assessment, array: ArrayAssessment, us_first: bool)
         what = NOT_PERMITTED if array.has_unpermitted_value else "no value"
         yield f"design displacement: {what}"
         return
-    design = pair(array.design_m, Quantity.SIZE, us_first)
+    design = pair(array.design_m, Quantity.SIZE, us_first, no_less)
     yield f"design displacement {design}{_by(array.design_mark)}"
     keep = keep_clear_words(keep_clear_m(assessment, array), us_first)
     yield f"{keep}{_by(keep_clear_mark(assessment, array))}; no conduit"

@@ -32,11 +32,12 @@ from report.entities.shown import (
     length,
     plain,
     printed,
+    required,
     unwritten,
     words,
 )
 from report.sheet.schema.choices import Direction, ModelChoice
-from report.words.units import Quantity, compared, no_less, number, ratio, rounded_apart
+from report.words.units import Quantity, Show, beside, measured, no_less, number, ratio
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
@@ -56,8 +57,8 @@ _STRENGTH = (
 )
 
 
-def _weight(head: str) -> Shown:
-    return Shown(head=head, quantity=Quantity.WEIGHT)
+def _weight(head: str, show: Show = measured) -> Shown:
+    return Shown(head=head, quantity=Quantity.WEIGHT, show=show)
 
 
 class Displacements(Entity):
@@ -66,7 +67,7 @@ class Displacements(Entity):
     computed_m: Annotated[
         Number,
         at("analysis.value_m"),
-        length("Analysis"),
+        required("Analysis"),
         Column("Computed [in]", 2, _COMPUTED, is_always=True),
         Told(),
     ]
@@ -91,19 +92,19 @@ class Displacements(Entity):
     prescriptive_m: Annotated[
         float,
         at("prescriptive.value_m"),
-        length("Prescriptive"),
+        required("Prescriptive"),
         Column("[in]", 1, _PRESCRIPTIVE),
         Told(),
     ]
     prescriptive_governs: Annotated[PrescriptiveBasis, at("prescriptive.governs")]
     """What gives the prescriptive displacement: formula, minimum or SDC."""
     floor_m: Annotated[
-        float, length("Floor"), Column("[in]", 2, "={floor_share}*{prescriptive_m}"), Told()
+        float, required("Floor"), Column("[in]", 2, "={floor_share}*{prescriptive_m}"), Told()
     ]
     """Least design displacement after an analysis; 0 where peer review removes it."""
     design_m: Annotated[
         Number,
-        length("Design"),
+        required("Design"),
         Column("[in]", 2, _DESIGN, is_always=True),
         Column("[mm]", 1, _DESIGN_MM),
         Told(ChangeKind.DESIGN, "Array {row.id}"),
@@ -121,7 +122,7 @@ class Displacements(Entity):
         """Whether there is a design displacement, by a route that is not permitted."""
         return not (math.isnan(self.design_m) or self.design_permitted)
 
-    @unwritten(length("Floor"))
+    @unwritten(required("Floor"))
     def floor(self) -> float:
         """The floor [m]; NaN where peer review removes it."""
         return self.floor_m or math.nan
@@ -224,7 +225,7 @@ class ArrayResult(LowVelocityResult):
     peak_speed_mps: Annotated[Number, at("fastest_mps")]
     """Largest sliding velocity of all runs."""
     interconnection_n: Annotated[
-        float, _weight("Required"), Column("Interconnection required [lb]", 0, _STRENGTH)
+        float, _weight("Required", no_less), Column("Interconnection required [lb]", 0, _STRENGTH)
     ]
     """Strength required of the connections within the array."""
     tipping: TippingResult
@@ -247,7 +248,7 @@ class ArrayResult(LowVelocityResult):
     )
     governing_gap: Annotated[str, words("Clearance to", 1.4)] = printed("none given")
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
-    gap_required_m: Annotated[Number, length("Required", 0.8)] = printed(math.nan)
+    gap_required_m: Annotated[Number, required("Required", 0.8)] = printed(math.nan)
     gap_provided_m: Annotated[Number, length("Provided", 0.8)] = printed(math.nan)
     keep_clear: Annotated[str, Shown(head="Keep clear", share=0.9)] = printed("")
     weight_n: Annotated[
@@ -268,9 +269,9 @@ class ArrayResult(LowVelocityResult):
         """Roof slope [deg]."""
         return math.degrees(self.slope_rad)
 
-    @unwritten(length("Design displ.", 0.9))
+    @unwritten(required("Design displ.", 0.9))
     def permitted_m(self) -> float:
-        """The design displacement [m], rounded up; NaN where none is permitted."""
+        """The design displacement [m]; NaN where none is permitted."""
         return self.design_m if self.design_permitted else math.nan
 
     @unwritten(length("Residual", 0.9))
@@ -294,12 +295,6 @@ class ArrayResult(LowVelocityResult):
         """Interconnection strength required / provided."""
         return "—" if self.given_n is None else ratio(self.interconnection_n / self.given_n)
 
-    @property
-    def is_rounded_apart(self) -> bool:
-        """Whether the strengths required and provided would print alike, and are not."""
-        given = self.given_n
-        return given is not None and rounded_apart(self.interconnection_n, given, Quantity.WEIGHT)
-
 
 def array_result(
     assessment: Assessment,
@@ -311,22 +306,20 @@ def array_result(
 ) -> ArrayResult:
     """Return an array with its limits, and with its runs and directions if asked for, marked."""
     motions = item.motions if has_runs else ()
-    given = item.array.interconnection_n
-    required, provided = compared(item.interconnection_n, math.nan if given is None else given)
+    given = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
+    rounds = {"provided_n": beside(item.interconnection_n, given)}
     gap = assessment.governing_clearance(item.id)
-    rounds = {"interconnection_n": required, "provided_n": provided, "permitted_m": no_less}
     near: dict[str, object] = {}
     distance = keep_clear(keep_clear_m(assessment, item), assessment.project.us_first)
     marks["permitted_m"] = marks.get("design_m", "")
     if gap:
-        least, had = compared(gap.required_m, gap.clearance.provided_m)
         near = {
             "governing_gap": gap.across_from(item.id),
             "largest_dc": gap.ratio_words,
             "gap_required_m": gap.required_m,
             "gap_provided_m": gap.clearance.provided_m,
         }
-        rounds |= {"gap_required_m": least, "gap_provided_m": had}
+        rounds["gap_provided_m"] = beside(gap.required_m, gap.clearance.provided_m)
         marks["gap_required_m"] = gap.mark
     return ArrayResult.of(
         item,

@@ -25,11 +25,12 @@ from report.entities.shown import (
     length,
     plain,
     printed,
+    required,
     unwritten,
     words,
 )
 from report.sheet.schema.choices import Direction, DistanceBasis
-from report.words.units import Quantity, compared, no_less, ratio, rounded_apart
+from report.words.units import beside, ratio
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
@@ -57,7 +58,7 @@ class ClearanceResult(Entity):
     governing_direction: Annotated[Direction, words("Direction", 1.05)]
     """Direction of its displacement that governs."""
     design_m: Annotated[
-        Number, length("Displ.", 0.8), Column("Design [in]", 2, "={largest}", is_always=True)
+        Number, required("Displ.", 0.8), Column("Design [in]", 2, "={largest}", is_always=True)
     ]
     importance: Annotated[float, Column("Importance factor", 2, "={inputs[i_e]}", is_input=True)]
     """Importance factor in the required separation."""
@@ -67,7 +68,7 @@ class ClearanceResult(Entity):
     """Separation factor of the rule set, with the importance factor."""
     required_m: Annotated[
         Number,
-        length("Required", 0.8),
+        required("Required", 0.8),
         Column("[in]", 2, _REQUIRED, is_always=True),
         Column("[mm]", 1, _REQUIRED_MM, is_always=True),
         Told(
@@ -111,20 +112,15 @@ class ClearanceResult(Entity):
         """Kind of what is across it, and the direction, if it has one."""
         return self.neighbor.value + self.toward
 
-    @unwritten(length("At least", 0.8))
+    @unwritten(required("At least", 0.8))
     def least_m(self) -> float:
-        """Required separation, rounded up [m]."""
+        """Required separation [m]."""
         return self.required_m
 
     @unwritten(words("Measured", 1.1))
     def measured(self) -> str:
         """Room for a value from the field."""
         return ""
-
-    @property
-    def is_rounded_apart(self) -> bool:
-        """Whether required and provided separation would print alike, and do not."""
-        return rounded_apart(self.required_m, self.provided_m, Quantity.DISPLACEMENT)
 
 
 def clearance_results(
@@ -134,7 +130,6 @@ def clearance_results(
     for count, gap in gaps.items():
         key = SEPARATION_KEYS[gap.neighbor]
         least = marked.mark("separation_edge_min_in") if gap.is_minimum_value else ""
-        required, provided = compared(gap.required_m, gap.clearance.provided_m)
         yield ClearanceResult.of(
             gap,
             count=count,
@@ -145,5 +140,5 @@ def clearance_results(
                 **dict.fromkeys(("required_m", "least_m"), joined(least, gap.mark)),
                 "demand_capacity": gap.mark,
             },
-            rounds={"required_m": required, "provided_m": provided, "least_m": no_less},
+            rounds={"provided_m": beside(gap.required_m, gap.clearance.provided_m)},
         )

@@ -27,7 +27,7 @@ from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 from report.entities.cells import Column
 from report.entities.columns import TableColumn, UnitFormat
 from report.sheet.schema.fields import Cell, docstrings
-from report.words.units import Quantity, Show, measured, number
+from report.words.units import Quantity, Show, measured, no_less, number
 
 _Mark = TypeVar("_Mark")
 
@@ -60,6 +60,7 @@ class Shown:
     text: Callable[[Any], str] = _as_it_is
     align: str = "right"
     share: float = 1.0
+    show: Show = measured  # how a quantity is rounded
 
     def columns(self, fmt: UnitFormat, head: str, share: float) -> tuple[TableColumn, ...]:
         """Return its column, or one for each system of units."""
@@ -69,7 +70,7 @@ class Shown:
         return (TableColumn(head=head, unit=self.unit, align=self.align, share=share),)
 
     def cells(
-        self, value: Any, fmt: UnitFormat, mark: str = "", show: Show = measured
+        self, value: Any, fmt: UnitFormat, mark: str = "", show: Show | None = None
     ) -> tuple[str, ...]:
         """Return a value for print: one text, or one for each system of units.
 
@@ -78,7 +79,7 @@ class Shown:
         if self.quantity and isinstance(value, str):
             return (value,) * fmt.systems
         if self.quantity:
-            return fmt.cells(value, self.quantity, mark=mark, show=show)
+            return fmt.cells(value, self.quantity, mark=mark, show=show or self.show)
         if isinstance(value, float) and math.isnan(value):
             return (fmt.none,)
         text = self.text(value)
@@ -90,9 +91,13 @@ def words(head: str, share: float = 1.0) -> Shown:
     return Shown(head=head, align="left", share=share, text=_as_it_is)
 
 
-def length(head: str, share: float = 1.0) -> Shown:
+def length(head: str, share: float = 1.0, show: Show = measured) -> Shown:
     """Return how a displacement or a size is shown."""
-    return Shown(head=head, quantity=Quantity.DISPLACEMENT, share=share)
+    return Shown(head=head, quantity=Quantity.DISPLACEMENT, share=share, show=show)
+
+
+required = partial(length, show=no_less)
+"""How a length is shown that is required, or that a requirement follows from: rounded up."""
 
 
 def text(head: str, unit: str = "", share: float = 1.0) -> Shown:
@@ -165,7 +170,7 @@ class Entity(BaseModel):
 
     def cells(self, name: str, fmt: UnitFormat) -> tuple[str, ...]:
         """Return a field for print: one text, or one for each system of units."""
-        shown, show = shown_by(type(self), name), self.rounds.get(name, measured)
+        shown, show = shown_by(type(self), name), self.rounds.get(name)
         return shown.cells(getattr(self, name), fmt, self._mark(name), show)
 
     def both(self, name: str, fmt: UnitFormat) -> str:
@@ -180,7 +185,7 @@ class Entity(BaseModel):
         shown, value = shown_by(type(self), name), getattr(self, name)
         if not shown.quantity:
             return self.cells(name, fmt)[0]
-        text = said(value, shown.quantity, self.rounds.get(name, measured))
+        text = said(value, shown.quantity, self.rounds.get(name, shown.show))
         return text if math.isnan(value) else text + self._mark(name)
 
     def _mark(self, name: str) -> str:

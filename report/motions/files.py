@@ -89,8 +89,9 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
         If it does not exist, or is outside the workbook's folder.
     """
     file, _, channel = name.partition(BAR)
-    cells = (str(cell) for row in book.book["Motions"].values for cell in row if cell)
-    taken = {cell.partition(BAR)[0].strip() for cell in cells} if "Motions" in book.scans else ()
+    sheets = (sheet.values for sheet in book.book.worksheets if sheet.title == "Motions")
+    cells = (str(cell) for rows in sheets for row in rows for cell in row if cell)
+    taken = {cell.partition(BAR)[0].strip() for cell in cells}
     path = path_beside(book.path.parent, file.strip(), MAX_BYTES, "records/m1-x.csv", taken)
     return path, channel.strip()
 

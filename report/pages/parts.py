@@ -24,7 +24,7 @@ from report.provenance.files import fingerprint
 from report.sheet.schema.choices import RecordedAt
 from report.sheet.schema.scene import Array
 from report.words.counts import ids_by
-from report.words.units import Quantity
+from report.words.units import Quantity, no_less
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 
@@ -126,6 +126,10 @@ class PackageData(Marked):
     def both(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
         """Return a value in both systems of units: `81.6 in (2072 mm)`."""
         return self.fmt.both(value_si, Quantity[quantity])
+
+    def both_up(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return what is required, or what a requirement follows from, rounded up."""
+        return self.fmt.both(value_si, Quantity[quantity], no_less)
 
     def rule_length(self, key: str) -> str:
         """Return a length of the rule set in both systems of units, with its marks."""

@@ -15,7 +15,7 @@ from report.entities.shown import text, words
 from report.pages.parts import PackageData
 from report.pages.symbols import with_symbols
 from report.words.counts import capitalized
-from report.words.units import Quantity, compared, no_less, number, pair
+from report.words.units import Quantity, beside, no_less, number, pair
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +49,7 @@ def _answer(package: PackageData, remedy: Remedy) -> PrintedRemedy:
     given, value = remedy.given, remedy.value
     if remedy.kind is RemedyKind.SEPARATION:
         # As the clearances print them.
-        shows = zip((given, value), (compared(value, given)[1], no_less), strict=True)
+        shows = ((given, beside(value, given)), (value, no_less))
         us_first = package.fmt.us_first
         texts = [pair(length_m, Quantity.SIZE, us_first, show) for length_m, show in shows]
     elif remedy.kind is RemedyKind.S_DS:

@@ -25,7 +25,7 @@ from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
 from report.words.counts import lowered, ranged
 from report.words.formats import aligned, finite
-from report.words.units import Quantity, compared_pairs, no_less, pair, ratio
+from report.words.units import Quantity, compared_pairs, ratio
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -147,9 +147,8 @@ def _models(assessment: Assessment) -> Iterator[Concern]:
 def _short(gap: ClearanceCheck, us_first: bool) -> str:
     """Return a clearance that is too small, with what would do."""
     row = gap.clearance
-    required, provided, up = compared_pairs(gap.required_m, row.provided_m, Quantity.SIZE, us_first)
-    enough = pair(gap.required_m, Quantity.SIZE, us_first, no_less)
+    required, provided = compared_pairs(gap.required_m, row.provided_m, Quantity.SIZE, us_first)
     name = f"clearance {row.array} to {row.object}: {provided} provided"
     if math.isnan(gap.required_m):
         return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
-    return f"{name}; {required}{gap.mark} required{up} (D/C {gap.ratio_words}); provide {enough}"
+    return f"{name}; {required}{gap.mark} required (D/C {gap.ratio_words})"

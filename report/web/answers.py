@@ -27,7 +27,7 @@ from report.pages.summary import attention
 from report.typeset.pdf import TEMPLATES
 from report.web.plan import USUAL_PX, plan
 from report.web.tables import Cell, ShowVerdict, cells, heads, stamp
-from report.words.units import compared
+from report.words.units import beside, no_less
 from solver.rules.limit import Consequence
 
 _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
@@ -126,8 +126,8 @@ def _rows(
 
 
 def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
-    shown, had = compared(near.required_m, near.gap_m)
-    lengths = ((near.gap_m, had, ""), (near.required_m, shown, near.mark))
+    had = beside(near.required_m, near.gap_m)
+    lengths = ((near.gap_m, had, ""), (near.required_m, no_less, near.mark))
     found = (
         {"text": fmt.short(value_m, show=show) + mark, "title": fmt.both(value_m, show=show)}
         for value_m, show, mark in lengths

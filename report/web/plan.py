@@ -22,6 +22,7 @@ from report.drawing.widths import TYPE_PT
 from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
 from report.web.tables import Cell, ShowVerdict
+from report.words.units import beside, no_less
 
 _TYPE_PX = 13.0  # of the page
 _PX = _TYPE_PX / (TYPE_PT / 72.0)  # in an inch
@@ -75,7 +76,8 @@ def plan(
             *(
                 {
                     "text": f"{near.array} to {near.other}: no clearance given, "
-                    f"{fmt.both(near.gap_m)} in plan, required {fmt.both(near.required_m)}",
+                    f"{fmt.both(near.gap_m, show=beside(near.required_m, near.gap_m))} in plan, "
+                    f"required {fmt.both(near.required_m, show=no_less)}",
                     "verdict": verdict(near.verdict),
                 }
                 for near in missing

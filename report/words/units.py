@@ -149,42 +149,6 @@ def _rounded(to_whole: Callable[[float], int], noise: float, value: float, decim
     return to_whole(value * per_digit + noise) / per_digit
 
 
-def compared(required_si: float, provided_si: float) -> tuple[Show, Show]:
-    """Return how a required and a provided value print.
-
-    A required value that is larger must print larger: where the two would print alike it is rounded
-    up, and where they still do the provided one down. NaN is no value: there is nothing to compare.
-    """
-    if not required_si > provided_si:
-        return measured, measured
-
-    def required(value_si: float, unit: Unit) -> str:
-        is_alike = measured(required_si, unit) == measured(provided_si, unit)
-        return (no_less if is_alike else measured)(value_si, unit)
-
-    def provided(value_si: float, unit: Unit) -> str:
-        is_alike = measured(value_si, unit) == required(required_si, unit)
-        return (no_more if is_alike else measured)(value_si, unit)
-
-    return required, provided
-
-
-def rounded_apart(required_si: float, provided_si: float, quantity: Quantity) -> bool:
-    """Whether `compared` prints either value otherwise than rounded, so that the two differ."""
-    shows = zip(compared(required_si, provided_si), (required_si, provided_si), strict=True)
-    return any(
-        show(value, unit) != measured(value, unit)
-        for show, value in shows
-        for unit in quantity.value
-    )
-
-
-def rounding(required_si: float, provided_si: float, quantity: Quantity) -> str:
-    """Return what follows a required value that is rounded apart from the one provided."""
-    is_apart = rounded_apart(required_si, provided_si, quantity)
-    return " (rounded apart: both would print alike)" if is_apart else ""
-
-
 def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:
     """Return a value in both systems, such as `81.6 in (2072 mm)`, the preferred one first."""
     first, second = (
@@ -194,13 +158,29 @@ def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show 
     return f"{first} ({second})"
 
 
+def beside(required_si: float, provided_si: float) -> Show:
+    """Return how a provided value prints beside a required one, which is rounded up.
+
+    Rounded, unless that would show the other order: then up where it is enough, and else down.
+    """
+
+    def show(value_si: float, unit: Unit) -> str:
+        required = round_up(required_si / unit.si, unit.decimals)
+        provided = round(value_si / unit.si, unit.decimals)
+        if required_si > provided_si:
+            return (no_more if provided >= required else measured)(value_si, unit)
+        return (no_less if provided < required else measured)(value_si, unit)
+
+    return show
+
+
 def compared_pairs(
     required_si: float, provided_si: float, quantity: Quantity, us_first: bool
-) -> tuple[str, str, str]:
-    """Return a required and a provided value as `compared`, in both systems, and `rounding`."""
-    shows = zip((required_si, provided_si), compared(required_si, provided_si), strict=True)
+) -> tuple[str, str]:
+    """Return a required value, rounded up, and one provided `beside` it, in both systems."""
+    shows = ((required_si, no_less), (provided_si, beside(required_si, provided_si)))
     required, provided = (pair(value, quantity, us_first, show) for value, show in shows)
-    return required, provided, rounding(required_si, provided_si, quantity)
+    return required, provided
 
 
 def ratio(value: float) -> str:
