@@ -17,8 +17,9 @@ does not allow."""
 SHOWN = 60
 """Characters of a cell or a name that a message shows."""
 
-_UNSEEN = r"[\s\u00ad\u200b-\u200f\u2060-\u2064\ufeff]+"
-_ENDS = re.compile(rf"\A{_UNSEEN}|{_UNSEEN}\Z")
+_UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + (
+    "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
+)
 
 _LETTERS = {
     "mu": "μ",
@@ -70,4 +71,4 @@ def lettered(text: str) -> str:
 
 def trimmed(text: str) -> str:
     """Return a text without spaces and characters of no width at its ends."""
-    return _ENDS.sub("", text)
+    return text.strip(_UNSEEN)
