@@ -157,19 +157,22 @@ def support(assessment: Assessment, request: Request, worker: Executor) -> Suppo
     """Compute what supports an assessment, while the worker typesets the equations."""
     from report.assessment.evidence import support
 
-    changes = _changes(assessment, request.former)
+    changes = _changes(assessment, request)
     equations = worker.submit(_equations, assessment, changes)
     return Supported(evidence=support(assessment), changes=changes, equations=equations)
 
 
-def _changes(assessment: Assessment, former: Sequence[Compared]) -> Changes:
+def _changes(assessment: Assessment, request: Request) -> Changes:
     from report.assessment.changes import NO_FORMER
 
-    if not former:
+    if not request.since:
         return NO_FORMER
     from report.results.compare import changes
+    from report.results.since import check_listed
 
-    return changes(former[0], assessment)
+    found = changes(request.former[0], assessment)
+    check_listed(found, request.since)
+    return found
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,6 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import from_json
 
+from report.assessment.changes import Changes
 from report.entities.results import SCHEMA_VERSION, Compared
 from report.typeset.letters import named, undrawable
 from report.words.letters import UNPRINTABLE, cut
@@ -23,6 +24,9 @@ AGAIN = "write it again with `report` of this version, from the workbook of that
 
 MOST_BYTES, MOST_OBJECTS = 25_000_000, 100_000
 """Largest file that is read [B], and most objects of one that is compared."""
+
+MOST_CHANGES, MOST_LETTERS = 2_000, 400_000
+"""Most changes that the package lists, and most letters of them all."""
 
 
 def read_former(path: Path) -> Compared:
@@ -88,6 +92,22 @@ def former_from(content: bytes, path: Path) -> Compared:
                 " one that does"
             )
     return former
+
+
+def check_listed(changes: Changes, path: Path) -> None:
+    """Refuse more changes since a former revision than can be laid out in minutes.
+
+    Raises
+    ------
+    InputError
+    """
+    count = len(changes.items)
+    letters = sum(len(item.title) + len(item.before) + len(item.now) for item in changes.items)
+    if count > MOST_CHANGES or letters > MOST_LETTERS:
+        raise InputError(
+            f"{path}: the list of changes since has {count:,} rows of {letters:,} letters;"
+            f" at most {MOST_CHANGES:,} of {MOST_LETTERS:,} are listed; {GIVE} of this project"
+        )
 
 
 def _texts(value: Any) -> Iterator[str]:

@@ -18,7 +18,7 @@ from report.assessment.evidence import support
 from report.pages.registry import package_data, parts
 from report.results.compare import changes
 from report.results.json import results_json
-from report.results.since import former_from, read_former
+from report.results.since import MOST_CHANGES, check_listed, former_from, read_former
 from report.sheet.reading.beside import Document
 from solver.model import InputError
 
@@ -309,3 +309,19 @@ def test_an_array_that_is_new_and_has_no_value_has_none():
         (ChangeKind.DESIGN, f"Array {first}"): ("—", "none"),
         (ChangeKind.VERDICT, f"Array {first}"): ("—", "NG"),
     }
+
+
+def test_more_changes_than_can_be_laid_out_are_refused_with_both_limits(assessment, document):
+    row = document["requirements"][0]
+    document["requirements"] += [row | {"title": f"T{k}"} for k in range(MOST_CHANGES)]
+    check_listed(changes(former(document), assessment), Path("x"))
+    document["requirements"] += [row | {"title": f"U{k}"} for k in range(58_000)]
+    with pytest.raises(InputError, match=r"x: .* 60,000 rows of .*; at most 2,000 of .*; give"):
+        check_listed(changes(former(document), assessment), Path("x"))
+
+
+def test_a_text_of_5_mb_is_refused_before_it_is_laid_out(assessment, document):
+    document["requirements"][0]["found"] = "x " * 2_500_000
+    found = changes(former(document), assessment)
+    with pytest.raises(InputError, match=r"x: .* 1 rows of 5,000,\d\d\d letters"):
+        check_listed(found, Path("x"))
