@@ -9,13 +9,16 @@ import re
 
 from report.sheet.schema.choices import LayerKind
 
-_PATTERNS: tuple[tuple[str, LayerKind], ...] = (
-    (r"-(ANNO|DIMS|IDEN|NPLT|PATT|TTLB)(-|$)", LayerKind.NOT_READ),
-    (r"^PVC(SETBACK|INSTALLATIONAREA|SHADOW|WINDZONES)$", LayerKind.NOT_READ),
-    (r"^A-ROOF(-OTLN)?(-[A-Z])?$|^PVCROOF$", LayerKind.ROOF),
-    (r"PARAPET", LayerKind.EDGE_WITH_PARAPET),
-    (r"-SOLR(-|$)|(^|-)(PV|SOLAR)-?(MODULE|PANEL|ARRAY)S?(-|$)|^PVCLAYOUT$", LayerKind.ARRAY),
-    (r"-EQPM(-|$)|^PVCOBSTRUCTION$|(^|-)(OBSTRUCTION|RTU)S?(-|$)", LayerKind.FIXED),
+_PATTERNS: tuple[tuple[re.Pattern[str], LayerKind], ...] = (
+    (re.compile(r"-(ANNO|DIMS|IDEN|NPLT|PATT|TTLB)(-|$)"), LayerKind.NOT_READ),
+    (re.compile(r"^PVC(SETBACK|INSTALLATIONAREA|SHADOW|WINDZONES)$"), LayerKind.NOT_READ),
+    (re.compile(r"^A-ROOF(-OTLN)?(-[A-Z])?$|^PVCROOF$"), LayerKind.ROOF),
+    (re.compile(r"PARAPET"), LayerKind.EDGE_WITH_PARAPET),
+    (
+        re.compile(r"-SOLR(-|$)|(^|-)(PV|SOLAR)-?(MODULE|PANEL|ARRAY)S?(-|$)|^PVCLAYOUT$"),
+        LayerKind.ARRAY,
+    ),
+    (re.compile(r"-EQPM(-|$)|^PVCOBSTRUCTION$|(^|-)(OBSTRUCTION|RTU)S?(-|$)"), LayerKind.FIXED),
 )
 """Names, in capitals with hyphens for blanks and underscores, and what they mean; the first that
 fits counts.
@@ -32,4 +35,4 @@ def proposed(layer: str) -> LayerKind | None:
     """Return what is likely drawn on a layer; None where its name does not say."""
     # A reference that is bound to the drawing has its name before that of the layer.
     name = re.sub(r"[ _]+", "-", re.split(r"[|$]", layer)[-1].upper())
-    return next((kind for pattern, kind in _PATTERNS if re.search(pattern, name)), None)
+    return next((kind for pattern, kind in _PATTERNS if pattern.search(name)), None)

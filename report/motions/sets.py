@@ -43,11 +43,11 @@ _NAMED = {word: meant for meant, words in _SPELLED.items() for word in words.spl
 # Of SEED, after band and instrument; of KiK-net, before the number of the sensor.
 _WITHIN = re.compile(r"([befhs][gln])([enz12])|(ns|ew|ud)(\d)")
 _BEARING = re.compile(r"([ns])(\d{1,2})([ew])")
-_CHANNEL = re.compile(r"\b(?:(?:sta|rcrdr)\s+)?cha?nn?(?:el)?\s*:?\s*\d+\s*:?", re.IGNORECASE)
+_CHANNEL = re.compile(r"\b(?:(?:sta|rcrdr)\s+)?cha?nn?(?:el)?\s*+(?::\s*)?\d+\s*:?", re.IGNORECASE)
 _CHANNEL_OF_NAME = re.compile(r"[-_. ]?cha?nn?(?:el)?[-_ ]?\d+", re.IGNORECASE)
 _NOISE = re.compile("comp(onent)?|deg|axis|accelerometer|longitudinal|transverse|vertical")
 _END = re.compile(
-    r"(.*?)(?:(?:^|[-_. ]+)(u-d|n-s|e-w|[a-z]+\d?|[ns]\d+[ew]|\d\d\d?)|(?<!\d)(\d{3}))",
+    r"(.*?)(?:(?:^|(?<![-_. ])[-_. ]+)(u-d|n-s|e-w|[a-z]+\d?|[ns]\d+[ew]|\d\d\d?)|(?<!\d)(\d{3}))",
     re.IGNORECASE,
 )
 

@@ -39,18 +39,16 @@ _FIRST = re.compile(
 )
 _TEXT_LINES = re.compile(r"WITH\s+(\d{1,3})\s+TEXT LINES?", re.ASCII | re.IGNORECASE)
 _WHOLES = re.compile(
-    r"\s*\d+\s+INTEGER-HEADER VALUES FOLLOW ON\s+(\d{1,4})\s+LINES?,", re.ASCII | re.IGNORECASE
+    r"\d\s+INTEGER-HEADER VALUES FOLLOW ON\s+(\d{1,4})\s+LINES?,", re.ASCII | re.IGNORECASE
 )
-_COMMENTS = re.compile(
-    r"\s*(\d{1,4})\s+COMMENT LINES?(?:\(S\))?\s+FOLLOW", re.ASCII | re.IGNORECASE
-)
+_COMMENTS = re.compile(r"(\d{1,4})\s+COMMENT LINES?(?:\(S\))?\s+FOLLOW", re.ASCII | re.IGNORECASE)
 _REALS = re.compile(
-    r"\s*(\d+)\s+REAL-HEADER VALUES FOLLOW ON\s+(\d{1,4})\s+LINES?,\s*FORMAT\s*=\s*\(([^)]*)\)",
+    r"(\d{1,9})\s+REAL-HEADER VALUES FOLLOW ON\s+(\d{1,4})\s+LINES?,\s*FORMAT\s*=\s*\(([^)]*)\)",
     re.ASCII | re.IGNORECASE,
 )
 _DATA = re.compile(
-    r"\s*(\d+)\s+([A-Z]+)\s+PTS,\s*APPROX\s+([\d.]+)\s*SECS?\s*,\s*UNITS?\s*=\s*([^,(]*?)\s*"
-    r"(?:\(\s*(\d+)\s*\))?\s*,\s*FORMAT\s*=\s*\(([^)]*)\)",
+    r"\s*(\d+)\s+([A-Z]+)\s+PTS,\s*APPROX\s+([\d.]+)\s*SECS?\s*,\s*UNITS?\s*=\s*+([^,(]*+)"
+    r"(?:\(\s*(\d+)\s*\)\s*)?,\s*FORMAT\s*=\s*\(([^)]*)\)",
     re.ASCII | re.IGNORECASE,
 )
 _TEXT, _REAL_NUMBERS = "text", "real numbers"
@@ -202,7 +200,7 @@ def _scale(source: Source, part: _Part) -> float:
 def _reals(source: Source, part: _Part) -> list[Stated]:
     """Real numbers of the heading."""
     for index in range(part.first, part.at):
-        match = _REALS.match(source.lines[index])
+        match = _REALS.search(source.lines[index])
         layout = layout_of(match[3]) if match else None
         if match and layout:
             return header_values(source, index + 1, min(int(match[1]), 1000), layout)

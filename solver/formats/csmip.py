@@ -42,9 +42,9 @@ from solver.formats.times import sampled
 from solver.model import Floats, InputError
 from solver.records.units import unit_size
 
-_VOLUME_1 = re.compile(r"\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
-_VOLUME_2 = re.compile(r"\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
-_VOLUME_3 = re.compile(r"\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
+_VOLUME_1 = re.compile(r"^\s*UNCORRECTED ACCELEROGRAM DATA", re.IGNORECASE)
+_VOLUME_2 = re.compile(r"^\s*CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
+_VOLUME_3 = re.compile(r"^\s*RESPONSE AND FOURIER AMPLITUDE SPECTRA", re.IGNORECASE)
 _END = re.compile(r"\s*/&")
 
 # Lines of text, then 16I5 on 7 lines, then 8F10.3.
@@ -59,13 +59,13 @@ _LENGTH_1, _LENGTH_2, _STEP_2 = 3, 44, 45
 _POINTS = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
 _PAIR_UNIT = re.compile(r"UNITS OF UNCOR\s+\w+\s+ARE\s+SEC\s+AND\s+([A-Z/0-9]+)", re.IGNORECASE)
 _EVEN_1 = re.compile(
-    r"\s*(\d+)\s+ACCELEROGRAM POINTS AT\s+([\d.]+)\s*PTS/SEC IN UNITS OF\s+([A-Z/0-9]+)"
+    r"(?<!\d)(\d+)\s+ACCELEROGRAM POINTS AT\s+([\d.]+)\s*PTS/SEC IN UNITS OF\s+([A-Z/0-9]++)"
     r".*FORMAT:\s*\(([^)]*)\)",
     re.ASCII | re.IGNORECASE,
 )
 _EVEN_2 = re.compile(
-    r"\s*(\d+)\s+POINTS OF ACCEL DATA EQUALLY SPACED AT\s+([\d.]+)\s*SEC[.,\s(]*(?:UNITS:|IN)\s*"
-    r"([A-Z/0-9]+)[.\s)]*(?:\(([^)]*)\))?",
+    r"(?<!\d)(\d+)\s+POINTS OF ACCEL DATA EQUALLY SPACED AT\s+([\d.]+)\s*SEC[.,\s(]*(?:UNITS:|IN)"
+    r"\s*([A-Z/0-9]+)[.\s)]*(?:\(([^)]*)\))?",
     re.ASCII | re.IGNORECASE,
 )
 _ANY_2 = re.compile(r"\s*\d+\s+POINTS OF (VELOC|DISPL|ACCEL)", re.ASCII | re.IGNORECASE)

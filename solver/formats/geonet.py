@@ -30,9 +30,11 @@ from solver.formats.numbers import Block, FieldFormat, each, fixed_values, heade
 from solver.formats.source import Source, Stated
 from solver.model import InputError
 
-_FIRST = re.compile(r"\s*(UN)?CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
+_FIRST = re.compile(r"^\s*(UN)?CORRECTED ACCELEROGRAM\b", re.IGNORECASE)
 _SITE = re.compile(r"\s*SITE\b", re.IGNORECASE)
-_STEP_LINE = re.compile(r"([\d.]+)\s*S(?:EC)?\b(?:\s+INTERVALS)?", re.ASCII | re.IGNORECASE)
+_STEP_LINE = re.compile(
+    r"(?<![\d.])([\d.]+)\s*S(?:EC)?\b(?:\s+INTERVALS)?", re.ASCII | re.IGNORECASE
+)
 _INTERVAL = re.compile(r"\bINTERVALS?\b", re.IGNORECASE)
 _UNIT = re.compile(r"UNITS OF\s+([\d.]+)\s+([A-Z/0-9]+)", re.ASCII | re.IGNORECASE)
 _PEAK_UNIT = re.compile(r"ACCELERATION:\s+PEAK\s+\S+\s+([A-Z/0-9]+)", re.IGNORECASE)

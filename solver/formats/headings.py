@@ -34,18 +34,20 @@ _BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
 _IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
 _WORD = re.compile(r"[^\s\[(]+(?:\s?[\[(][^\])]*[\])])?")
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
-_UNITS_OF = re.compile(r"\bunits?\b[\s:=]*(?:(?:of|in|are|is)\b)?[\s:=]*([^\s,;]+)", re.IGNORECASE)
+_UNITS_OF = re.compile(
+    r"\bunits?\b[\s:=]*+(?:(?:of|in|are|is)\b[\s:=]*+)?([^\s,;]+)", re.IGNORECASE
+)
 _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;]+)", re.IGNORECASE)
 _STEP = re.compile(
-    r"\b(?:dt|time[ _]step)(?:_s\b|\b)\s*(?:[\[(]s[\])])?\s*[:=]\s*([+-]?[0-9.]+(?:[eE][+-]?\d+)?)"
-    r"\s*(ms\b)?",
+    r"\b(?:dt|time[ _]step)(?:_s\b|\b)\s*+(?:[\[(]s[\])]\s*+)?[:=]\s*"
+    r"([+-]?[0-9.]+(?:[eE][+-]?\d+)?)\s*(ms\b)?",
     re.ASCII | re.IGNORECASE,
 )
 
 
 _COUNT = re.compile(
-    r"\b(?:number|no\.?) of (?:points|samples|values)\b\s*[:=]?\s*(\d{1,9})\b(?![.,]\d)",
+    r"\b(?:number|no\.?) of (?:points|samples|values)\b\s*+(?:[:=]\s*)?(\d{1,9})\b(?![.,]\d)",
     re.ASCII | re.IGNORECASE,
 )
 

@@ -18,7 +18,7 @@ from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
 from solver.records.record import BEYOND, is_finite_number, raise_any, shown
 
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _FORMAT = re.compile(r"\s*(\d{1,2})\s*(?:[A-Z]{1,2})\s*(\d{1,2})(\D|$)", re.ASCII | re.IGNORECASE)
 

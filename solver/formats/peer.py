@@ -22,9 +22,11 @@ from solver.records.record import shown
 
 # The count is in the first lines of a file; the heading has four.
 _HEADING_LINES = 6
-_NUMBER = r"([+-]?\d*\.?\d*(?:[eE][+-]?\d+)?)"
-_NAMED = re.compile(rf"NPTS\s*=\s*(\d+)\s*,?\s*DT\s*=\s*{_NUMBER}", re.ASCII | re.IGNORECASE)
-_BEHIND = re.compile(rf"\s*(\d+)\s*,?\s+{_NUMBER}\s*,?\s*NPTS\s*,\s*DT", re.ASCII | re.IGNORECASE)
+_NUMBER = r"([+-]?\d*(?:\.\d*)?(?:[eE][+-]?\d+)?)"
+_NAMED = re.compile(rf"NPTS\s*=\s*(\d+)\s*+(?:,\s*)?DT\s*=\s*{_NUMBER}", re.ASCII | re.IGNORECASE)
+_BEHIND = re.compile(
+    rf"\s*(\d+)(?:\s*+,)?\s++{_NUMBER}\s*+(?:,\s*)?NPTS\s*,\s*DT", re.ASCII | re.IGNORECASE
+)
 _COUNT_LINE = re.compile(r"\bNPTS\b", re.IGNORECASE)
 _UNIT = re.compile(r"IN UNITS OF\s+([A-Z/0-9^]+)", re.ASCII | re.IGNORECASE)
 _OTHER = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)

@@ -22,11 +22,11 @@ from report.sheet.schema.fields import Entry, YesNo, adapter
 from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
 from solver.model import InputError, Problem
 
-_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
 _WITH_UNIT = re.compile(
-    r"[+-]?[0-9]+\.?[0-9]*\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
+    r"[+-]?[0-9]+(?:\.[0-9]*)?\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
 )
 EARLIEST = date(2000, 1, 1)
 """A date before it is refused, as by the sheet's own check."""

@@ -15,7 +15,7 @@ from openpyxl.formula.tokenizer import Token, TokenizerError
 _ONE_COLUMN = re.compile(r"\[(\[(?:'.|[^\[\]'])*\])\]")
 _BETWEEN = re.compile(r"\]\s*,\s*\[")
 _CELL = re.compile(r"(\$?[A-Z]{1,3}\$?)(\d+)")
-_SHEET = re.compile(r"'((?:[^']|'')+)'!")
+_SHEET = re.compile(r"(?<!')'((?:[^']|'')++)'!")
 _NEWER = "_xlfn."
 
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 _PARTS = re.compile(
-    r'"(?P<quoted>[^"]*)(?:"|$)|\\(?P<escaped>.)|(?P<space>[_*].)|\[\$(?P<currency>[^\]-]*)[^\]]*\]'
-    r"|\[[^\]]*\]|(?P<end>;)|(?P<general>General)|(?P<digits>[0#?.,%@]|E[+-])|(?P<other>.)",
+    r'"(?P<quoted>[^"]*)(?:"|$)|\\(?P<escaped>.)|(?P<space>[_*].)|\[\$(?P<currency>[^\]-]*+)[^\]]{0,255}\]'
+    r"|\[[^\]]{0,255}\]|(?P<end>;)|(?P<general>General)|(?P<digits>[0#?.,%@]|E[+-])|(?P<other>.)",
     re.IGNORECASE | re.DOTALL,
 )
 _LONGEST = 255  # characters that Excel allows in a format code (specifications and limits)

@@ -289,7 +289,7 @@ def _computed_when_opened(workbook: bytes) -> bytes:
     if b"fullCalcOnLoad" in match[0]:
         tag = re.sub(rb'fullCalcOnLoad="[^"]*"', b'fullCalcOnLoad="1"', match[0])
     else:
-        tag = re.sub(rb"\s*(/?>)$", rb' fullCalcOnLoad="1"\1', match[0])
+        tag = match[0].replace(b"calcPr", b'calcPr fullCalcOnLoad="1"', 1)
     return workbook[: match.start()] + tag + workbook[match.end() :]
 
 

@@ -28,7 +28,7 @@ IN_DISPLACEMENT, IN_SEPARATION = "in the displacement", "in the separation"
 ONE_VALUE, BY_FORMULA = "one value", "the formula"
 """What a rule set prescribes in SDC A, B and C, as written on the sheet Provisions."""
 
-_REFERENCE = re.compile(r"(\w*)\[(#?)(\w+)\]")
+_REFERENCE = re.compile(r"(?<!\w)(\w*)\[(#?)(\w+)\]")
 
 
 @dataclass(frozen=True, slots=True)
