@@ -33,6 +33,8 @@ MAX_ENTITIES = 20_000
 MAX_VALUES = 1_000_000
 MAX_DEPTH = 8
 MAX_CURVE_POINTS = 500_000
+MAX_LETTERS = 500_000
+MAX_LINE = 10_000
 
 SAGITTA_M = 0.003
 """Largest distance [m] of an arc from the chords that it is read as."""
@@ -187,6 +189,8 @@ def _check(path: Path) -> None:
     values = data.count(b"\n") // 2  # each after a line with its code
     _limit(values, MAX_VALUES, "values")
     _limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
+    # Names are read once for each entity that has them; formats allow lines of 2,049 letters.
+    _limit(max(map(len, data.splitlines()), default=0), MAX_LINE, "letters in a line")
 
 
 def _limit(count: int, most: int, what: str) -> None:
@@ -250,6 +254,7 @@ class _Reader:
     entities: int = 0
     blocks: int = 0
     points: int = 0
+    letters: int = 0
 
     def take(self, entity: Any, block: _Block) -> None:
         """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
@@ -343,8 +348,11 @@ class _Reader:
 
     def _take_text(self, entity: Any, layer: str, kind: str) -> str:
         """Add a text that says something at a place; none is missed that does not."""
+        self.letters += len(entity.text if kind == "MTEXT" else entity.dxf.text)
+        _limit(self.letters, MAX_LETTERS, "letters of texts")
         if kind == "MTEXT":
-            found = entity.plain_text(split=True)
+            # What the library calls fast takes a time that grows as the square of the length.
+            found = entity.plain_text(split=True, fast=False)
             x, y, _ = entity.dxf.insert
         else:
             found = [entity.plain_text() if kind == "TEXT" else entity.dxf.text]

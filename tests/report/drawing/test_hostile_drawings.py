@@ -8,8 +8,9 @@ import sys
 import pytest
 from click.testing import CliRunner
 
+from growth import grows_faster
 from report.cli.main import main
-from report.drawing.read_dxf import MAX_ENTITIES, MAX_VALUES, read_dxf
+from report.drawing.read_dxf import MAX_ENTITIES, MAX_LETTERS, MAX_VALUES, read_dxf
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import LayerKind
 from sheets import make
@@ -273,3 +274,28 @@ def test_open_lines_without_measure_are_listed(tmp_path, line, count, reasons):
     found = read_dxf(sketch.saved(tmp_path))
     assert found.lines == []
     assert {item.reason for item in found.unread} >= reasons
+
+
+@pytest.mark.parametrize("code", ["\\S1/2;", "\\U+2205", "\\~", "\\C", "\\f", "{\\H2x;"])
+def test_a_text_of_many_codes_takes_time_as_its_length(tmp_path, code):
+    def drawn(count):
+        sketch = Sketch()
+        sketch.space.add_mtext(code * count)
+        return sketch.saved(tmp_path)
+
+    assert not grows_faster(read_dxf, drawn, 8000)
+
+
+def test_texts_of_too_many_letters_in_all_are_refused(file):
+    sketch = Sketch()
+    for _ in range(4):
+        sketch.space.add_mtext("\\S1/2;" * 50_000)
+    found = hostile(file, written(sketch))
+    assert found.startswith(f"600,000 letters of texts, more than {MAX_LETTERS:,}; save the layers")
+
+
+def test_a_name_of_too_many_letters_is_refused(file):
+    sketch = Sketch()
+    sketch.ring("L" * 1_000_000, BOX_FT)
+    found = hostile(file, written(sketch))
+    assert found.startswith("1,000,000 letters in a line, more than 10,000; save the layers")
