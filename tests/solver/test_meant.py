@@ -6,6 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 import commands
+from growth import grows_faster
 from places import ROOT
 from report.cli.main import main
 from solver.meant import meant, nearest
@@ -87,3 +88,16 @@ def test_the_lock_file_of_a_workbook_is_never_meant(tmp_path):
     assert f"did you mean '{tmp_path / 'My Project.xlsx'}'?" in commands.refused("check", tmp_path)
     (tmp_path / "other.xlsx").write_bytes(b"")
     assert "did you mean" not in commands.refused("check", tmp_path)
+
+
+def test_as_many_wrong_names_as_there_are_names_take_time_as_their_number():
+    def suggested(count):
+        names = [f"{'ab' * 18}{k}" for k in range(count)]
+        return [nearest(f"{'ba' * 18}{k}", names) for k in range(count)]
+
+    assert not grows_faster(suggested, lambda count: count, 40)
+
+
+def test_a_name_that_begins_alike_is_found_among_many_long_ones():
+    names = [f"{k:02}{'x' * 60}" for k in range(100)]
+    assert nearest(f"98{'x' * 59}y", names) == names[98]
