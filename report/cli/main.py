@@ -35,6 +35,7 @@ from report.cli.terminal import (
     INTERRUPTED,
     UntilClosed,
     interrupts,
+    plain,
     show_warnings,
     unwritten,
 )
@@ -42,6 +43,9 @@ from report.cli.verify import verify
 from report.cli.verify_package import verify_package
 from report.cli.watch import watch
 from report.words.command import called
+
+NUMBA_CONFIG = ".numba_config.yaml"
+"""Read by numba in the current folder; it may name a folder of compiled code that is then run."""
 
 
 class _Commands(SectionedGroup):
@@ -92,6 +96,14 @@ def main() -> None:
         os.getcwd()
     except OSError:
         click.echo("The working folder no longer exists; change to another folder.", err=True)
+        sys.exit(INPUT_ERROR)
+    if os.path.lexists(NUMBA_CONFIG):
+        click.echo(
+            f"{plain(os.path.abspath(NUMBA_CONFIG))}: this file can make the compiler of the "
+            "solver run code that came with it; remove it, or change to another folder. Settings "
+            "of numba can be given as environment variables.",
+            err=True,
+        )
         sys.exit(INPUT_ERROR)
 
 

@@ -13,6 +13,11 @@ from tempfile import TemporaryFile
 
 from numba import config, njit
 
+# Numba reads this file of the current folder, again at each compilation: it could name a folder of
+# compiled code, which would run. What it said is undone; the environment alone has settings.
+config._config_fname = os.devnull
+config.reload_config()
+
 NOT_KEPT = (
     "the compiled solver cannot be kept on disk ({reason}), so every run compiles it again; set "
     "the environment variable NUMBA_CACHE_DIR to a folder that can be written"

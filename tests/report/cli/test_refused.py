@@ -77,6 +77,45 @@ def test_a_working_folder_that_is_gone_is_an_input_error(tmp_path):
     assert done.stderr == "The working folder no longer exists; change to another folder.\n"
 
 
+# Starts every command, one after the other, and prints how each ended.
+EVERY_COMMAND = """
+import sys, click
+from report.cli.main import main
+def below(group, *words):
+    for name, command in group.commands.items():
+        if isinstance(command, click.Group):
+            yield from below(command, *words, name)
+        else:
+            yield *words, name
+for words in below(main):
+    try:
+        main(words)
+    except SystemExit as ended:
+        print(*words, ended.code, sep=",")
+assert "numba" not in sys.modules
+"""
+
+
+@pytest.mark.parametrize("kind", ["file", "link", "pipe"])
+def test_no_command_starts_beside_settings_of_numba(tmp_path, kind):
+    """They may name a folder of compiled code, which would run: numba is not loaded."""
+    settings = tmp_path / ".numba_config.yaml"
+    if kind == "file":
+        settings.write_text("cache_dir: brought")
+    elif kind == "link":
+        settings.symlink_to(tmp_path / "none")
+    else:
+        os.mkfifo(settings)
+    done = python("-P", "-c", EVERY_COMMAND, cwd=tmp_path)
+    ended = [line.rpartition(",")[::2] for line in done.stdout.splitlines()]
+    assert {code for _, code in ended} == {"2"}
+    assert {"report", "plan,read", "motion,suite", "completion"} <= {words for words, _ in ended}
+    told = done.stderr.splitlines()
+    assert len(told) == len(ended)
+    assert all(line.startswith(f"{settings}: this file can make the compiler ") for line in told)
+    assert "remove it, or change to another folder" in told[0]
+
+
 @pytest.mark.nightly("report/cli/terminal.py")
 def test_without_a_standard_error_the_exit_code_is_the_same(tmp_path):
     code = (

@@ -89,6 +89,25 @@ def test_on_a_full_disk_a_run_goes_on_and_says_how_to_keep_its_cache(copied):
     assert (run(), run()) == (1.0, 1.0)
 
 
+SETTINGS = "import os; open('.numba_config.yaml', 'w').write('cache_dir: brought'); "
+
+
+@pytest.mark.parametrize(
+    "before", [SETTINGS, f"import solver.kernels.one_axis; {SETTINGS}", ""], ids=["", "later", "no"]
+)
+@pytest.mark.parametrize("chosen", ["", "mine"])
+def test_compiled_code_is_kept_where_the_user_says_and_not_where_a_file_says(
+    copied, tmp_path, monkeypatch, before, chosen
+):
+    """A cache holds code that is run: the file of the current folder may be a stranger's."""
+    _, run = copied
+    if chosen:
+        monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / chosen))
+    assert run(program=before + RUN) == 1.0
+    (place,) = {path.relative_to(tmp_path).parts[0] for path in tmp_path.glob("**/*.nbc")}
+    assert place == (chosen or "solver")
+
+
 UNTRIED = """
 import sys
 sys.path += {paths}
