@@ -24,6 +24,8 @@ from tempfile import TemporaryDirectory
 from threading import Thread
 from typing import Any, ParamSpec, TypeVar
 
+from report.elsewhere import apart, stay_apart
+
 _P = ParamSpec("_P")
 _R = TypeVar("_R")
 
@@ -95,9 +97,10 @@ class WorkerProcess(Executor):
         self._pipe, there = context.Pipe()
         self._folder = TemporaryDirectory("", "roofslip-", within, ignore_cleanup_errors=True)
         self._is_trusted, self._told = is_trusted, told
-        about = (there, self._folder.name, prepare, is_trusted)
+        about = (there, os.getcwd(), self._folder.name, prepare, is_trusted)
         self._process = context.Process(target=_serve, args=about)
-        self._process.start()
+        with apart():  # its Python would import a file multiprocessing.py of the current folder
+            self._process.start()
         # Only the other process may hold its end: then its death ends every wait for it.
         there.close()
         self._asking = ThreadPoolExecutor(1)
@@ -149,13 +152,17 @@ _send: Callable[[str, Any], None]
 """Sends a message to the process that asks; there is none in that process."""
 
 
-def _serve(pipe: Connection, folder: str, prepare: Callable[[], object], is_trusted: bool) -> None:
+def _serve(
+    pipe: Connection, here: str, folder: str, prepare: Callable[[], object], is_trusted: bool
+) -> None:
     """Run the functions that arrive until the other end closes."""
     global _send
+    os.chdir(here)
     _send = partial(_sent, pipe, is_trusted)
     tempfile.tempdir = folder  # what a killed process leaves there is removed by the other one
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # which decides what an interrupt ends
     Thread(target=_end_with_parent, daemon=True).start()
+    stay_apart()
     prepare()
     try:
         while True:

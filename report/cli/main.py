@@ -42,6 +42,7 @@ from report.cli.terminal import (
 from report.cli.verify import verify
 from report.cli.verify_package import verify_package
 from report.cli.watch import watch
+from report.elsewhere import stay_apart
 from report.words.command import called
 
 NUMBA_CONFIG = ".numba_config.yaml"
@@ -105,6 +106,7 @@ def main() -> None:
             err=True,
         )
         sys.exit(INPUT_ERROR)
+    stay_apart()
 
 
 main.add_section("Package", report, watch, serve, batch, schema)
