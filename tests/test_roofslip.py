@@ -1,6 +1,8 @@
 """`import roofslip` offers what `solver` and `report` do, and no file of the reader hides them."""
 
+import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -50,3 +52,32 @@ def test_the_launcher_looks_for_no_package_where_it_is_called():
     assert len(calls) == 3
     assert all(" -P " in call for call in calls)
     assert '"$venv/bin/roofslip" "$@"' in (ROOT / "roofslip").read_text()
+
+
+STUB = """#!/bin/sh
+echo "$PWD: ${PYTHONPATH-no path}" >>"$(dirname -- "$0")/seen"
+exit STATUS
+"""
+
+
+def test_the_launcher_takes_nothing_from_where_it_is_called(tmp_path):
+    """Tools of the set-up take modules and settings of the current folder, and so does a path."""
+    here, bin_ = tmp_path / "here", tmp_path / ".venv" / "bin"
+    here.mkdir()
+    bin_.mkdir(parents=True)
+    for name in ("roofslip", "pyproject.toml", "requirements.lock"):
+        shutil.copy(ROOT / name, tmp_path)
+
+    def called(status):
+        for name in ("uv", "python"):
+            (bin_ / name).write_text(STUB.replace("STATUS", str(status)))
+            (bin_ / name).chmod(0o755)
+        environment = {"PATH": f"{bin_}:{os.environ['PATH']}", "PYTHONPATH": f"{ROOT}:"}
+        command = [tmp_path / "roofslip", "check", "x"]
+        done = subprocess.run(command, cwd=here, env=environment, capture_output=True, check=False)
+        assert (done.returncode == 0) == (status == 0), done.stderr
+        return (bin_ / "seen").read_text().splitlines()
+
+    assert set(called(1)) == {f"{tmp_path}: no path"}
+    assert set(called(0)[:-1]) == {f"{tmp_path}: no path"}
+    assert called(0)[-1] == f"{here}: no path"
