@@ -16,12 +16,16 @@ from studied import campaign
 pytestmark = pytest.mark.filterwarnings("ignore")  # of the cluster's own shut-down
 
 
+LOOPBACK = "127.0.0.1:0"
+"""Of the dashboard, which otherwise listens on every address of the machine."""
+
+
 @pytest.fixture(scope="module")
 def cluster():
     from distributed import LocalCluster
 
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=LOOPBACK
     ) as local:
         yield local
 
@@ -78,7 +82,7 @@ def test_a_cluster_without_workers_is_an_error():
     from distributed import LocalCluster
 
     with (
-        LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty,
+        LocalCluster(n_workers=0, processes=False, dashboard_address=LOOPBACK) as empty,
         pytest.raises(InputError, match="has no worker"),
         connected(empty.scheduler_address, manifest_of(campaign("x"), {})),
     ):
