@@ -20,7 +20,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from report.memoized import memoized
-from report.typeset.renderer import discard, load, shipped
+from report.typeset.renderer import load, shipped
 from solver.model import DefectError
 
 _HEAD = "data:image/svg+xml;base64,"
@@ -108,7 +108,8 @@ def fonts_of(css: Path) -> Any:
     fonts = FontConfiguration()
     faces = "\n".join(_FACES.findall(css.read_text(encoding="utf-8")))
     CSS(string=faces, font_config=fonts, url_fetcher=shipped(css.parent))
-    atexit.register(discard, fonts)
+    # Held until modules are gone, they could not remove their files.
+    atexit.register(fonts_of.cache_clear)
     return fonts
 
 

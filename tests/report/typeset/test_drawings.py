@@ -1,6 +1,9 @@
 """Pictures converted ahead are those that the renderer draws on the page."""
 
 import io
+import os
+import subprocess
+import sys
 import tempfile
 
 import pytest
@@ -171,4 +174,20 @@ def test_a_laid_out_document_leaves_no_fonts_in_the_temporary_folder(tmp_path, m
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     page = f"<html lang='en'><title>t</title><style>{FACES}</style><body>a</body></html>"
     assert lay_out(page).startswith(b"%PDF")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_process_that_drew_pictures_ends_without_a_word_and_leaves_no_fonts(tmp_path):
+    program = (
+        "import gc, sys; from pathlib import Path; from report.typeset.drawings import fonts_of; "
+        "fonts_of(Path(sys.argv[1])); gc.freeze(); gc.disable()"  # as commands do
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(CSS)],
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
     assert list(tmp_path.iterdir()) == []
