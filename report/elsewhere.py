@@ -4,19 +4,14 @@ For commands and their workers: a Python session trusts its folder, from which P
 numba reads is in `report.cli.main` and `solver.kernels.compiler`. Read `stay_apart`.
 """
 
-from __future__ import annotations
-
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import chdir, contextmanager
-from functools import partial
 from importlib.machinery import ModuleSpec, PathFinder
 from threading import RLock
-from types import ModuleType
 
 _READ_IT = ("ezdxf", "matplotlib")
 """Libraries that read settings from the current folder as they are loaded."""
-
 _ONE_AT_A_TIME = RLock()
 
 
@@ -37,12 +32,6 @@ class _Apart:
     @staticmethod
     def find_spec(name: str, _: object, __: object = None) -> ModuleSpec | None:
         spec = PathFinder.find_spec(name) if name in _READ_IT else None
-        if spec and spec.loader:
-            loaded = partial(_loaded, spec.loader.exec_module)
-            spec.loader.exec_module = loaded  # type: ignore[method-assign]  # of this loader alone
+        if spec and spec.loader:  # one of this library alone
+            spec.loader.exec_module = apart()(spec.loader.exec_module)  # type: ignore[method-assign]
         return spec
-
-
-def _loaded(load: Callable[[ModuleType], None], module: ModuleType) -> None:
-    with apart():
-        load(module)

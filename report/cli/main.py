@@ -45,9 +45,6 @@ from report.cli.watch import watch
 from report.elsewhere import stay_apart
 from report.words.command import called
 
-NUMBA_CONFIG = ".numba_config.yaml"
-"""Read by numba in the current folder; it may name a folder of compiled code that is then run."""
-
 
 class _Commands(SectionedGroup):
     """The group of all commands, which says so where what it prints cannot be written."""
@@ -98,11 +95,11 @@ def main() -> None:
     except OSError:
         click.echo("The working folder no longer exists; change to another folder.", err=True)
         sys.exit(INPUT_ERROR)
-    if os.path.lexists(NUMBA_CONFIG):
+    if os.path.lexists(settings := os.path.abspath(".numba_config.yaml")):
         click.echo(
-            f"{plain(os.path.abspath(NUMBA_CONFIG))}: this file can make the compiler of the "
-            "solver run code that came with it; remove it, or change to another folder. Settings "
-            "of numba can be given as environment variables.",
+            f"{plain(settings)}: this file can make the compiler of the solver run code that came "
+            "with it; remove it, or change to another folder. Settings of numba can be given as "
+            "environment variables.",
             err=True,
         )
         sys.exit(INPUT_ERROR)
