@@ -10,7 +10,7 @@ from enum import StrEnum
 from functools import partial
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic.json_schema import SkipJsonSchema
 
 from report.sheet.schema.fields import Place
@@ -82,6 +82,11 @@ class Requirement(BaseModel):
     # what the verdict of the subject calls it; empty for its title
     cause: SkipJsonSchema[str] = Field(default="", exclude=True)
     place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)  # to look at
+
+    @field_validator("remedy")
+    @classmethod
+    def _only_where_it_is_needed(cls, text: str, given: ValidationInfo) -> str:
+        return "" if given.data["is_satisfied"] else text
 
     @property
     def said(self) -> tuple[str, ...]:

@@ -107,6 +107,11 @@ class ClearanceResult(Entity):
         """The direction after a comma, if it has one."""
         return "" if self.direction is Direction.ANY else f", {self.direction.value}"
 
+    @unwritten(words("Between", 2.4))
+    def between(self) -> str:
+        """What is on either side."""
+        return f"{self.array}–{self.object}"
+
     @unwritten(words("Condition", 2.2))
     def condition(self) -> str:
         """Kind of what is across it, and the direction, if it has one."""

@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 from report.assessment.friction_rows import STANDARD
 from report.pages.parts import PackageData
 from report.typeset.equations import symbol
+from solver.rules.hazard import EDITIONS
 
 SYMBOLS: Mapping[str, str] = {
     "A_FLX": "AC156 acceleration from 1.3 to 8.3 Hz",
@@ -106,7 +107,16 @@ def friction_standard(package: PackageData) -> str:
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the list of symbols, and what the list of references needs beside the package."""
-    items = [(symbol(name), with_symbols(meaning)) for name, meaning in SYMBOLS.items()]
+    known = package.data.site.edition
+    others = {name for edition in EDITIONS.values() for name in edition.force_factors}
+    left_out = others.difference(known.force_factors)
+    if not known.has_site_coefficients:
+        left_out |= {"F_a", "F_v"}
+    items = [
+        (symbol(name), with_symbols(meaning))
+        for name, meaning in SYMBOLS.items()
+        if name not in left_out
+    ]
     half = (len(items) + 1) // 2
     pairs = zip_longest(items[:half], items[half:], fillvalue=("", ""))
     return {
