@@ -26,6 +26,7 @@ from report.manual.summary import judged, summary
 from report.manual.tables import checks, peers
 from report.pages.symbols import with_symbols
 from report.typeset.pdf import TEMPLATES, lay_out
+from report.words.formats import csv_text
 from report.words.validation import validation
 from solver.rivals.methods import METHODS
 from solver.verification import model_evidence, model_study, static_study
@@ -130,5 +131,5 @@ def verification_csv(verification: Verification) -> bytes:
     parts += [("run in two axes", evidence.work[_OF_TWO_AXES]) for evidence in verification.models]
     kinds, frames = zip(*parts, strict=True)
     table = pd.concat(frames, keys=kinds, names=["kind", None]).reset_index("kind")
-    text: str = table.to_csv(index=False, lineterminator="\n")
-    return text.encode()
+    cells = table.astype(object).where(table.notna(), None)
+    return csv_text([table.columns, *cells.itertuples(index=False)]).encode()

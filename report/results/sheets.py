@@ -5,9 +5,11 @@ Owns no content: see `report.results.xlsx`. Read `SheetRow`, then `write_rows`.
 
 from __future__ import annotations
 
+import datetime as dt
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
+from io import BytesIO
 from typing import Any, ClassVar, Self
 
 from xlsxwriter.format import Format
@@ -93,6 +95,17 @@ def print_on_letter(sheet: Worksheet, heading_row: int) -> None:
     sheet.fit_to_pages(1, 0)
     sheet.repeat_rows(heading_row)
     sheet.set_footer("&L&F, &A&RPage &P of &N")
+
+
+def text_workbook(buffer: BytesIO, date: dt.date, title: str = "") -> Workbook:
+    """Return a workbook to write, in which text from an untrusted one is never a formula or link.
+
+    Two runs give the same bytes: its date is that of the project, not the current date.
+    """
+    as_text = ("strings_to_formulas", "strings_to_urls", "strings_to_numbers")
+    workbook = Workbook(buffer, dict.fromkeys(as_text, False) | {"nan_inf_to_errors": True})
+    workbook.set_properties({"title": title, "created": dt.datetime.combine(date, dt.time())})
+    return workbook
 
 
 class Pages:

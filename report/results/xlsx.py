@@ -6,11 +6,8 @@ value is repeated beside it as a number, so that a checker can trace, change and
 
 from __future__ import annotations
 
-import datetime as dt
 import io
 from collections.abc import Sequence
-
-from xlsxwriter.workbook import Workbook
 
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
@@ -20,7 +17,7 @@ from report.results.gaps import result_cells, write_clearances
 from report.results.inputs import write_inputs
 from report.results.links import LinkRunRow, link_cells, link_run_rows, write_links
 from report.results.lists import write_lists, write_requirements
-from report.results.sheets import TOP, Cells, Pages, write_list
+from report.results.sheets import TOP, Cells, Pages, text_workbook, write_list
 
 _LIVE = ("Design", "Inputs", "Directions", "Clearances", "Requirements", "Peaks")
 
@@ -28,9 +25,7 @@ _LIVE = ("Design", "Inputs", "Directions", "Clearances", "Requirements", "Peaks"
 def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     """Return the tables as a workbook, with live formulas from the peaks to the separations."""
     buffer = io.BytesIO()
-    # Text from an untrusted workbook stays text, even if it starts with =.
-    options = {"strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": True}
-    with Workbook(buffer, options) as workbook:
+    with text_workbook(buffer, assessment.project.project.date) as workbook:
         pages = Pages(workbook)
         links = ("Links",) if assessment.linked else ()
         for name in (*_LIVE, *links):
@@ -38,10 +33,6 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
         write_lists(pages, assessment, spectra)
         _write_live(pages, assessment)
         workbook.set_calc_mode("auto")
-        # Two runs give the same bytes: the date is that of the project, not the current date.
-        workbook.set_properties(
-            {"created": dt.datetime.combine(assessment.project.project.date, dt.time())}
-        )
     return buffer.getvalue()
 
 

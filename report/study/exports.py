@@ -18,10 +18,11 @@ from report.sheet.schema.choices import RecordedAt
 from report.study.dispersion import MASS, NOT_DETERMINED, dispersions, exported, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.schema import Intensity
-from report.study.tables import Row, csv_text
+from report.study.tables import Row
 from report.study.words import context, warning
 from report.typeset.pdf import TEMPLATES
 from report.words.counts import capitalized
+from report.words.formats import csv_text
 from report.words.units import digits_down, digits_up, round_up
 from solver.model import Floats
 

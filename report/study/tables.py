@@ -5,35 +5,27 @@ Computes nothing but units. Read `curves_csv`, then `study_xlsx`.
 
 from __future__ import annotations
 
-import csv
-import datetime as dt
 import io
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from typing import Any
 
 import numpy as np
-import xlsxwriter
 
 from report.entities.columns import UnitFormat
 from report.entities.marks import UNVERIFIED
+from report.results.sheets import text_workbook
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words
 from report.words.counts import capitalized
+from report.words.formats import csv_text
 from report.words.units import Unit
 from solver.model import Floats
 from solver.studies.fit import Fit
 
 Row = Sequence[Any]
-
-
-def csv_text(rows: Iterable[Row]) -> str:
-    """Return rows as CSV, the same on every system."""
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue()
 
 
 def curves_csv(results: StudyResults) -> bytes:
@@ -66,11 +58,8 @@ def length_unit(results: StudyResults) -> Unit:
 def study_xlsx(results: StudyResults) -> bytes:
     """Return the summaries as a workbook: never a row for each run."""
     buffer = io.BytesIO()
-    book = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": False})
     unit, given = length_unit(results), results.plan.input
-    # Two runs give the same bytes: the date is that of the study, not the current date.
-    created = dt.datetime.combine(given.study.date, dt.time())
-    book.set_properties({"title": given.study.title, "created": created})
+    book = text_workbook(buffer, given.study.date, given.study.title)
     head_format = book.add_format({"bold": True, "text_wrap": True, "bottom": 1})
     measure = given.study.intensity.value
     for title, head, rows in (

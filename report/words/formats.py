@@ -1,4 +1,4 @@
-"""Errors, shares and times of a verification for print; names for files; data for JSON;
+"""Errors, shares and times of a verification for print; names for files; data for JSON and CSV;
 tables for a terminal.
 
 An em dash is NaN. Owns no sentence.
@@ -6,9 +6,11 @@ An em dash is NaN. Owns no sentence.
 
 from __future__ import annotations
 
+import csv
+import io
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from report.words.letters import power_of_ten
@@ -105,3 +107,24 @@ def finite(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [finite(item) for item in value]
     return value
+
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_FORMULAS = tuple("=+-@＝＋－＠")
+"""Their first characters; Excel in Japanese reads the wide ones as well."""
+
+
+def csv_text(rows: Iterable[Sequence[Any]]) -> str:
+    """Return rows as CSV, the same on every system, with no text that a spreadsheet computes."""
+    text = io.StringIO()
+    # It quotes only those line ends that are its own: a bare return would begin a row.
+    csv.writer(text, lineterminator="\r\n").writerows([*map(_as_text, row)] for row in rows)
+    return text.getvalue().replace("\r\n", "\n")
+
+
+def _as_text(value: Any) -> Any:
+    """Return a field, with an apostrophe before a text that would begin a formula."""
+    if not isinstance(value, str) or _NUMBER.fullmatch(value):
+        return value
+    is_live = value.startswith(("\t", "\r", "\n")) or value.lstrip().startswith(_FORMULAS)
+    return f"'{value}" if is_live else value

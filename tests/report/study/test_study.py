@@ -300,6 +300,34 @@ def test_the_workbook_holds_summaries_only(made, results):
         assert row["Median theta"] == ("none" if math.isnan(wanted) else pytest.approx(wanted))
 
 
+LIVE = [
+    "=1+1", "{=1+1}", "+1+1", "-1+1", "@SUM(A1)", "http://a.test", "mailto:a@b.test",
+    "internal:Study!A1", "external:a.xlsx", "file:///etc/passwd", r"\\server\share",
+    '=HYPERLINK("http://a.test")', "1e3", "-0.5", "#N/A",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LIVE)
+def test_a_name_is_text_in_the_tables_whatever_it_looks_like(results, name):
+    plan = results.plan
+    buildings = dataclasses.replace(plan.motions, buildings=(name,))
+    array = results.arrays[0].plan
+    own = dataclasses.replace(array, array=array.array.model_copy(update={"id": name}))
+    altered = dataclasses.replace(
+        with_study(results, title=name), arrays=(dataclasses.replace(results.arrays[0], plan=own),)
+    )
+    plan = dataclasses.replace(altered.plan, motions=buildings)
+    altered = dataclasses.replace(altered, plan=plan)
+    book = load_workbook(io.BytesIO(study_xlsx(altered)))
+    named = [cell for sheet in book for row in sheet.iter_rows() for cell in row]
+    assert {"Study", "Curves", "Fragility"} <= {c.parent.title for c in named if c.value == name}
+    assert {c.data_type for c in named} == {"s", "n"}
+    assert not any(cell.hyperlink for cell in named)
+    shown = name if name in ("-0.5", "1e3") or name[0] not in "=+-@" else f"'{name}"
+    rows = list(csv.DictReader(io.StringIO(curves_csv(altered).decode())))
+    assert {row["building"] for row in rows} == {shown}
+
+
 def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(other, results):
     """There pelicun and OpenQuake have no measure. Of six motions the largest counts."""
     assert compare(results, 0) == ()
