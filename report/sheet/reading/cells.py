@@ -28,6 +28,7 @@ _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
 _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*)?\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
 )
+_ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 EARLIEST = date(2000, 1, 1)
 """A date before it is refused, as by the sheet's own check."""
 LARGEST = 1e15
@@ -94,6 +95,11 @@ def plain(value: object) -> str:
             return value.isoformat()
         case _:
             return str(value)
+
+
+def escaped(text: str) -> str:
+    """Return a text as it is written to a cell: else a spreadsheet reads `_x0041_` as A."""
+    return _ESCAPE.sub("_x005F_", text)
 
 
 def as_used(value: object, entry: Entry, unit: str) -> str:

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from openpyxl.utils.escape import unescape
+
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import Found
 from report.sheet.reading.locate_tables import MAX_ROWS, TableFound, find_table, table_area
@@ -72,7 +74,7 @@ class GrowingTable:
         return [
             row
             for row in self.found.rows
-            if self.cell(row, name).shown.strip().casefold() == value.casefold()
+            if unescape(self.cell(row, name).shown).strip().casefold() == value.casefold()
         ]
 
     def added(self) -> int:

@@ -18,6 +18,7 @@ from xml.sax.saxutils import escape, unescape
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
 from report.sheet.reading.archive import sheet_parts
+from report.sheet.reading.cells import escaped
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.scan import REOPEN
 from solver.model import InputError
@@ -271,7 +272,7 @@ def _cell(prefix: str, style: str, row: int, column: int, value: Value) -> bytes
         inner = f"<{prefix}f>{escape(value[1:])}</{prefix}f>"
     elif isinstance(value, str):
         start += ' t="inlineStr"'
-        words = escape(_CONTROL.sub("?", value))
+        words = escape(escaped(_CONTROL.sub("?", value)))
         text = f'<{prefix}t xml:space="preserve">{words}</{prefix}t>'
         inner = f"<{prefix}is>{text}</{prefix}is>"
     else:

@@ -7,7 +7,6 @@ next.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 from copy import copy
 from datetime import date
@@ -22,7 +21,7 @@ from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.reading.cells import wish
+from report.sheet.reading.cells import escaped, wish
 from report.sheet.schema.fields import Entry, YesNo
 from report.words.command import as_typed
 from report.words.units import Unit
@@ -45,7 +44,6 @@ NUMBER_LIMIT = 1e8
 _INPUT_FONT = Font(name="Calibri", size=11, color="000000")
 _ANSWER_FONT = Font(name="Calibri", size=11, color=INK)
 _INDENTED = Alignment(vertical="center", horizontal="left", wrap_text=True, indent=1)
-_ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 
 
 _Look = tuple[str, bool, bool, int, bool, int]
@@ -199,7 +197,7 @@ def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None
         case float() if unit is not None:
             return float(f"{value / unit.si:.12g}")
         case str():
-            return _ESCAPE.sub("_x005F_", value)  # else Excel reads _x0041_ as A
+            return escaped(value)
         case int() | float() | date():
             return value
     raise TypeError(f"cannot write a {type(value).__name__} to a cell")

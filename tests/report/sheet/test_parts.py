@@ -9,8 +9,11 @@ from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple, range_boundaries
 
 from cells import cell
+from report.sheet.reading.archive import open_book
+from report.sheet.reading.growing import GrowingTable
 from report.sheet.reading.parts import changed
 from report.sheet.reading.positions import CellPosition
+from report.sheet.reading.read import read
 from report.sheet.writing import style
 from sheets import at, edit, make, pack, parts
 from solver.model import InputError
@@ -188,3 +191,15 @@ def folded(book):
     """The groups of columns of the clearances that are hidden."""
     columns = book["Clearances"].column_dimensions.values()
     return [range(one.min, one.max + 1) for one in columns if one.hidden]
+
+
+@pytest.mark.parametrize(
+    "name", ["=1+1", "{=1+1}", "+1", "@A1", "http://a.test", "_x0041_b", "#N/A", "1e3"]
+)
+def test_a_text_is_read_back_as_it_was_written_whatever_it_looks_like(tmp_path, name):
+    path = make(tmp_path)
+    path.write_bytes(changed(path.read_bytes(), {place("Arrays/A1/ID"): name}))
+    at_id = place("Arrays/A1/ID")
+    assert load_workbook(path)["Arrays"][at_id.cell].data_type == "s"
+    assert read(path).draft["arrays"][0]["id"] == name
+    assert GrowingTable.of(open_book(path), "arrays").rows("id", name) == [at_id.row]
