@@ -155,3 +155,13 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
         "A2 to S edge": Layer.CLEARANCE,
     }
     assert [line.name for line in plan.lines if line.layer is Layer.DESIGN] == ["A2"]
+
+
+def test_a_text_shows_as_it_is_whatever_codes_it_looks_like(plan):
+    words = "%%c 5%% %%u^J a^ b 100 %"
+    texts = [replace(text, words=words) for text in plan.texts]
+    (shown,) = {
+        text.plain_text()
+        for text in read(write_dxf(replace(plan, texts=texts))).modelspace().query("TEXT")
+    }
+    assert shown == words
