@@ -84,14 +84,14 @@ class Request:
     ----------
     former : tuple of Compared
         The results that these are compared with, if any.
-    since : Path or None
-        Their file.
+    since : bytes
+        Their file; empty for none.
     """
 
     sheet: Sheet
     folder: Path
     former: tuple[Compared, ...]
-    since: Path | None
+    since: bytes
 
 
 def read(source: Path, out: Path | None, since: Path | None) -> Request:
@@ -100,25 +100,26 @@ def read(source: Path, out: Path | None, since: Path | None) -> Request:
     from report.sheet.reading.read import read
     from report.typeset.letters import check_letters
 
-    former = _former(since)
+    former, content = _former(since)
     sheet = read(source)
     check_letters(sheet)
     folder = output_folder(out, sheet.path.parent, "out", OUTPUTS)
     beside = [sheet.path.parent / document.path for document in sheet.documents]
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else []), *beside])
-    return Request(sheet=sheet, folder=folder, former=former, since=since)
+    return Request(sheet=sheet, folder=folder, former=former, since=content)
 
 
-def _former(since: Path | None) -> tuple[Compared, ...]:
-    """Return former results, if any: what reads them is loaded only then."""
+def _former(since: Path | None) -> tuple[tuple[Compared, ...], bytes]:
+    """Return former results and their file, if any: what reads them is loaded only then."""
     if since is None:
-        return ()
+        return (), b""
     from report.results.publish import STAMP, warn_if_mixed
     from report.results.since import read_former
 
     if os.path.lexists(since.parent / STAMP):
         warn_if_mixed(since.parent, OUTPUTS)
-    return (read_former(since),)
+    former, content = read_former(since)
+    return (former,), content
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -131,7 +132,7 @@ class Prepared:
 
 
 def prepare(request: Request) -> Prepared:
-    """Read and process the records, and keep every file as it is now."""
+    """Read and process the records; every file is kept as it was read."""
     from report.assessment.cost import cost
     from report.motions.prepare import prepare
     from report.provenance.files import sources

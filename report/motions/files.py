@@ -27,6 +27,9 @@ from solver.records.record import Record
 
 MAX_BYTES = 64_000_000
 
+MOST_RECORDS = 20_000_000
+"""Bytes of record files beyond which a package holds their hashes only."""
+
 BAR = "|"
 """Separates a file from its channel; not allowed in Windows file names."""
 
@@ -69,10 +72,14 @@ def read_component(
         return _read_column(book, name, heading, units, dt_s)
     path, channel = find_file(book, name)
     motion_file = read(path, units=units, dt_s=math.nan if dt_s is None else dt_s)
-    content = path.read_bytes()
+    content = motion_file.content
+    sha256 = hashlib.sha256(content).hexdigest()
+    others = sum(len(other) for key, other in book.records.items() if key != sha256)
+    if others + len(content) <= MOST_RECORDS:
+        book.records[sha256] = content
     return Component(
         record=motion_file.channel(channel),
-        sha256=hashlib.sha256(content).hexdigest(),
+        sha256=sha256,
         format=motion_file.format,
         notes=motion_file.notes,
         hold_s=motion_file.hold_s,

@@ -1,6 +1,6 @@
 """The files that a package is computed from, as attachments of the package, and their hashes.
 
-Reads them again and runs nothing. Read `attachments`; `report.proof` takes them out.
+Reads no file and runs nothing. Read `attachments`; `report.proof` takes them out.
 """
 
 from __future__ import annotations
@@ -11,13 +11,12 @@ import posixpath
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
-from pathlib import Path
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, StringConstraints
 
 from report.motions.components import RecordFile
-from report.motions.files import BAR, find_file
+from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
 from report.provenance.software import environment, sbom_sha256
 from report.sheet.reading.read import Sheet
@@ -29,9 +28,6 @@ MANIFEST, RESULTS, FORMER = "roofslip.json", "results.json", "since/results.json
 
 SCHEMA_VERSION = 1
 """Of the manifest; raised where a key changes its name or meaning."""
-
-MOST_RECORDS = 20_000_000
-"""Bytes of record files beyond which a package holds their hashes only."""
 
 SHORT = 12
 """Characters of a hash where there is no room for all 64."""
@@ -84,6 +80,7 @@ class SourceFile:
     name: str
     content: bytes
     kind: str
+    record: RecordFile | None = None  # of which a package has the hash only
 
     @property
     def listed(self) -> Listed:
@@ -91,8 +88,8 @@ class SourceFile:
         return Listed(
             path=self.path,
             name=self.name,
-            bytes=len(self.content),
-            sha256=hashlib.sha256(self.content).hexdigest(),
+            bytes=self.record.size if self.record else len(self.content),
+            sha256=self.record.sha256 if self.record else _sha256(self.content),
             kind=self.kind,
         )
 
@@ -129,22 +126,31 @@ def holds_records(records: Sequence[RecordFile]) -> bool:
     return record_bytes(records) <= MOST_RECORDS
 
 
-def sources(sheet: Sheet, shaking: Shaking, former: Path | None = None) -> tuple[SourceFile, ...]:
-    """Read what a package has inside: workbook, record files, documents, a former results.json.
+def sources(sheet: Sheet, shaking: Shaking, former: bytes = b"") -> tuple[SourceFile, ...]:
+    """Return what a package has inside: workbook, record files, documents, a former results.json.
+
+    Each as it was read, whatever lies in its place by now.
 
     Raises
     ------
     InputError
-        If a file is no longer what was computed with.
+        If a file was read for several motions or cells, and was not the same each time.
     """
-    found = [_source(sheet.path.name, sheet.path, sheet.sha256, "workbook")]
-    for path, row in record_paths(shaking.records).items():
-        file, _ = find_file(sheet.book, row.name)
-        found.append(_source(path, file, row.sha256, "record"))
-    for path, sha256 in {one.path: one.sha256 for one in sheet.documents}.items():
-        found.append(_source(path, sheet.path.parent / path, sha256, "document"))
+    kept, rows = sheet.book.files | sheet.book.records, record_paths(shaking.records)
+    used = [(_path(row), row.sha256) for row in shaking.records if row.is_file]
+    used += [(document.path, document.sha256) for document in sheet.documents]
+    last = dict(used)
+    if changed := [path for path, sha256 in used if sha256 != last[path]]:
+        raise InputError(f"{changed[0]}: changed while the report ran; run it again")
+    are_held = holds_records(shaking.records)
+    found = [_source(sheet.path.name, kept[sheet.sha256], "workbook")]
+    for path, row in rows.items():
+        content, only = (kept[row.sha256], None) if are_held else (b"", row)
+        found.append(replace(_source(path, content, "record"), record=only))
+    for path in dict.fromkeys(document.path for document in sheet.documents):
+        found.append(_source(path, kept[last[path]], "document"))
     if former:
-        found.append(_source(FORMER, former, "", "former"))
+        found.append(_source(FORMER, former, "former"))
     return tuple(_unlike(found))
 
 
@@ -153,11 +159,12 @@ def _path(row: RecordFile) -> str:
     return posixpath.normpath(row.name.partition(BAR)[0].strip().replace("\\", "/"))
 
 
-def _source(path: str, file: Path, sha256: str, kind: str) -> SourceFile:
-    content = file.read_bytes()
-    if sha256 and hashlib.sha256(content).hexdigest() != sha256:
-        raise InputError(f"{file}: changed while the report ran; run it again")
+def _source(path: str, content: bytes, kind: str) -> SourceFile:
     return SourceFile(path=path, name=path, content=content, kind=kind)
+
+
+def _sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
 
 
 def _unlike(found: Sequence[SourceFile]) -> Iterator[SourceFile]:
@@ -182,8 +189,7 @@ def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tupl
     short : str
         What `fingerprint` returns.
     """
-    size = sum(len(source.content) for source in found if source.kind == "record")
-    has_records = size <= MOST_RECORDS
+    has_records = not any(source.record for source in found)
     own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
     document = Manifest(
         schema_version=SCHEMA_VERSION,

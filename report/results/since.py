@@ -29,8 +29,8 @@ MOST_CHANGES, MOST_LETTERS = 2_000, 400_000
 """Most changes that the package lists, and most letters of them all."""
 
 
-def read_former(path: Path) -> Compared:
-    """Read results.json of a former revision.
+def read_former(path: Path) -> tuple[Compared, bytes]:
+    """Read results.json of a former revision; return it as data, and the file.
 
     Raises
     ------
@@ -48,7 +48,7 @@ def read_former(path: Path) -> Compared:
         raise InputError(f"{path}: {reason}") from error
     if len(content) > MOST_BYTES:
         raise InputError(f"{path}: is larger than {MOST_BYTES / 1e6:g} MB; {GIVE}")
-    return former_from(content, path)
+    return former_from(content, path), content
 
 
 def former_from(content: bytes, path: Path) -> Compared:

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -178,10 +179,11 @@ def read_seeds(names: Sequence[str], *, units: str = "", dt_s: float = math.nan)
     groups: list[tuple[Record, ...]] = []
     by_path: dict[str, MotionFile] = {}
     problems: list[str] = []
+    read = cache(read_motion_file)
     for name in names:
         paths = [Path(name)] if Path(name).exists() else [Path(part) for part in name.split(",")]
         try:
-            files = {str(path): read_motion_file(path, units=units, dt_s=dt_s) for path in paths}
+            files = {str(path): read(path, units=units, dt_s=dt_s) for path in paths}
             groups.append(_group(name, files.values()))
             by_path |= files
         except InputError as error:
@@ -190,7 +192,7 @@ def read_seeds(names: Sequence[str], *, units: str = "", dt_s: float = math.nan)
         raise InputError(problems)
     return Seeds(
         groups=tuple(groups),
-        sha256={name: hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in by_path},
+        sha256={name: hashlib.sha256(f.content).hexdigest() for name, f in by_path.items()},
         notes=tuple(f"{name}: {note}" for name, file in by_path.items() for note in file.notes),
     )
 

@@ -51,6 +51,8 @@ def opened(path: Path) -> Opened:
     sheet = read(path)
     check_letters(sheet)
     by_motion = read_records(sheet)
+    sheet.book.files.clear()  # for a package, which another process makes
+    sheet.book.records.clear()
     return Opened(sheet=sheet, by_motion=by_motion, shaking=shaking(sheet, by_motion))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import datetime as dt
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from solver.meant import nearest
 from solver.model import InputError
@@ -36,6 +36,8 @@ class MotionFile:
         Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
     start : datetime or None
         When the record begins, as the heading has it; None if it does not.
+    content : bytes
+        The file that all of this is read from.
     """
 
     name: str
@@ -44,6 +46,7 @@ class MotionFile:
     notes: tuple[str, ...]
     hold_s: float = math.nan
     start: dt.datetime | None = None
+    content: bytes = field(default=b"", repr=False)
 
     def channel(self, name: str = "") -> Record:
         """Return the channel with a name (ignoring case and blanks) or a number, counted from 1.

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
@@ -57,7 +58,8 @@ def read_motion_file(path: str | Path, *, units: str = "", dt_s: float = math.na
     (Record('RM1-x.csv', 6001 samples at 0.005 s),)
     """
     source = open_source(Path(path), units=units, dt_s=dt_s)
-    return next(form for form in _FORMATS if form.recognizes(source.lines)).read(source)
+    found = next(form for form in _FORMATS if form.recognizes(source.lines)).read(source)
+    return replace(found, content=source.content)
 
 
 def read_record(

@@ -52,6 +52,8 @@ class Source:
         Sampling interval [s], or NaN if the caller gives none.
     is_ended : bool
         Whether the last line ends with a line end, which a file that was cut rarely does.
+    content : bytes
+        The file.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Source:
     units: str
     dt_s: float
     is_ended: bool = True
+    content: bytes = b""
 
     def at(self, index: int) -> str:
         """File name and number of the line at an index, with which messages begin."""
@@ -135,6 +138,7 @@ def open_source(path: Path, *, units: str, dt_s: float) -> Source:
         units=units,
         dt_s=float(dt_s),
         is_ended=data.rstrip(b"\x00\x1a ").endswith((b"\n", b"\r")),
+        content=data,
     )
 
 

@@ -15,7 +15,7 @@ import warnings
 import zipfile
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -57,16 +57,23 @@ class OpenBook:
     """A workbook with the values last computed by the program that saved it."""
 
     path: Path
-    data: bytes  # of the file
     sha256: str
     book: Workbook
     scans: Mapping[str, Scan]  # by the title of the sheet
     calculation: Mapping[str, str]  # how it was calculated when it was saved, as the file says it
+    # what a package holds, as it was read, by SHA-256: workbook and documents; records
+    files: dict[str, bytes] = field(default_factory=dict)
+    records: dict[str, bytes] = field(default_factory=dict)
 
     def __reduce__(self) -> tuple[Callable[[], OpenBook], tuple[()]]:
         """Reach another process without cells: nothing is read from them once motions run."""
         same = partial(OpenBook, path=self.path, sha256=self.sha256, calculation=self.calculation)
-        return partial(same, data=b"", book=Workbook(), scans={}), ()
+        return partial(same, book=Workbook(), scans={}), ()
+
+    @property
+    def data(self) -> bytes:
+        """The content of its file."""
+        return self.files[self.sha256]
 
     def extent(self, title: str) -> Extent:
         """Return the extent of a sheet's values."""
@@ -99,10 +106,11 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         book = _load(_plainly_named(archive, data))
     if book.sheetnames != list(scans):
         raise InputError(f"its sheets cannot all be read; {REOPEN}")
+    sha256 = hashlib.sha256(data).hexdigest()
     return OpenBook(
         path=path,
-        data=data,
-        sha256=hashlib.sha256(data).hexdigest(),
+        sha256=sha256,
+        files={sha256: data},
         book=book,
         scans=scans,
         calculation=parts[_WORKBOOK].calculation,

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
+from report.sheet.reading.archive import OpenBook
 from report.sheet.schema import SECTION
 from report.sheet.schema.fields import Draft, Entry, Finding, Place
 from report.words.counts import grouped_by
@@ -86,8 +87,8 @@ def _meant(folder: Path, name: str, taken: Collection[str]) -> str:
     return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""
 
 
-def read_documents(folder: Path, draft: Draft) -> tuple[tuple[Document, ...], list[Finding]]:
-    """Return the documents that a workbook in a folder attaches, and what is wrong with them."""
+def read_documents(book: OpenBook, draft: Draft) -> tuple[tuple[Document, ...], list[Finding]]:
+    """Return the documents that a workbook attaches, and what is wrong with them."""
     found: list[Document] = []
     faults: list[Finding] = []
     for section, field in DOCUMENTS:
@@ -95,7 +96,7 @@ def read_documents(folder: Path, draft: Draft) -> tuple[tuple[Document, ...], li
         for name in filter(None, (row.get(field) for row in draft[section])):
             left = MAX_DOCUMENTS - sum(document.size for document in found)
             try:
-                found.append(_document(folder, entry, name, left))
+                found.append(_document(book, entry, name, left))
             except InputError as error:
                 (problem,) = error.parts
                 text, place = f"{entry.spoken}: {problem.found}", Place(section, 0, field)
@@ -103,8 +104,9 @@ def read_documents(folder: Path, draft: Draft) -> tuple[tuple[Document, ...], li
     return tuple(found), faults
 
 
-def _document(folder: Path, entry: Entry, name: str, left: int) -> Document:
-    content = path_beside(folder, name, MAX_DOCUMENTS, str(entry.cell.example)).read_bytes()
+def _document(book: OpenBook, entry: Entry, name: str, left: int) -> Document:
+    example = str(entry.cell.example)
+    content = path_beside(book.path.parent, name, MAX_DOCUMENTS, example).read_bytes()
     if not content.startswith(b"%PDF-"):
         raise InputError(f"'{name}' is no PDF; attach it as a PDF")
     if len(content) > left:
@@ -112,4 +114,5 @@ def _document(folder: Path, entry: Entry, name: str, left: int) -> Document:
         raise InputError(f"'{name}' and the other documents have more than {most}; shrink them")
     path = posixpath.normpath(name.replace("\\", "/"))
     sha256 = hashlib.sha256(content).hexdigest()
+    book.files[sha256] = content
     return Document(label=entry.cell.label, path=path, size=len(content), sha256=sha256)

@@ -152,7 +152,7 @@ def read_book(book: OpenBook) -> Sheet:
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
         raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
     sheet = read_as(ProjectInput, book, faults)
-    documents, wrong = read_documents(book.path.parent, sheet.draft)
+    documents, wrong = read_documents(book, sheet.draft)
     problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))
     return replace(sheet, documents=documents, problems=problems)
 

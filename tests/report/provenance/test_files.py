@@ -3,11 +3,18 @@ import json
 import shutil
 from dataclasses import replace
 from importlib.metadata import version
+from pathlib import Path
 
 import pytest
+from openpyxl.utils import coordinate_to_tuple
 
+import scenes
 import stand_in
+from cells import address
 from places import ROOT
+from report import making
+from report.assessment.evidence import support
+from report.motions import files as motion_files
 from report.motions.prepare import prepare
 from report.provenance import files
 from report.provenance.files import (
@@ -18,8 +25,12 @@ from report.provenance.files import (
     record_bytes,
     sources,
 )
+from report.results.json import results_json
 from report.sheet.reading.beside import Document
+from report.sheet.reading.parts import write_cells
+from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
+from report.web.opened import opened
 from solver.model import InputError
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -70,11 +81,50 @@ def test_the_hash_follows_workbook_records_their_order_and_the_version(job, monk
     assert all(len(short) == 12 for short in hashes)
 
 
-def test_a_file_that_changed_during_the_run_is_an_input_error(job):
+def test_a_record_that_changed_between_two_motions_is_an_input_error(job):
     sheet, shaking = job
     changed = replace(shaking.records[0], sha256="0" * 64)
-    with pytest.raises(InputError, match="changed while the report ran"):
-        sources(sheet, replace(shaking, records=(changed,)))
+    with pytest.raises(InputError, match=r"records/RM1-x\.csv: changed while the report ran"):
+        sources(sheet, replace(shaking, records=(changed, *shaking.records)))
+
+
+def replacing(monkeypatch, name):
+    """Put other bytes in the place of a file as soon as it was read, each time."""
+    read_bytes = Path.read_bytes
+
+    def read(path):
+        content = read_bytes(path)
+        if path.name == name:
+            path.write_bytes(OTHER)
+        return content
+
+    monkeypatch.setattr(Path, "read_bytes", read)
+
+
+OTHER = b"another file"
+
+
+@pytest.mark.parametrize("name", ["input.xlsx", "records/RM1-x.csv", "letter.pdf"])
+def test_what_was_read_is_hashed_and_attached_whatever_lies_there_by_then(
+    tmp_path, monkeypatch, name
+):
+    project = tmp_path / "project"
+    shutil.copytree(EXAMPLE / "records", project / "records")
+    shutil.copy(EXAMPLE / "input.xlsx", project)
+    (project / "letter.pdf").write_bytes(LETTER)
+    sheet, cell = address(project / "input.xlsx", "Options/Letter of review").split("!")
+    at = CellPosition(sheet, *coordinate_to_tuple(cell))
+    write_cells(project / "input.xlsx", {at: "letter.pdf"})
+    was = {path: path.read_bytes() for path in project.rglob("*") if path.is_file()}
+    replacing(monkeypatch, Path(name).name)
+    sheet = read(project)
+    contents, listed = attached(sources(sheet, prepare(sheet)))
+    assert (project / name).read_bytes() == OTHER
+    entries = {entry["path"]: entry for entry in listed["files"] if entry["kind"] != "results"}
+    assert {project / path for path in entries} == was.keys()
+    for path, entry in entries.items():
+        assert contents[path] == was[project / path]
+        assert entry["sha256"] == hashlib.sha256(was[project / path]).hexdigest()
 
 
 LETTER = b"%PDF-1.7\nletter"
@@ -90,7 +140,31 @@ def with_documents(sheet, folder, *paths):
         Document(label=f"Document {count}", path=path, size=len(LETTER), sha256=sha256)
         for count, path in enumerate(paths)
     ]
+    sheet.book.files[sha256] = LETTER
     return replace(sheet, path=folder / "input.xlsx", documents=tuple(documents))
+
+
+def test_former_results_are_attached_as_they_were_compared(tmp_path):
+    assessment = scenes.package(scenes.motions(3, 4.0)).assessment
+    (tmp_path / "results.json").write_bytes(was := results_json(assessment, support(assessment)))
+    request = making.read(EXAMPLE, tmp_path / "out", tmp_path / "results.json")
+    (tmp_path / "results.json").write_bytes(OTHER)
+    found = making.prepare(request).sources
+    assert (found[-1].path, found[-1].content) == ("since/results.json", was)
+
+
+def test_records_are_kept_only_as_far_as_a_package_holds_them(job, monkeypatch):
+    monkeypatch.setattr(motion_files, "MOST_RECORDS", 300_000)
+    sheet = read(EXAMPLE)
+    records = prepare(sheet).records
+    assert 0 < sum(map(len, sheet.book.records.values())) <= 300_000 < record_bytes(records)
+    assert records == job[1].records
+
+
+def test_the_page_keeps_no_file_of_a_package():
+    book = opened(EXAMPLE / "input.xlsx").sheet.book
+    assert not book.files
+    assert not book.records
 
 
 def test_a_document_is_attached_once_and_is_part_of_the_hash(job, tmp_path):
@@ -107,10 +181,11 @@ def test_a_document_is_attached_once_and_is_part_of_the_hash(job, tmp_path):
     assert (letter.mime, letter.relationship) == ("application/pdf", "Supplement")
 
 
-def test_a_document_that_changed_during_the_run_is_an_input_error(job, tmp_path):
+def test_a_document_that_changed_between_two_cells_is_an_input_error(job, tmp_path):
     sheet, shaking = job
-    given = with_documents(sheet, tmp_path, "letter.pdf")
-    (tmp_path / "letter.pdf").write_bytes(b"%PDF-1.7\nanother")
+    given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
+    other = replace(given.documents[0], sha256=sheet.sha256)
+    given = replace(given, documents=(other, given.documents[1]))
     with pytest.raises(InputError, match=r"letter\.pdf: changed while the report ran"):
         sources(given, replace(shaking, records=()))
 
@@ -145,24 +220,17 @@ RENAMED = {
 }
 
 
-def test_names_that_collide_are_renamed_with_a_map(job, tmp_path):
+def test_names_that_collide_are_renamed_with_a_map(job):
     sheet, shaking = job
     rows = []
     for row, name in zip(shaking.records, RENAMED, strict=False):
-        path = tmp_path / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(name)
-        rows.append(replace(row, name=name, sha256=hashlib.sha256(name.encode()).hexdigest()))
-    path = tmp_path / "input.xlsx"
-    shutil.copy(EXAMPLE / "input.xlsx", path)
-    moved = replace(sheet, book=replace(sheet.book, path=path), path=path)
-    _, listed = attached(sources(moved, replace(shaking, records=tuple(rows))))
+        rows.append(replace(row, name=name))
+    _, listed = attached(sources(sheet, replace(shaking, records=tuple(rows))))
     records = [entry for entry in listed["files"] if entry["kind"] == "record"]
     assert {entry["path"]: entry["name"] for entry in records} == RENAMED
 
 
-def test_a_former_revision_is_attached_under_a_name_of_its_own(job, tmp_path):
+def test_a_former_revision_is_attached_under_a_name_of_its_own(job):
     sheet, shaking = job
-    (tmp_path / "results.json").write_text("{}")
-    found = sources(sheet, shaking, tmp_path / "results.json")
+    found = sources(sheet, shaking, b"{}")
     assert (found[-1].path, found[-1].content) == ("since/results.json", b"{}")

@@ -4,6 +4,7 @@ import hashlib
 import json
 import math
 import re
+from pathlib import Path
 
 import numba
 import numpy as np
@@ -284,3 +285,18 @@ def test_a_component_outside_the_limits_is_counted(made):
     targets = ac156_targets("pv1", s_ds_g=2.4, z_over_h=1.0, tail=Tail.AC156)
     lines = "\n".join(suite_table([motion], targets))
     assert "0 of 3 components have spectra of 0.90 to 1.30" in lines
+
+
+def test_seed_records_are_hashed_as_they_were_read(tmp_path, monkeypatch):
+    path = tmp_path / "seed.csv"
+    path.write_text(was := "0.1\n0.2\n-0.1\n")
+    read_bytes = Path.read_bytes
+
+    def replaced(file):
+        content = read_bytes(file)
+        file.write_text("another file")
+        return content
+
+    monkeypatch.setattr(Path, "read_bytes", replaced)
+    seeds = read_seeds([str(path)], units="g", dt_s=0.01)
+    assert seeds.sha256 == {str(path): hashlib.sha256(was.encode()).hexdigest()}
