@@ -241,7 +241,7 @@ def put(book: Workbook, cells: Mapping[str, object]) -> None:
 def _is_plain(value: object) -> bool:
     """Whether a value is a blank, a number or a text that Excel stores as it is typed."""
     if isinstance(value, str):
-        return not value.startswith(("=", "#"))
+        return not value.startswith(("=", "#")) and "_x" not in value
     return value is None or type(value) in (int, float)
 
 

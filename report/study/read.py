@@ -78,8 +78,10 @@ def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
     yield from _about_study(study, draft)
     yield from _about_motions(study, draft)
     for section in ("mats", "study_arrays", "motions", "buildings"):
-        for place, name, _ in repeated(column(draft, (section,), "id"), str.casefold):
-            yield Finding.error(place, f"ID '{name}' appears twice", "rename one")
+        for place, name, first in repeated(column(draft, (section,), "id"), str.casefold):
+            yield Finding.error(
+                place, f"ID is '{name}', already used at {where(first)}", "give a unique ID"
+            )
     for row, mat in enumerate(draft["mats"]):
         yield from _about_mat(row, mat)
     yield from _about_arrays(study, draft)

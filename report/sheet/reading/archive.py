@@ -14,7 +14,7 @@ import re
 import warnings
 import zipfile
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -61,6 +61,7 @@ class OpenBook:
     book: Workbook
     scans: Mapping[str, Scan]  # by the title of the sheet
     calculation: Mapping[str, str]  # how it was calculated when it was saved, as the file says it
+    outside: Sequence[str] = ()  # what its formulas and links take values from
     # what a package holds, as it was read, by SHA-256: workbook and documents; records
     files: dict[str, bytes] = field(default_factory=dict)
     records: dict[str, bytes] = field(default_factory=dict)
@@ -114,6 +115,7 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         book=book,
         scans=scans,
         calculation=parts[_WORKBOOK].calculation,
+        outside=tuple(dict.fromkeys(one for scan in parts.values() for one in scan.outside)),
     )
 
 
@@ -199,10 +201,8 @@ def _check_kind(archive: zipfile.ZipFile) -> None:
 def _content(archive: zipfile.ZipFile, name: str) -> bytes:
     try:
         return archive.read(name)
-    except (zipfile.BadZipFile, EOFError, OSError, NotImplementedError, ValueError) as error:
-        raise InputError(f"damaged at {name}; {REOPEN}") from error
     except Exception as error:  # zlib, lzma and bz2 raise errors of their own
-        raise InputError(f"damaged at {name} ({error}); {REOPEN}") from error
+        raise InputError(f"damaged at {name}; {REOPEN}") from error
 
 
 def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict[str, Scan]:
@@ -214,6 +214,10 @@ def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict
                 f"sheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
             )
         found[title] = scans[part]
+        if cell := scans[part].twice:
+            raise InputError(f"{title}!{cell}: the file has this cell twice; {REOPEN}")
+    if name := scans[_WORKBOOK].twice:
+        raise InputError(f"the file has the name {name} twice; {REOPEN}")
     return found
 
 
@@ -266,4 +270,4 @@ def _load(data: bytes) -> Workbook:
             warnings.simplefilter("ignore")
             return load_workbook(io.BytesIO(data), data_only=True, keep_links=False)
     except Exception as error:  # a damaged workbook makes openpyxl raise almost anything
-        raise InputError(f"damaged ({type(error).__name__}: {error}); {REOPEN}") from error
+        raise InputError(f"damaged, or not as Excel writes it; {REOPEN}") from error

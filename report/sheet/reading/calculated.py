@@ -1,4 +1,4 @@
-"""Formulas whose saved values may be former ones: the workbook was saved before its calculation.
+"""Formulas whose saved values may be former ones: not calculated, or taken from elsewhere.
 
 Read `not_calculated`.
 """
@@ -13,8 +13,18 @@ from report.sheet.checking.grouped import listed
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.unseen import Used
 from report.sheet.schema.fields import Finding, Place
+from report.words.letters import cut
 
 _MOST_LISTED = 8
+
+
+def from_outside(book: OpenBook, whole: Place) -> Iterator[Finding]:
+    """Yield a warning if a workbook takes values from elsewhere: by DDE, or of other files."""
+    if book.outside:
+        names = (cut(one).encode("ascii", "replace").decode() for one in book.outside)
+        which = listed(names, _MOST_LISTED)
+        text = f"the workbook takes values from elsewhere ({which}), of which the saved ones are"
+        yield warning("outside", whole, f"{text} read: type the values instead")
 
 
 def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding]:

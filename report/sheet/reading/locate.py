@@ -5,7 +5,7 @@ Never uses positions or styles, which users change. `cells` converts the content
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from report.sheet.reading.archive import OpenBook
@@ -15,6 +15,7 @@ from report.sheet.reading.positions import (
     CellPosition,
     area_named,
     check_uncovered,
+    fields_by_label,
     found_at,
     labels,
     labels_of,
@@ -35,6 +36,17 @@ def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
             f" and no label '{entry.cell.label}'); {FRESH}"
         )
     return position
+
+
+def beside_labels(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
+    """Return the cells with content beside the labels of each field on the sheet of a block."""
+    sheet, fields = sheet_titled(book, section.sheet), fields_by_label(section)
+    found: dict[str, list[CellPosition]] = {}
+    for position, label in labels(book, sheet) if sheet else ():
+        at = replace(position, column=position.column + 1)
+        if label in fields and not found_at(book, at).is_blank:
+            found.setdefault(fields[label].name, []).append(at)
+    return found
 
 
 def cell_as_column(

@@ -154,7 +154,7 @@ def _columns(
         if entry is None:
             others += [position] if text is not None else []
         elif entry.name in places:
-            twice = f"heading '{entry.cell.label}' appears twice"
+            twice = f"heading '{entry.cell.label}' appears twice, also in {places[entry.name].cell}"
             problems.append(Problem(twice, "keep one", position.address))
         else:
             places[entry.name] = position

@@ -15,7 +15,7 @@ from typing import Any, Generic, TypeVar
 from report.sheet.checking.checks import faults
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.beside import Document, read_documents
-from report.sheet.reading.calculated import not_calculated
+from report.sheet.reading.calculated import from_outside, not_calculated
 from report.sheet.reading.cells import (
     CellError,
     Found,
@@ -25,7 +25,13 @@ from report.sheet.reading.cells import (
     wish_for_missing,
 )
 from report.sheet.reading.duplicate_sheets import copies
-from report.sheet.reading.locate import added_later, cell_as_column, find_cell, is_absent
+from report.sheet.reading.locate import (
+    added_later,
+    beside_labels,
+    cell_as_column,
+    find_cell,
+    is_absent,
+)
 from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
 from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.reading.unseen import Unseen, by_cell, unseen
@@ -181,6 +187,7 @@ def read_as(
         warnings=(
             *copies(book, sections, gathered.addresses),
             *not_calculated(book, gathered.used, Place(sections[0].key)),
+            *from_outside(book, Place(sections[0].key)),
         ),
     )
 
@@ -256,6 +263,7 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     absent = added_later(book, section)
     row = {entry.name: entry.default for entry in absent}
+    typed = beside_labels(book, section)
     gathered.draft[section.key].append(row)
     for entry in entries(section.model):
         if entry in absent:
@@ -268,6 +276,10 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         except InputError as error:
             gathered.add(place, error.parts)
             continue
+        for at in typed.get(entry.name, ()):
+            if at.row != position.row and at.column == position.column:
+                twice = f"label '{entry.cell.label}' appears twice, also in {at.address}"
+                gathered.add(place, [Problem(twice, "keep one", position.address)])
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))

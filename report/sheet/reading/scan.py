@@ -6,6 +6,7 @@ cell that sets the extent of a sheet, and how the workbook was calculated. Read 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -29,6 +30,9 @@ MAX_SPREAD_CELLS = 100_000
 # As many characters as Excel allows (Excel specifications and limits).
 MAX_FORMULA = 8192
 _VALUES = frozenset(("v", "f", "t", "is", "si"))
+_FORMULAS = frozenset(("f", "definedName", "formula", "formula1", "formula2"))
+_QUOTED = re.compile(r""""[^"]*"|'[^']*'""")
+_FETCHES = re.compile(r"\||\b(?:DDE|RTD|WEBSERVICE)\s*\(", re.IGNORECASE)
 _SHAPES = ("xl/drawings/", "xl/charts/", "xl/media/", "xl/theme/")
 
 
@@ -85,6 +89,9 @@ class Scan(ContentHandler):
     extent: Extent = field(default_factory=Extent)
     formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
     calculation: dict[str, str] = field(default_factory=dict)
+    outside: list[str] = field(default_factory=list)  # what it takes values or pictures from
+    twice: str = ""  # a cell, or a defined name, that is there twice: openpyxl keeps the last
+    _once: set[Any] = field(default_factory=set)
     _shared: dict[str, tuple[str, str]] = field(default_factory=dict)
     _formula: Mapping[str, str] | None = None
     _text: list[str] = field(default_factory=list)
@@ -103,15 +110,33 @@ class Scan(ContentHandler):
                 self._column += 1
                 if reference := attrs.get("r"):
                     self._row, self._column = coordinate_to_tuple(reference)
+                if self._is_again(self._row, self._column):
+                    self.twice = f"{get_column_letter(self._column)}{self._row}"
             case "v" | "is":
                 self.extent.grow(self._row, self._column)
-            case "f":
+            case _ if element in _FORMULAS:
                 self._formula, self._text = dict(attrs), []
-                self.extent.grow(self._row, self._column)
+                if element == "f":
+                    self.extent.grow(self._row, self._column)
+                defined = attrs.get("name", "")
+                if defined and self._is_again(defined.casefold(), attrs.get("localSheetId")):
+                    self.twice = defined
+            case "ddeLink":
+                self.outside.append(f"DDE {attrs.get('ddeService')}|{attrs.get('ddeTopic')}")
+            case "connection" if attrs.get("name"):
+                self.outside.append(f"connection {attrs['name']}")
+            case "Relationship" if attrs.get("TargetMode") == "External":
+                kind = attrs.get("Type", "").rpartition("/")[2]
+                self.outside += [str(attrs.get("Target"))] if kind != "hyperlink" else []
             case "mergeCell" | "hyperlink":
                 self._spread(attrs.get("ref"))
             case "calcPr":
                 self.calculation = dict(attrs)
+
+    def _is_again(self, *key: Any) -> bool:
+        is_again = key in self._once
+        self._once.add(key)
+        return is_again
 
     def characters(self, content: str) -> None:
         """Gather the text of a formula."""
@@ -120,15 +145,21 @@ class Scan(ContentHandler):
 
     def endElement(self, name: str) -> None:  # noqa: N802
         """Keep a formula with its cell."""
-        if self._formula is None or name.rpartition(":")[2] != "f":
+        element = name.rpartition(":")[2]
+        if self._formula is None or element not in _FORMULAS:
+            return
+        formula, self._formula = self._formula, None
+        text = "".join(self._text)
+        if _FETCHES.search(_QUOTED.sub("", text)):
+            self.outside.append(f"={text}")
+        if element != "f":
             return
         cell = f"{get_column_letter(self._column)}{self._row}"
-        if sum(map(len, self._text)) > MAX_FORMULA:
+        if len(text) > MAX_FORMULA:
             raise InputError(
                 f"the formula in {cell} has more than {MAX_FORMULA:,} characters; shorten it"
             )
-        self.formulas[cell] = self._typed(cell, self._formula, "".join(self._text))
-        self._formula = None
+        self.formulas[cell] = self._typed(cell, formula, text)
 
     def _typed(self, cell: str, attributes: Mapping[str, str], text: str) -> tuple[str, str]:
         kind, index = attributes.get("t"), attributes.get("si", "")

@@ -14,7 +14,7 @@ from openpyxl import DEFUSEDXML, LXML, load_workbook
 from cells import cell
 from report.sheet.reading.archive import open_book, sheet_parts
 from report.sheet.reading.scan import MAX_CELLS, MAX_OTHERS, MAX_TAGS
-from sheets import edit, make, pack, parts, problems, project, read_workbook, same
+from sheets import at, edit, make, pack, parts, problems, project, read_workbook, same
 from solver.model import InputError
 
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
@@ -184,8 +184,8 @@ def test_damaged_files_are_read_or_rejected_but_never_crash(tmp_path):
     path = make(tmp_path)
     data = path.read_bytes()
     step = len(data) // 25
-    for at in range(step, len(data), step):
-        path.write_bytes(data[:at] + bytes([data[at] ^ 0x55]) + data[at + 1 :])
+    for cut in range(step, len(data), step):
+        path.write_bytes(data[:cut] + bytes([data[cut] ^ 0x55]) + data[cut + 1 :])
         with contextlib.suppress(InputError):
             read_workbook(path)
 
@@ -245,9 +245,40 @@ def test_a_table_that_does_not_say_where_it_is_is_found_by_its_headings(tmp_path
 
 
 def test_a_workbook_that_openpyxl_cannot_read_is_reported(tmp_path):
-    (line,) = problems(rewritten(make(tmp_path), STYLES, to(b"<styleSheet/>")))
-    assert line.startswith("damaged (")
-    assert line.endswith(REOPEN)
+    path = make(tmp_path)
+    (line,) = problems(rewritten(path, STYLES, to(b"<styleSheet/>")))
+    assert line == f"damaged, or not as Excel writes it; {REOPEN}"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [(rb'<col ([^>]*)min="\d+"', rb'<col \1min="0"'), (rb"<pageMargins ", rb'<pageMargins a="1" '),
+     (rb'<pane [^>]*state="frozen"', rb'<pane state="odd"'),
+     (rb'<dataValidation ', rb'<dataValidation type="odd" operator="none" ')],
+)  # fmt: skip
+def test_what_openpyxl_says_reaches_nobody(tmp_path, old, new):
+    path = make(tmp_path)
+    part = sheet_part(path, "Arrays")
+    assert re.search(old, parts(path)[part])
+    (line,) = problems(rewritten(path, part, lambda xml: re.sub(old, new, xml, count=1)))
+    assert line in (f"damaged, or not as Excel writes it; {REOPEN}", f"damaged at {part}; {REOPEN}")
+
+
+def test_a_cell_that_the_file_has_twice_is_refused_by_its_address(tmp_path):
+    path = make(tmp_path)
+    name = at("Options/1/Value")
+    sheet, coordinate = name.split("!")
+    cells = rb'<c r="%b"[^>]*?(?:/>|>.*?</c>)' % coordinate.encode()
+    again = partial(re.sub, cells, rb"\g<0>\g<0>")
+    assert problems(rewritten(path, sheet_part(path, sheet), again)) == (
+        f"{name}: the file has this cell twice; {REOPEN}",
+    )
+
+
+def test_a_name_that_the_file_has_twice_is_refused(tmp_path):
+    name = rb'<definedName name="site_s_ds_g"[^>]*>[^<]*</definedName>'
+    path = rewritten(make(tmp_path), BOOK, partial(re.sub, name, rb"\g<0>\g<0>"))
+    assert problems(path) == (f"the file has the name site_s_ds_g twice; {REOPEN}",)
 
 
 def far_away(book):

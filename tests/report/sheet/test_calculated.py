@@ -82,3 +82,63 @@ def test_a_workbook_without_formulas_has_none_that_was_not_calculated(tmp_path):
             cell.value = None
 
     assert told(saying(edit(make(tmp_path), without), MANUAL)) == []
+
+
+LINK = (
+    b'<externalLink xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main">%b'
+    b"</externalLink>"
+)
+TARGET = (
+    b'<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">'
+    b'<Relationship Id="rId1" Target="%b" TargetMode="External" Type="http://x/%b"/></Relationships>'
+)
+OUTSIDE = {
+    "DDE cmd|/c calc": {"link": LINK % b'<ddeLink ddeService="cmd" ddeTopic="/c calc"/>'},
+    "file:///C:/other.xlsx": {
+        "_rels/link": TARGET % (b"file:///C:/other.xlsx", b"externalLinkPath")
+    },
+    "http://a.test/b.doc": {
+        "link": LINK % b'<oleLink progId="Word"/>',
+        "_rels/link": TARGET % (b"http://a.test/b.doc", b"oleObject"),
+    },
+    "connection Query": {"link": b'<connections><connection name="Query"/></connections>'},
+}
+
+
+@pytest.mark.parametrize("name", OUTSIDE)
+def test_links_to_elsewhere_are_named(tmp_path, name):
+    path = make(tmp_path)
+    pack(path, parts(path) | {f"xl/links/{part}.xml": xml for part, xml in OUTSIDE[name].items()})
+    assert told(path) == [elsewhere(name)]
+
+
+def elsewhere(name):
+    return (
+        "outside",
+        "Project",
+        f"the workbook takes values from elsewhere ({name}), of which the saved ones are read: type"
+        " the values instead",
+    )
+
+
+@pytest.mark.parametrize(
+    "formula",
+    ["=cmd|'/c calc'!A0", "='cmd'|'/c calc'!A0", '=DDE("soffice","a.ods","A1")', "=1+rtd (1,2)",
+     '=WEBSERVICE("http://a.test")'],
+)  # fmt: skip
+def test_formulas_that_fetch_are_named_wherever_they_are(tmp_path, formula):
+    path = make(tmp_path)
+    edit(path, lambda book: book["Site"].cell(90, 60, formula))
+    assert elsewhere(formula) in told(path)
+
+
+def test_a_bar_in_a_text_or_a_name_of_a_sheet_fetches_nothing(tmp_path):
+    formula = """="a|b"&'Ar|rays'!A1&"it's|" """
+    assert not told(edit(make(tmp_path), lambda book: book["Site"].cell(90, 60, formula)))
+
+
+def test_a_link_of_a_cell_is_nothing_that_is_fetched(tmp_path):
+    def linked(book):
+        book["Arrays"]["A1"].hyperlink = "http://a.test"
+
+    assert not told(edit(make(tmp_path), linked))

@@ -10,7 +10,7 @@ from cells import address, cell
 from places import ROOT
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
-from sheets import at, edit, make, of, problems, read_workbook, said, type_into
+from sheets import at, edit, make, of, problems, put, read_workbook, said, type_into
 from solver.model import InputError
 from solver.rules.provisions import OVERRIDABLE
 
@@ -404,6 +404,13 @@ def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent_up_to_an_inch(tmp_p
     assert read_workbook(type_into(make(tmp_path), changes)).input.clearances
 
 
+def test_a_setting_that_is_given_twice_is_reported_with_both_cells(tmp_path):
+    twice = {"Site!A90": "S_DS *", "Site!B90": 0.2, "Site!A91": "S_1"}  # S_1 is beside nothing
+    assert problems(edit(make(tmp_path), lambda book: put(book, twice))) == said(
+        "<Site/S_DS>: label 'S_DS' appears twice, also in Site!B90; keep one"
+    )
+
+
 FRESH = "copy it from a fresh workbook (roofslip new)"
 HEADING = f"write it here in its own column, or {FRESH}"
 LENGTHS = "write one of in, ft, mm, cm, m"
@@ -423,7 +430,8 @@ TYPED = [
      "<Motions/heading/Vertical record>: heading 'Vertical record' is missing, 'Vertical file'"
      f" found; {HEADING}"),
     ({"Arrays/heading/High-velocity friction": "Slope"},
-     "<Arrays/heading/High-velocity friction>: heading 'Slope' appears twice; keep one"),
+     "<Arrays/heading/High-velocity friction>: heading 'Slope' appears twice, also in"
+     f" {at('Arrays/heading/Slope').partition('!')[2]}; keep one"),
     ({"Site/Structure height h/Unit": "yd", "Site/Height of the array z/Unit": None},
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
      f"<Site/Height of the array z/Unit>: unit of height of the array z is missing; {LENGTHS}"),

@@ -226,7 +226,7 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
         ({"buildings": (StudyBuilding(id="b", period_s=0.5),)},
          ("<Buildings/1/ID>", "roof motions")),
         ({"mats": (Mat(id="A", mu=0.4), Mat(id="a", mu=0.5))},
-         ("<Mats/2/ID>: ID 'a' appears twice",)),
+         ("<Mats/2/ID>: ID is 'a', already used at <Mats/1/ID>",)),
         ({"mats": (Mat(id="A"),)},
          ("<Mats/1/Friction coefficient>: friction coefficient and tested values",)),
         ({"mats": (Mat(id="A", tested="0.4, 0.5"),)},
