@@ -265,7 +265,7 @@ def _in_library(source: Path) -> Path:
         library = str(tomllib.loads(text).get("motions", ""))
         found = Path(library).expanduser() / source
     except (OSError, ValueError, RuntimeError) as error:  # the last of an unknown ~user
-        raise InputError(f"{config}: cannot be read ({error}); {wanted}") from error
+        raise InputError(f"{config}: cannot be read; {wanted}") from error
     if not library or not found.exists():
         hint = meant(source) or f"for a library of motions, {wanted}"
         place = f"here or in {library}" if library else f"here; {hint}"

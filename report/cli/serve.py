@@ -5,6 +5,7 @@ Parses, listens and prints; `report.web` answers. Read `serve`.
 
 from __future__ import annotations
 
+import errno
 import ipaddress
 import re
 import secrets
@@ -136,9 +137,11 @@ def listen(host: str, port: int) -> socket.socket:
         listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         return listening
     except OSError as error:
-        reason = error.strerror or error
-        click.echo(f"{host}, port {port}: cannot listen there ({reason}); give another --port"
-                   " or --host.", err=True)  # fmt: skip
+        if error.errno == errno.EADDRINUSE:
+            told = f"Port {port} of {host} is in use: end what uses it, or give another --port."
+        else:
+            told = f"{host}, port {port}: cannot listen there; give another --port or --host."
+        click.echo(told, err=True)
         sys.exit(INPUT_ERROR)
 
 
@@ -189,7 +192,7 @@ class _Visit(threading.Thread):
             verdict = state["answer"]["verdict"]["text"]
             self.sentence = f"the example: {verdict}, after {time.monotonic() - began:.1f} s"
             self.is_answered = True
-        except (OSError, ValueError) as error:
-            self.sentence = f"the page did not answer ({error})"
+        except (OSError, ValueError):
+            self.sentence = "the page did not answer"
         finally:
             self._server.should_exit = True

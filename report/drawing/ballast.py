@@ -50,7 +50,7 @@ def read_map(path: Path, unit_m: float) -> Any:
         lines = csv.reader(data.decode("utf-8-sig").splitlines(), strict=True)
         rows = [(lines.line_num, row) for row in lines if any(map(str.strip, row))]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"not a CSV in UTF-8 ({error}); save it as one") from error
+        raise InputError("not a CSV in UTF-8; save it as one") from error
     heads = [name.strip().casefold() for name in rows[0][1]] if rows else []
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
         raise InputError(f"line 1: not one heading {', '.join(missing)}; give x, y and blocks")

@@ -44,8 +44,7 @@ def write_dxf(plan: PlanDrawing) -> bytes:
         drawn.set_xdata(APPLICATION, [(1000, _plain(line.name))])
     for text in plan.texts:
         look = {"layer": text.layer.title, "height": text.height}
-        # Neither %% nor ^ begins a code.
-        words = _plain(text.words).replace("%%", "%%%%%%").replace("^", "^ ")
+        words = _plain(text.words).replace("%%", "%%%%%%").replace("^", "^ ")  # begin codes
         written = space.add_text(words, dxfattribs=look)
         written.set_placement(text.at, align=TextEntityAlignment.MIDDLE_CENTER)
     # As the library would, but sorted: its order is that of a set, another one in each process.

@@ -208,8 +208,7 @@ def _loaded(path: Path) -> Document:
         return ezdxf.filemanagement.readfile(str(path))
     except Exception as error:  # a damaged drawing makes the library raise almost anything
         raise InputError(
-            f"not a DXF drawing, or damaged ({type(error).__name__}: {str(error)[:100]}); open it"
-            " in CAD and save it again"
+            "not a DXF drawing, or damaged; open it in CAD and save it again"
         ) from error
 
 

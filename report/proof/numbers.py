@@ -29,6 +29,9 @@ def parsed(content: bytes, name: str) -> Any:
     """
     try:
         from_json(content, allow_inf_nan=False)  # it counts how deep, `json` ends in a traceback
+    except ValueError as error:
+        raise InputError(f"{name} is damaged: no JSON") from error
+    try:
         return json.loads(content, object_pairs_hook=_unlike, parse_int=_whole, parse_float=_finite)
     except ValueError as error:
         raise InputError(f"{name} is damaged: {error}") from error

@@ -111,10 +111,7 @@ def guarded(read: Callable[[], _T]) -> _T:
     except InputError:
         raise
     except Exception as error:
-        raise InputError(
-            f"is damaged ({type(error).__name__}: {error}); get the file again from where it was"
-            " issued"
-        ) from error
+        raise InputError("is damaged; get the file again from where it was issued") from error
 
 
 def _read(path: Path) -> bytes:
@@ -149,7 +146,7 @@ def _manifest(content: bytes) -> Manifest:
     except ValidationError as error:
         first = error.errors()[0]
         place = "".join(f"{step}: " for step in first["loc"])
-        raise InputError(f"{MANIFEST} is damaged: {place}{first['msg']}") from error
+        raise InputError(f"{MANIFEST} is damaged at {place}") from error
     if manifest.schema_version != SCHEMA_VERSION:
         raise InputError(
             f"{MANIFEST} has the schema_version {manifest.schema_version}; this version reads"

@@ -58,9 +58,10 @@ def signed(data: bytes, p12: bytes, password: str, time_url: str = "") -> bytes:
             IncrementalPdfFileWriter(io.BytesIO(data)), existing_fields_only=True, output=out
         )
     except (SigningError, PdfReadError) as error:
-        raise InputError(f"cannot be signed: {error}") from error
+        text = "cannot be signed: its field is missing or is signed already, or it is damaged"
+        raise InputError(text) from error
     except timestamps.TimestampRequestError as error:
-        raise InputError(f"{time_url}: gave no time stamp ({error})") from error
+        raise InputError(f"{time_url}: gave no time stamp") from error
     return out.getvalue()
 
 

@@ -89,7 +89,7 @@ class SourceFile:
             path=self.path,
             name=self.name,
             bytes=self.record.size if self.record else len(self.content),
-            sha256=self.record.sha256 if self.record else _sha256(self.content),
+            sha256=self.record.sha256 if self.record else hashlib.sha256(self.content).hexdigest(),
             kind=self.kind,
         )
 
@@ -161,10 +161,6 @@ def _path(row: RecordFile) -> str:
 
 def _source(path: str, content: bytes, kind: str) -> SourceFile:
     return SourceFile(path=path, name=path, content=content, kind=kind)
-
-
-def _sha256(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()
 
 
 def _unlike(found: Sequence[SourceFile]) -> Iterator[SourceFile]:

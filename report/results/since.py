@@ -66,7 +66,7 @@ def former_from(content: bytes, path: Path) -> Compared:
     try:
         document = from_json(content, allow_inf_nan=False)
     except ValueError as error:
-        raise InputError(f"{path}: is no results.json or is damaged ({error}); {AGAIN}") from error
+        raise InputError(f"{path}: is no results.json or is damaged; {AGAIN}") from error
     if not isinstance(document, dict):
         raise InputError(f"{path}: is no results.json or is damaged (no object); {AGAIN}")
     version = document.get("schema_version")
@@ -127,4 +127,4 @@ def _first(error: ValidationError) -> str:
     first = error.errors(include_url=False, include_input=False, include_context=False)[0]
     place = ".".join(str(step) for step in first["loc"])
     more = f", and {error.error_count() - 1} more" if error.error_count() > 1 else ""
-    return f"{place}: {first['msg']}{more}" if place else f"{first['msg']}{more}"
+    return f"{place or 'the whole'} is not as `report` writes it{more}"

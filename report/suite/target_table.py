@@ -137,7 +137,7 @@ def _text_rows(path: Path) -> _Rows:
     try:
         rows = list(csv.reader(lines, delimiter=separator, strict=True))
     except csv.Error as error:
-        raise InputError(f"{path.name}: not CSV ({error}); give {_WANTED}") from error
+        raise InputError(f"{path.name}: not CSV; give {_WANTED}") from error
     if len(rows) > MAX_ROWS + HEADING_ROWS:
         raise InputError(f"{path.name}: has {len(rows)} lines; give at most {MAX_ROWS} rows")
     return [

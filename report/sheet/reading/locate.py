@@ -38,7 +38,7 @@ def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
     return position
 
 
-def beside_labels(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
+def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
     """Return the cells with content beside the labels of each field on the sheet of a block."""
     sheet, fields = sheet_titled(book, section.sheet), fields_by_label(section)
     found: dict[str, list[CellPosition]] = {}

@@ -25,13 +25,7 @@ from report.sheet.reading.cells import (
     wish_for_missing,
 )
 from report.sheet.reading.duplicate_sheets import copies
-from report.sheet.reading.locate import (
-    added_later,
-    beside_labels,
-    cell_as_column,
-    find_cell,
-    is_absent,
-)
+from report.sheet.reading.locate import added_later, beside, cell_as_column, find_cell, is_absent
 from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
 from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.reading.unseen import Unseen, by_cell, unseen
@@ -263,7 +257,7 @@ def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> 
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     absent = added_later(book, section)
     row = {entry.name: entry.default for entry in absent}
-    typed = beside_labels(book, section)
+    typed = beside(book, section)
     gathered.draft[section.key].append(row)
     for entry in entries(section.model):
         if entry in absent:

@@ -31,9 +31,8 @@ from solver.model import InputError
             "line 2: blocks is -1; give a whole number from 0 to 10,000",
             "line 3: blocks is 1e+09; give a whole number from 0 to 10,000",
         ]),
-        ('x,y,blocks\n"1,2,3\n', ["not a CSV in UTF-8 (unexpected end of data); save it as one"]),
-        (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8 ('utf-8' codec can't decode byte 0xff in "
-                                 "position 11: invalid start byte); save it as one"]),
+        ('x,y,blocks\n"1,2,3\n', ["not a CSV in UTF-8; save it as one"]),
+        (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; add up "
                                                "neighboring blocks"]),
         (b" " * (MAX_BYTES + 1), ["more than 5 MB; keep the columns x, y, blocks"]),

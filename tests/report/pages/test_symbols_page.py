@@ -15,7 +15,9 @@ from printed import printed
     ],
 )
 def test_the_symbols_are_those_of_the_edition(edition, own, others):
-    table = printed(scenes.package(site=inputs.SITE | {"edition_name": edition}), "symbols").table("Symbols")
+    table = printed(scenes.package(site=inputs.SITE | {"edition_name": edition}), "symbols").table(
+        "Symbols"
+    )
     listed = {cell.replace(" ", "").replace("_", "") for row in table.cells for cell in row}
     assert own <= listed
     assert not others & listed

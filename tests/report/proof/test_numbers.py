@@ -48,3 +48,9 @@ def test_numbers_are_the_same_to_the_tolerance_and_no_further():
 def test_blanks_between_words_do_not_count_and_every_letter_does():
     assert word_differences("RTU- 1\n10 .", "RTU-1 10.") == []
     assert word_differences("24.0 in", "24.1 in") == ["'24.0' where the input gives '24.1'"]
+
+
+@pytest.mark.parametrize("content", [b"{", b"", b"\xff", b"[" * 3000, b'{"a": NaN}'])
+def test_what_the_reader_of_json_says_reaches_nobody(content):
+    with pytest.raises(InputError, match=r"^results.json is damaged: no JSON$"):
+        parsed(content, "results.json")

@@ -1,6 +1,7 @@
 """What changed since a former revision: found from results.json, printed, and marked."""
 
 import json
+import re
 from dataclasses import asdict, replace
 from functools import reduce
 from operator import getitem
@@ -18,7 +19,7 @@ from report.assessment.evidence import support
 from report.pages.registry import package_data, parts
 from report.results.compare import changes
 from report.results.json import results_json
-from report.results.since import MOST_CHANGES, check_listed, former_from, read_former
+from report.results.since import AGAIN, MOST_CHANGES, check_listed, former_from, read_former
 from report.sheet.reading.beside import Document
 from solver.model import InputError
 
@@ -325,3 +326,20 @@ def test_a_text_of_5_mb_is_refused_before_it_is_laid_out(assessment, document):
     found = changes(former(document), assessment)
     with pytest.raises(InputError, match=r"x: .* 1 rows of 5,000,\d\d\d letters"):
         check_listed(found, Path("x"))
+
+
+@pytest.mark.parametrize("content", [b"{", b"", b"\xff", b"[" * 3000, b'{"a": NaN}', b"1e999"])
+def test_what_the_reader_of_json_says_reaches_nobody(content):
+    with pytest.raises(InputError) as caught:
+        former_from(content, "x")
+    assert re.fullmatch(
+        rf"x: is no results.json or is damaged( \(no object\))?; {AGAIN}", str(caught.value)
+    )
+
+
+def test_what_pydantic_says_reaches_nobody(document):
+    put(document, ["arrays"], "none")
+    with pytest.raises(
+        InputError, match=r"^x: arrays is not as `report` writes it; the file is damaged"
+    ):
+        former(document)
