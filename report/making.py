@@ -172,7 +172,7 @@ def _changes(assessment: Assessment, request: Request) -> Changes:
     from report.results.since import check_listed
 
     found = changes(request.former[0], assessment)
-    check_listed(found, request.since)
+    check_listed(found)
     return found
 
 

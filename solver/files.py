@@ -36,23 +36,15 @@ def write_whole(path: Path, content: bytes, *, replace: bool = True) -> None:
 
 
 def write_all(files: Mapping[str, bytes], folder: Path, *, replace: bool = True) -> None:
-    """Write files to a folder: all of them or none, unless the process is killed.
+    """Write files to a folder by name, subfolders included: all of them or none.
 
-    Each is written whole under a random name and then renamed, in the order given. A process that
-    is killed leaves every file old or new, and perhaps some of those names.
-
-    Parameters
-    ----------
-    files : mapping of str to bytes
-        By name, which may include subfolders.
-    replace : bool
-        Whether existing files may be replaced; the new ones have their permissions.
+    Each is written whole under a random name and then renamed, in the order given: a process that
+    is killed leaves every file old or new. One that is replaced gives its permissions.
 
     Raises
     ------
     InputError
-        If a file cannot be written, is in no plain place, or exists and may not be replaced. Then
-        no file has changed.
+        If one cannot be written, has no plain place, or exists and may not be replaced.
     """
     with ExitStack() as added, ExitStack() as sweep, ExitStack() as undo:
         target = folder
@@ -88,21 +80,13 @@ def write_all(files: Mapping[str, bytes], folder: Path, *, replace: bool = True)
 def check_plain(
     path: Path, within: Path, *, is_folder: bool = False, in_place: bool = False
 ) -> None:
-    """Refuse what a stranger may have put where a file or folder is written.
-
-    Parameters
-    ----------
-    within : Path
-        Folder that the user gave; below it, nothing on the way to the path may be a link.
-    in_place : bool
-        Whether the file is opened for writing, which another name of the same file would tell.
+    """Refuse what a stranger may have put where a file or folder is written, below a given folder.
 
     Raises
     ------
     InputError
-        If a link, pipe or device is there, or a folder for a file or the reverse.
-    OSError
-        If that cannot be found out.
+        If there or on the way is a link, pipe or device, or a folder for a file or the reverse; or,
+        for a file that is opened in place, if it has another name as well.
     """
     place = within
     for part in path.relative_to(within).parts:
@@ -133,8 +117,6 @@ def locked(folder: Path) -> Iterator[None]:
     ------
     InputError
         If another process holds it for `WAIT_S`, or something else has its name.
-    OSError
-        If the folder cannot be written to.
     """
     from filelock import FileLock, Timeout
 
@@ -192,12 +174,10 @@ def _add(part: Path, target: Path) -> None:
     try:
         # Unlike a rename, a hard link is refused where the name exists, even as a dangling link.
         os.link(part, target)
-    except FileExistsError as error:
-        raise _exists(target) from error
-    except OSError:  # a file system without hard links
+    except OSError:
         if os.path.lexists(target):
             raise _exists(target) from None
-        os.replace(part, target)
+        os.replace(part, target)  # a file system without hard links
 
 
 def _exists(path: Path) -> InputError:

@@ -94,19 +94,14 @@ def former_from(content: bytes, path: Path) -> Compared:
     return former
 
 
-def check_listed(changes: Changes, path: Path) -> None:
-    """Refuse more changes since a former revision than can be laid out in minutes.
-
-    Raises
-    ------
-    InputError
-    """
+def check_listed(changes: Changes) -> None:
+    """Refuse more changes since a former revision than can be laid out in minutes."""
     count = len(changes.items)
     letters = sum(len(item.title) + len(item.before) + len(item.now) for item in changes.items)
     if count > MOST_CHANGES or letters > MOST_LETTERS:
         raise InputError(
-            f"{path}: the list of changes since has {count:,} rows of {letters:,} letters;"
-            f" at most {MOST_CHANGES:,} of {MOST_LETTERS:,} are listed; {GIVE} of this project"
+            f"--since: the list of changes has {count:,} rows of {letters:,} letters; at most"
+            f" {MOST_CHANGES:,} of {MOST_LETTERS:,} are listed; {GIVE} of this project"
         )
 
 
