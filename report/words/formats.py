@@ -109,7 +109,7 @@ def finite(value: Any) -> Any:
     return value
 
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _FORMULAS = tuple("=+-@＝＋－＠")
 """Their first characters; Excel in Japanese reads the wide ones as well."""
 

@@ -150,7 +150,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
         raise InputError(
             f"{path}: cannot be read ({error.strerror}); give a folder with {NAME}"
         ) from error
-    except (ValueError, csv.Error) as error:
+    except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(f"{path}: not CSV UTF-8, separated by commas; save it so") from error
     if len(rows) > MOST_TESTS + 1:
         raise InputError(f"{path}: has more than {MOST_TESTS} tests")

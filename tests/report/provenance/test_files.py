@@ -27,7 +27,7 @@ from report.provenance.files import (
 )
 from report.results.json import results_json
 from report.sheet.reading.beside import Document
-from report.sheet.reading.parts import write_cells
+from report.sheet.reading.parts import changed
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
 from report.web.opened import opened
@@ -114,7 +114,8 @@ def test_what_was_read_is_hashed_and_attached_whatever_lies_there_by_then(
     (project / "letter.pdf").write_bytes(LETTER)
     sheet, cell = address(project / "input.xlsx", "Options/Letter of review").split("!")
     at = CellPosition(sheet, *coordinate_to_tuple(cell))
-    write_cells(project / "input.xlsx", {at: "letter.pdf"})
+    book = project / "input.xlsx"
+    book.write_bytes(changed(book.read_bytes(), {at: "letter.pdf"}))
     was = {path: path.read_bytes() for path in project.rglob("*") if path.is_file()}
     replacing(monkeypatch, Path(name).name)
     sheet = read(project)

@@ -181,4 +181,4 @@ def test_a_file_that_is_no_table_of_tests_is_refused(folder, text, said):
 def test_no_file_and_other_bytes_are_refused(folder):
     assert "give a folder with tests.csv" in faults(folder)[0]
     (folder / "tests.csv").write_bytes(b"\xff\xfe\x00T")
-    assert "save it as CSV UTF-8" in faults(folder)[0]
+    assert "not CSV UTF-8, separated by commas; save it so" in faults(folder)[0]
