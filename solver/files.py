@@ -20,22 +20,15 @@ WAIT_S = 60.0
 """How long a process waits for another that writes to the same folder [s]."""
 
 
-def write_whole(path: Path, content: bytes, *, replace: bool = True) -> None:
-    """Write a file at a path that the user gave, as `write_all` does; a link there is followed.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be written, or exists and may not be replaced.
-    """
-    if replace:
-        path = Path(os.path.realpath(path))
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file at a path that the user gave, as `write_all` does; a link there is followed."""
+    path = Path(os.path.realpath(path))
     if not path.parent.is_dir():
         raise InputError(f"{path}: cannot be written (No such file or directory)")
-    write_all({path.name: content}, path.parent, replace=replace)
+    write_all({path.name: content}, path.parent)
 
 
-def write_all(files: Mapping[str, bytes], folder: Path, *, replace: bool = True) -> None:
+def write_all(files: Mapping[str, bytes], folder: Path) -> None:
     """Write files to a folder by name, subfolders included: all of them or none.
 
     Each is written whole under a random name and then renamed, in the order given: a process that
@@ -44,7 +37,7 @@ def write_all(files: Mapping[str, bytes], folder: Path, *, replace: bool = True)
     Raises
     ------
     InputError
-        If one cannot be written, has no plain place, or exists and may not be replaced.
+        If one cannot be written, or has no plain place.
     """
     with ExitStack() as added, ExitStack() as sweep, ExitStack() as undo:
         target = folder
@@ -52,8 +45,6 @@ def write_all(files: Mapping[str, bytes], folder: Path, *, replace: bool = True)
             parts = []
             for name, content in files.items():
                 target = folder / name
-                if not replace and os.path.lexists(target):
-                    raise _exists(target)
                 check_plain(target, folder)
                 add_folder(target.parent, added)
                 parts.append(_hidden(target.parent, sweep))
@@ -63,11 +54,7 @@ def write_all(files: Mapping[str, bytes], folder: Path, *, replace: bool = True)
                     os.fsync(file.fileno())
             for part, name in zip(parts, files, strict=True):
                 target = folder / name
-                if replace:
-                    _replace(part, target, sweep, undo)
-                else:
-                    _add(part, target)
-                    undo.callback(target.unlink)
+                _replace(part, target, sweep, undo)
         except OSError as error:
             close = "; close it in other programs" if isinstance(error, PermissionError) else ""
             raise InputError(
@@ -167,18 +154,3 @@ def _replace(part: Path, target: Path, sweep: ExitStack, undo: ExitStack) -> Non
     else:
         undo.callback(target.unlink, missing_ok=True)
     os.replace(part, target)
-
-
-def _add(part: Path, target: Path) -> None:
-    """Put a file where none is, as nobody else does meanwhile."""
-    try:
-        # Unlike a rename, a hard link is refused where the name exists, even as a dangling link.
-        os.link(part, target)
-    except OSError:
-        if os.path.lexists(target):
-            raise _exists(target) from None
-        os.replace(part, target)  # a file system without hard links
-
-
-def _exists(path: Path) -> InputError:
-    return InputError(f"{path}: already exists; give another name, or move the file")

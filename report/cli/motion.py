@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import tomllib
 from collections.abc import Callable, Sequence
 from fnmatch import fnmatchcase
@@ -303,9 +304,12 @@ def _read(path: Path, units: str | None, dt_s: float) -> MotionFile:
 
 def _write(record: Record, out: Path) -> None:
     from solver.files import write_whole
+    from solver.model import InputError
     from solver.records.record import record_csv
 
-    write_whole(out, record_csv(record, within=_KEPT_WITHIN).encode(), replace=False)
+    if os.path.lexists(out):  # a dangling link as well
+        raise InputError(f"{out}: already exists; give another name, or move the file")
+    write_whole(out, record_csv(record, within=_KEPT_WITHIN).encode())
 
 
 def _draw(records: Sequence[Record], out: Path) -> None:

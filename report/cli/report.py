@@ -76,7 +76,7 @@ def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) 
         with ExitStack() as undo:
             add_folder(records, undo)
             if is_example:
-                write_all(example_files(UnitsFirst(units)), folder, replace=False)
+                write_all(example_files(UnitsFirst(units)), folder)
             else:
                 write = write_study if is_study else write_template
                 write(path, units=UnitsFirst(units))

@@ -27,20 +27,6 @@ def test_a_file_is_written_and_replaced(tmp_path, path):
     assert path.stat().st_mode & 0o777 == 0o666 & ~umask
 
 
-@pytest.mark.parametrize("kind", ["file", "folder", "dangling link"])
-def test_what_exists_is_not_replaced_unless_asked_for(tmp_path, path, kind):
-    if kind == "file":
-        path.write_bytes(b"old")
-    elif kind == "folder":
-        path.mkdir()
-    else:
-        path.symlink_to(tmp_path / "elsewhere.csv")
-    with pytest.raises(InputError, match="already exists; give another name"):
-        write_whole(path, b"new", replace=False)
-    assert not (tmp_path / "elsewhere.csv").exists()
-    assert [entry.name for entry in tmp_path.iterdir()] == ["a.csv"]
-
-
 def test_a_link_that_the_user_gave_is_followed(tmp_path, path):
     target = tmp_path / "target.csv"
     target.write_bytes(b"old")
@@ -118,22 +104,14 @@ def test_a_file_of_two_names_is_replaced_in_one(tmp_path, path):
     assert (path.read_bytes(), (tmp_path / "other").read_bytes()) == (b"new", b"old")
 
 
-@pytest.mark.parametrize("replace", [True, False])
 @pytest.mark.parametrize("name", ["a.csv", "b.csv", "sub/d.csv", "c.csv"])
 @pytest.mark.parametrize("has_links", [True, False])
-def test_of_a_set_that_cannot_be_written_nothing_is(
-    tmp_path, monkeypatch, replace, name, has_links
-):
-    before = dict.fromkeys(("a.csv", "b.csv", "c.csv"), b"old") if replace else {}
-    folder, failures = tmp_path / "here", [1]
-    if replace:
+@pytest.mark.parametrize("is_new", [True, False])
+def test_of_a_set_that_cannot_be_written_nothing_is(tmp_path, monkeypatch, name, has_links, is_new):
+    before = {} if is_new else dict.fromkeys(("a.csv", "b.csv", "c.csv"), b"old")
+    folder, failures, rename = tmp_path / "here", [1], os.replace
+    if before:
         write_all(before, folder)
-    link, rename = os.link, os.replace
-
-    def linked(source, target):
-        if target == folder / name or not has_links:
-            refused()
-        link(source, target)
 
     def renamed(source, target):
         if target == folder / name and failures:
@@ -141,14 +119,14 @@ def test_of_a_set_that_cannot_be_written_nothing_is(
             refused()
         rename(source, target)
 
-    monkeypatch.setattr(os, "link", linked)
+    if not has_links:
+        monkeypatch.setattr(os, "link", refused)
     monkeypatch.setattr(os, "replace", renamed)
     told = rf"{name}: cannot be written .*not permitted.*in other programs. No file was changed"
     with pytest.raises(InputError, match=told):
-        write_all(dict.fromkeys(("a.csv", "b.csv", "sub/d.csv", "c.csv"), b"new"), folder,
-                  replace=replace)  # fmt: skip
+        write_all(dict.fromkeys(("a.csv", "b.csv", "sub/d.csv", "c.csv"), b"new"), folder)
     assert {path.name: path.read_bytes() for path in folder.glob("*")} == before
-    assert folder.exists() == replace
+    assert folder.exists() is not is_new
 
 
 def test_a_second_process_waits_for_the_first_and_then_says_so(tmp_path, monkeypatch):
@@ -196,14 +174,14 @@ def test_a_lock_that_a_killed_process_left_holds_nobody_up(tmp_path):
     assert os.listdir(tmp_path) == []
 
 
-@pytest.mark.parametrize("replace", [True, False])
-def test_a_full_disk_leaves_the_former_file_or_none(tmp_path, path, files_up_to, replace):
-    if replace:
-        path.write_bytes(b"old")
+@pytest.mark.parametrize("former", [b"old", b""])
+def test_a_full_disk_leaves_the_former_file_or_none(tmp_path, path, files_up_to, former):
+    if former:
+        path.write_bytes(former)
     told = r"a\.csv: cannot be written \(File too large"
     with files_up_to(100), pytest.raises(InputError, match=told):
-        write_whole(path, b"new" * 100, replace=replace)
-    assert [entry.read_bytes() for entry in tmp_path.iterdir()] == ([b"old"] if replace else [])
+        write_whole(path, b"new" * 100)
+    assert [entry.read_bytes() for entry in tmp_path.iterdir()] == ([former] if former else [])
 
 
 def test_a_name_that_is_too_long_is_an_input_error(tmp_path):
@@ -213,14 +191,6 @@ def test_a_name_that_is_too_long_is_an_input_error(tmp_path):
 
 def refused(*_):
     raise PermissionError(1, "Operation not permitted")
-
-
-def test_a_file_system_without_hard_links_is_written_to(path, monkeypatch):
-    monkeypatch.setattr(os, "link", refused)
-    write_whole(path, b"new", replace=False)
-    assert path.read_bytes() == b"new"
-    with pytest.raises(InputError, match="already exists"):
-        write_whole(path, b"newer", replace=False)
 
 
 def test_only_names_that_are_written_are_touched(tmp_path, path):
