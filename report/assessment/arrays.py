@@ -268,7 +268,7 @@ def limits_of(
         slope_rad=array.slope_rad,
         n_motions=n_motions,
         sdc=data.site.sdc,
-        is_reviewed=data.options.peer_reviewed,
+        is_reviewed=data.is_peer_reviewed,
     )
     prescriptive = provisions.prescriptive_checks(
         rules, slope_rad=array.slope_rad, mu=array.minimum_mu
@@ -328,9 +328,7 @@ def assess_array(
     basis = statistic_basis(data)
     directions = _by_direction(rules, runs, basis)
     analysis = directions[Direction.ANY]
-    floor_m = provisions.analysis_floor_m(
-        rules, prescriptive, is_reviewed=data.options.peer_reviewed
-    )
+    floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
     each = [run for motion in runs for run in motion.runs]

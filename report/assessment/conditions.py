@@ -57,6 +57,8 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
     """Return the requirements on the whole project, its motions and its friction tests."""
     return (
         _building_code(data),
+        _roof_outline(data),
+        *_dates(data),
         *_peer_review(data),
         *override_rows(data),
         *hazard_rows(data),
@@ -80,6 +82,47 @@ def _building_code(data: ProjectInput) -> Requirement:
         remedy="State on the sheet Site the adopted building code and the jurisdiction.",
         place=Place("site", 0, "building_code"),
     )
+
+
+def _roof_outline(data: ProjectInput) -> Requirement:
+    is_given = data.roof.placed is not None
+    return condition(
+        id="roof_outline",
+        title="Outline of the roof",
+        found="given" if is_given else NOT_GIVEN,
+        limit="given",
+        basis="roof plan",
+        is_satisfied=is_given,
+        remedy="Enter the outline of the roof on the sheet Site: without it, roof edges near the "
+        "arrays were not looked for.",
+        place=Place("roof", 0, "x_from_m"),
+    )
+
+
+def _dates(data: ProjectInput) -> Iterator[Requirement]:
+    """Yield what is dated later than the package, which it cannot rest on."""
+    options, tests, issued = data.options, data.friction_tests, data.project.date
+    dated = (
+        ("peer review", options.peer_date if options.peer_reviewed else None,
+         Place("options", 0, "peer_date")),
+        ("friction report", tests.date, Place("friction_tests", 0, "date")),
+        ("hazard", data.site.hazard_date, Place("site", 0, "hazard_date")),
+        ("confirmation of the drawing", data.project.drawing_confirmed_date,
+         Place("project", 0, "drawing_confirmed_date")),
+    )  # fmt: skip
+    for what, date, place in dated:
+        if date and date > issued:
+            yield condition(
+                id="dates",
+                title=f"Date of the {what}",
+                found=str(date),
+                limit=f"not later than the package, {issued}",
+                basis="plan check",
+                is_satisfied=False,
+                remedy="Correct it, or date the package later. Nothing that is dated later is "
+                "taken as given.",
+                place=place,
+            )
 
 
 def _peer_review(data: ProjectInput) -> Iterator[Requirement]:

@@ -83,7 +83,7 @@ class Marked:
 
     def floor_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of the floor of an array, if it has one."""
-        if self.data.options.peer_reviewed:
+        if self.data.is_peer_reviewed:
             return ""
         return joined(self.mark("analysis_floor"), array.mark(lambda item: item.floor_m))
 

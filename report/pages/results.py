@@ -153,7 +153,7 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
 
 
 def _floor_words(package: PackageData) -> str:
-    if package.data.options.peer_reviewed:
+    if package.data.is_peer_reviewed:
         return "none; the analysis is peer reviewed"
     share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
     return f"{share} % of prescriptive, {package.clause('analysis_floor')}"

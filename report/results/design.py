@@ -186,7 +186,7 @@ def _row(
         n_motions=item.analysis.n_motions,
         # That of the rule set also where there are too few motions.
         analysis_factor=1.0 if is_mean else rules["analysis_factor"],
-        floor_share=0.0 if data.options.peer_reviewed else rules["analysis_floor"],
+        floor_share=0.0 if data.is_peer_reviewed else rules["analysis_floor"],
         over_prescriptive=item.ratio,
         by_roofslip_m=item.design_m,
         statistic=item.analysis.basis,

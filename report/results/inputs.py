@@ -68,7 +68,7 @@ def _inputs(assessment: Assessment) -> Iterator[_Input]:
     strength = "Strength required between the parts of an array"
     in_separation = rules.importance_in_separation
     of_i_e = "Separations to edges" if in_separation else "Prescriptive displacement"
-    reviewed = YesNo.YES if options.peer_reviewed else YesNo.NO
+    reviewed = YesNo.YES if assessment.project.is_peer_reviewed else YesNo.NO
     asked = options.statistic
     use = "Prescriptive displacement, interconnection strength"
     yield _Input("s_ds_g", "S_DS [g]", site.s_ds, use, decimals=4)

@@ -264,10 +264,17 @@ class ProjectInput(Frozen):
         """Whether US units are printed before SI units."""
         return self.project.units_first.is_us
 
+    @property
+    def is_peer_reviewed(self) -> bool:
+        """Whether peer review is stated, and not dated later than the package."""
+        reviewed = self.options.peer_date or self.project.date
+        return self.options.peer_reviewed and reviewed <= self.project.date
+
     def basis_of(self, row: Clearance) -> DistanceBasis:
         """Return the basis of the distance of a clearance."""
         if row.source is ClearanceSource.DRAWING:
-            is_confirmed = self.project.drawing_confirmed_date is not None
+            confirmed = self.project.drawing_confirmed_date
+            is_confirmed = confirmed is not None and confirmed <= self.project.date
             return DistanceBasis.CONFIRMED if is_confirmed else DistanceBasis.DRAWN
         return DistanceBasis.ENTERED if row.source is None else DistanceBasis.MEASURED
 

@@ -419,3 +419,45 @@ def test_ground_motions_far_above_the_design_spectrum_are_a_condition(ratio, is_
 def test_without_ground_motions_or_without_a_target_nothing_is_compared():
     assert grounded(place="roof") is None
     assert grounded(target={}) is None
+
+
+def test_without_an_outline_of_the_roof_nothing_says_that_edges_were_looked_for():
+    assert row(assessed(), "roof_outline").verdict is Verdict.CONDITIONS
+    assert "were not looked for" in row(assessed(), "roof_outline").remedy
+    outlined = assessed(roof=inputs.sides(0, 220, 0, 170))
+    assert row(outlined, "roof_outline").verdict is Verdict.OK
+
+
+ISSUED = inputs.HEAD["date"]
+LATER = ISSUED + dt.timedelta(days=1)
+
+
+@pytest.mark.parametrize(
+    ("changes", "what"),
+    [
+        ({"options": scenes.REVIEW | {"peer_date": LATER}}, "peer review"),
+        ({"friction_tests": {"date": LATER}}, "friction report"),
+        ({"site": inputs.SITE | {"hazard_date": LATER}}, "hazard"),
+        ({"project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": LATER}},
+         "confirmation of the drawing"),
+    ],
+)  # fmt: skip
+def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
+    late = row(assessed(**changes), "dates")
+    assert (late.title, late.verdict) == (f"Date of the {what}", Verdict.CONDITIONS)
+    assert (late.found, late.limit) == (str(LATER), f"not later than the package, {ISSUED}")
+    issued = {"project": inputs.HEAD | changes.get("project", {}) | {"date": LATER}}
+    assert row(assessed(**changes | issued), "dates") is None
+
+
+def test_a_review_that_is_dated_later_removes_no_floor_and_confirms_no_distance():
+    reviewed = assessed(options=scenes.REVIEW)
+    late = assessed(options=scenes.REVIEW | {"peer_date": LATER})
+    assert [item.floor_m for item in reviewed.arrays] == [0.0] * len(reviewed.arrays)
+    assert [item.floor_m for item in late.arrays] == [item.floor_m for item in assessed().arrays]
+    assert all(item.floor_m > 0.0 for item in late.arrays)
+    drawn = stand_in.clearance("A1", "RTU-1", 6.0) | {"source": "drawing"}
+    for date, is_confirmed in ((ISSUED, True), (LATER, False)):
+        head = inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": date}
+        found = row(assessed(project=head, clearances=[drawn]), "drawing_distances")
+        assert found.is_satisfied is is_confirmed
