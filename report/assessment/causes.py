@@ -23,9 +23,9 @@ def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
 
     Nothing for OK.
     """
-    verdict, gap = assessment.array_verdict(item), assessment.governing_clearance(item.id)
-    found = causes(assessment, item)
-    if not found or (verdict is Verdict.NG and gap is not None and gap.demand_capacity > 1.0):
+    verdict, found = assessment.array_verdict(item), causes(assessment, item)
+    is_shown = any(gap.demand_capacity > 1.0 for gap in assessment.gaps_of(item.id))
+    if not found or (verdict is Verdict.NG and is_shown):
         return ""
     return found[0] + (f" and {len(found) - 1} more" if len(found) > 1 else "")
 

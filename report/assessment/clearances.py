@@ -10,14 +10,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from report.assessment.arrays import ArrayAssessment, by_id
-from report.assessment.neighbors import NearbyKind, PlanNeighbor
+from report.assessment.neighbors import ComparedGap, NearbyKind, PlanNeighbor
 from report.assessment.overrides import as_adopted, mark_of
 from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Verdict
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction, DistanceBasis, ObjectKind
 from report.sheet.schema.scene import Array, Clearance, RoofObject
-from report.words.units import ratio
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, RuleSet
 
@@ -36,7 +35,7 @@ _OPPOSITE = {Direction.DOWN: Direction.UP, Direction.UP: Direction.DOWN}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ClearanceCheck:
+class ClearanceCheck(ComparedGap):
     """A clearance: object across it, governing displacement, required and provided separation.
 
     Attributes
@@ -88,26 +87,14 @@ class ClearanceCheck:
         )
 
     @property
-    def demand_capacity(self) -> float:
-        """Required / provided separation; NaN without a required one."""
-        provided = self.clearance.provided_m
-        if math.isnan(self.required_m):
-            return math.nan
-        return self.required_m / provided if provided > 0.0 else math.inf
+    def between(self) -> tuple[str, str]:
+        """What is on either side."""
+        return self.clearance.array, self.clearance.object
 
     @property
-    def ratio_words(self) -> str:
-        """Required / provided separation for print, with its mark."""
-        return ratio(self.demand_capacity) + self.mark
-
-    def involves(self, array_id: str) -> bool:
-        """Whether an array is on either side of the gap."""
-        return array_id in (self.clearance.array, self.clearance.object)
-
-    def across_from(self, array_id: str) -> str:
-        """Return the id on the other side of the gap."""
-        seen_from_object = self.clearance.object == array_id
-        return self.clearance.array if seen_from_object else self.clearance.object
+    def provided_m(self) -> float:
+        """Provided separation [m]."""
+        return self.clearance.provided_m
 
     @property
     def is_minimum_value(self) -> bool:

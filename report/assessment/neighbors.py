@@ -7,6 +7,7 @@ first.
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -19,7 +20,7 @@ from report.sheet.schema.choices import DistanceBasis, ObjectKind
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
-from report.words.units import Quantity, pair
+from report.words.units import Quantity, pair, ratio
 from solver.model import INCH_M
 
 REACH_FACTOR = 2.0
@@ -78,8 +79,55 @@ class GivenGap:
     cell: str
 
 
+class ComparedGap(ABC):
+    """A gap whose required separation is compared with what is there, given or in plan.
+
+    Attributes
+    ----------
+    required_m : float
+        Required separation [m]; NaN without a permitted displacement.
+    mark : str
+        Of the required separation.
+    """
+
+    __slots__ = ()
+    required_m: float
+    mark: str
+
+    @property
+    @abstractmethod
+    def between(self) -> tuple[str, str]:
+        """What is on either side."""
+
+    @property
+    @abstractmethod
+    def provided_m(self) -> float:
+        """What is there [m]."""
+
+    @property
+    def demand_capacity(self) -> float:
+        """Required / provided separation; NaN without a required one."""
+        if math.isnan(self.required_m):
+            return math.nan
+        return self.required_m / self.provided_m if self.provided_m > 0.0 else math.inf
+
+    @property
+    def ratio_words(self) -> str:
+        """Required / provided separation for print, with its mark."""
+        return ratio(self.demand_capacity) + self.mark
+
+    def involves(self, array_id: str) -> bool:
+        """Whether an array is on either side of the gap."""
+        return array_id in self.between
+
+    def across_from(self, array_id: str) -> str:
+        """Return what is on the other side of the gap."""
+        one, other = self.between
+        return one if other == array_id else other
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlanNeighbor:
+class PlanNeighbor(ComparedGap):
     """An array, an object or a roof edge near an array, or to which a clearance is given."""
 
     # ids, in the order of the workbook between arrays; `other` names a bare edge in words
@@ -104,6 +152,16 @@ class PlanNeighbor:
     def names(self) -> str:
         """The two in words."""
         return f"{self.array} to {self.other}"
+
+    @property
+    def between(self) -> tuple[str, str]:
+        """What is on either side."""
+        return self.array, self.other
+
+    @property
+    def provided_m(self) -> float:
+        """What is there in plan [m]."""
+        return self.gap_m
 
     @property
     def is_near(self) -> bool:

@@ -39,7 +39,7 @@ from report.assessment.friction_velocity import (
     with_low_velocity,
 )
 from report.assessment.links import LinkedArray, assess_linked
-from report.assessment.neighbors import PlanNeighbor, plan_pairs, reaches_of
+from report.assessment.neighbors import ComparedGap, PlanNeighbor, plan_pairs, reaches_of
 from report.assessment.overrides import rule_set_of
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits
@@ -236,10 +236,14 @@ class Assessment:
         """Runs whose displacement is missing or not final, in words."""
         return tuple(self.troubled_runs.values())
 
-    def governing_clearance(self, array_id: str) -> ClearanceCheck | None:
-        """Return the clearance of an array, from either side, with the largest D/C, if any."""
-        of_array = self.gaps_of(array_id)
-        return max(of_array, key=lambda c: nan_is_worst(c.demand_capacity), default=None)
+    def governing_gap(self, array_id: str = "") -> ComparedGap | None:
+        """Return the gap with the largest D/C, if any; of an array that from either side.
+
+        Of the clearances, and of the pairs that the plan shows to be short and no clearance covers.
+        """
+        gaps: Sequence[ComparedGap] = (*self.clearances, *self.missing_gaps)
+        found = [gap for gap in gaps if not array_id or gap.involves(array_id)]
+        return max(found, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
 
 
 def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> Assessment:

@@ -16,9 +16,10 @@ from report.assessment.causes import unshown_cause
 from report.assessment.changes import ChangeKind
 from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.friction import mu_words
+from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.runs import nan_is_worst
-from report.assessment.verdict import Verdict
+from report.assessment.verdict import NOT_GIVEN, Verdict
 from report.entities.cells import Column, Told
 from report.entities.marks import Marked
 from report.entities.requirement import LimitResult
@@ -308,18 +309,18 @@ def array_result(
     motions = item.motions if has_runs else ()
     given = math.nan if item.array.interconnection_n is None else item.array.interconnection_n
     rounds = {"provided_n": beside(item.interconnection_n, given)}
-    gap = assessment.governing_clearance(item.id)
+    gap = assessment.governing_gap(item.id)
     near: dict[str, object] = {}
     distance = keep_clear(keep_clear_m(assessment, item), assessment.project.us_first)
     marks["permitted_m"] = marks.get("design_m", "")
     if gap:
         near = {
-            "governing_gap": gap.across_from(item.id),
+            "governing_gap": gap_name(gap, item.id),
             "largest_dc": gap.ratio_words,
             "gap_required_m": gap.required_m,
-            "gap_provided_m": gap.clearance.provided_m,
+            "gap_provided_m": gap.provided_m,
         }
-        rounds["gap_provided_m"] = beside(gap.required_m, gap.clearance.provided_m)
+        rounds["gap_provided_m"] = beside(gap.required_m, gap.provided_m)
         marks["gap_required_m"] = gap.mark
     return ArrayResult.of(
         item,
@@ -336,6 +337,12 @@ def array_result(
         peaks=tuple(map(peak_result, motions)),
         runs=tuple(run_result(motion, run) for motion in motions for run in motion.runs),
     )
+
+
+def gap_name(gap: ComparedGap, array_id: str) -> str:
+    """Return what is across a gap from an array, and where no clearance is given that."""
+    name = gap.across_from(array_id)
+    return f"{name} ({NOT_GIVEN})" if isinstance(gap, PlanNeighbor) else name
 
 
 def array_results(marked: Marked, *, has_runs: bool = True) -> Iterator[ArrayResult]:

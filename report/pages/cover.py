@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment
-from report.assessment.clearances import ClearanceCheck
 from report.assessment.runs import nan_is_worst
 from report.pages.parts import PackageData
 from report.pages.symbols import friction_standard
@@ -18,7 +17,7 @@ def cover(package: PackageData) -> Mapping[str, object]:
     records = package.assessment.shaking.records
     return {
         "array": _governing_array(package),
-        "gap": _governing_clearance(package),
+        "gap": package.assessment.governing_gap(),
         "friction_standard": friction_standard(package),
         "short_hash": package.assessment.sheet.sha256[:SHORT],
         "n_records": len(record_paths(records)),
@@ -35,12 +34,6 @@ def _governing_array(package: PackageData) -> ArrayAssessment:
         [array for array in arrays if not verdict_of(array).is_permitted] or arrays,
         key=lambda array: nan_is_worst(array.design_m),
     )
-
-
-def _governing_clearance(package: PackageData) -> ClearanceCheck | None:
-    """Return the clearance with the largest required / provided separation, if any."""
-    gaps = package.assessment.clearances
-    return max(gaps, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
 
 
 def _revisions(package: PackageData) -> Iterator[Sequence[object]]:

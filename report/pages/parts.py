@@ -106,7 +106,10 @@ class PackageData(Marked):
         given = self.assessment
         return {
             "array": [item.verdict.is_permitted for item in self.arrays],
-            "clearance": [gap.verdict.is_permitted for gap in given.clearances],
+            "clearance": [
+                *(gap.verdict.is_permitted for gap in given.clearances),
+                *(False for _ in given.missing_gaps),
+            ],
             "limit": [check.ok for _, check in self.checks],
             "requirement": [row.verdict.is_permitted for row in given.rows],
         }

@@ -73,7 +73,7 @@ def document(assessment: Assessment) -> dict[str, Any]:
 
 
 def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
-    gap = assessment.governing_clearance(item.id)
+    gap = assessment.governing_gap(item.id)
     return {
         "id": item.id,
         "computed_m": finite(item.analysis.value_m),

@@ -43,7 +43,7 @@ def test_between_arrays_the_larger_displacement_governs_for_both():
     (gap,) = done.clearances
     assert gap.governing_array == "A2"
     assert gap.design_m == done.arrays[1].design_m > done.arrays[0].design_m
-    assert done.governing_clearance("A2") is gap
+    assert done.governing_gap("A2") is gap
     assert (gap.across_from("A2"), gap.across_from("A1")) == ("A1", "A2")
 
 
@@ -141,7 +141,7 @@ def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict
 
 def test_an_array_beside_a_clearance_without_a_verdict_is_ng(unpermitted):
     assert [unpermitted.array_verdict(item) for item in unpermitted.arrays] == [Verdict.NG] * 2
-    assert unpermitted.governing_clearance("A2").verdict is Verdict.NONE
+    assert unpermitted.governing_gap("A2").verdict is Verdict.NONE
     alone = [stand_in.clearance("A2", "S edge", 15 * stand_in.FOOT)]
     done = stand_in.unpermitted(clearances=alone, objects=stand_in.project().objects[3:])
     assert done.array_verdict(done.arrays[1]) is not Verdict.NG

@@ -116,7 +116,7 @@ def test_the_letter_has_the_governing_clearance_and_the_keep_clear_distance():
     made = package(clearances=[*GAPS, stand_in.clearance("A2", "A1", 100 * FOOT)])
     table = printed(made, "letter").table("Results")
     for item in made.assessment.arrays:
-        row, gap = table.row(item.id), made.assessment.governing_clearance(item.id)
+        row, gap = table.row(item.id), made.assessment.governing_gap(item.id)
         assert row["Required [in]"] == f"{gap.required_m / INCH_M:.1f}"
         assert row["Provided [in]"] == "1200.0"
         keep = keep_clear_words(keep_clear_m(made.assessment, item), us_first=True)

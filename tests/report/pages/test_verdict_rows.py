@@ -48,3 +48,26 @@ def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
     assert float(had) < float(least)
     (strength,) = printed(barely, "limits").tables[-1].rows
     assert float(strength["Provided [lb]"]) < float(strength["Required [lb]"].strip("†"))
+
+
+def test_deleting_the_row_of_a_clearance_lowers_nothing():
+    """What the plan shows and no row covers counts as the row did: D/C, letter, cover, counts."""
+    array, far = stand_in.array("A1", 0.5), stand_in.clearance("A1", "RTU-8", 40.0)
+    objects = [NEAR, stand_in.roof_object("RTU-8", "fixed object", 140, 145, 35, 42, height=1.0)]
+    near = stand_in.clearance("A1", "RTU-9", 1.0)  # as in plan
+    both = scenes.package(arrays=[array], objects=objects, clearances=[far, near])
+    deleted = scenes.package(arrays=[array], objects=objects, clearances=[far])
+    ratios, names = [], []
+    for made in (both, deleted):
+        gap = made.assessment.governing_gap()
+        assert gap.demand_capacity == made.assessment.governing_gap("A1").demand_capacity > 1.0
+        ratios.append(gap.demand_capacity)
+        row = printed(made, "letter").table("Results").row("A1")
+        names.append((row["Governing clearance to"], row["D/C"]))
+        assert f"A1 to RTU-9{', not given' * (made is deleted)}: D/C {row['D/C']}" in str(
+            printed(made, "cover")
+        )
+        assert "One of two clearances is satisfied." in printed(made, "letter")
+    assert ratios[0] == pytest.approx(ratios[1])
+    assert names == [("RTU-9", names[0][1]), ("RTU-9 (not given)", names[0][1])]
+    assert "The plan shows one of them without a row" in printed(deleted, "letter")
