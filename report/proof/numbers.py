@@ -5,7 +5,9 @@ from __future__ import annotations
 import difflib
 import json
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 from typing import Any
 
 from pydantic_core import from_json
@@ -15,8 +17,8 @@ from solver.model import InputError
 MOST = 5
 """Differences told of one sheet or file; the others are counted."""
 
-_LONGEST = 60
-_DIGITS = 20
+_LONGEST, _DIGITS = 60, 20
+_MOST_PAIRS = 100_000  # of equal words of two sheets: those of a package have fewer
 
 
 def parsed(content: bytes, name: str) -> Any:
@@ -41,8 +43,7 @@ def _unlike(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return an object of JSON; of a key given twice one program reads the first, one the last."""
     found = dict(pairs)
     if len(found) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
+        twice = next(key for key, count in Counter(key for key, _ in pairs).items() if count > 1)
         raise ValueError(f"the key {_short(twice)} is given twice")
     return found
 
@@ -113,6 +114,10 @@ def word_differences(claimed: str, computed: str) -> list[str]:
     one, two = claimed.split(), computed.split()
     if "".join(one) == "".join(two):
         return []
+    first = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(one, two, strict=False)))
+    one, two = one[first:], two[first:]
+    if sum(map(Counter(two).__getitem__, one)) > _MOST_PAIRS:
+        return [f"{_quoted(one)} where the input gives {_quoted(two)}"]
     matcher = difflib.SequenceMatcher(None, one, two, autojunk=False)
     return [
         f"{_quoted(one[a:b])} where the input gives {_quoted(two[c:d])}"

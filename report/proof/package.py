@@ -28,7 +28,7 @@ _T = TypeVar("_T")
 _END = re.compile(rb"startxref\s+(\d{1,12})\s+%%EOF[\r\n]*")
 # Cross-references, a table or a stream, to which the end of a PDF points. That of an attached PDF,
 # which compression may store as it is, points to a place within that PDF.
-_XREF = re.compile(rb"xref\s|\d+ \d+ obj\b")
+_XREF = re.compile(rb"xref\s|\d{1,10} \d{1,10} obj\b")
 _LONGEST_NAME = 255
 
 

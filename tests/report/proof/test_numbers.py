@@ -2,6 +2,7 @@
 
 import pytest
 
+from growth import grows_faster
 from report.proof.numbers import number_differences, parsed, word_differences
 from solver.model import InputError
 
@@ -54,3 +55,29 @@ def test_blanks_between_words_do_not_count_and_every_letter_does():
 def test_what_the_reader_of_json_says_reaches_nobody(content):
     with pytest.raises(InputError, match=r"^results.json is damaged: no JSON$"):
         parsed(content, "results.json")
+
+
+def test_an_object_of_many_keys_is_refused_in_a_time_that_grows_as_their_number():
+    def twice(count):
+        keys = [f'"k{k}": 1' for k in range(count)]
+        return f"{{{', '.join([*keys, keys[-1]])}}}".encode()
+
+    def read(content):
+        with pytest.raises(InputError, match=r'the key "k\d+" is given twice'):
+            parsed(content, "results.json")
+
+    assert not grows_faster(read, twice, 2_000)
+
+
+def test_sheets_of_the_same_words_in_another_order_differ_from_the_first_of_them_on():
+    few, many = ("0.1 " + "a b " * count for count in (20, 1_000))
+    assert word_differences(few + "b", few) == ["'b' where the input gives nothing"]
+    assert word_differences(many + "b", many) == ["'b' where the input gives nothing"]
+    (told,) = word_differences("0.1 b " + "a b " * 1_000, many + "a")
+    assert told.startswith("'b a b a b")
+    assert " where the input gives 'a b a b" in told
+    assert not grows_faster(
+        lambda pair: word_differences(*pair),
+        lambda size: ("a b " * size, "b " * size + "a " * size),
+        500,
+    )

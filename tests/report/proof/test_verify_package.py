@@ -12,6 +12,7 @@ from click.testing import CliRunner
 
 import packages
 import tampering
+from growth import grows_faster
 from places import ROOT
 from report.cli.main import main
 from report.making import OUTPUTS
@@ -147,6 +148,17 @@ def test_what_is_no_package_is_an_input_error(tmp_path, content):
     if content is not None:
         path.write_bytes(content)
     assert run(path).exit_code == 2
+
+
+def test_many_ends_that_point_to_many_digits_are_refused_in_a_time_that_grows_as_they_do(tmp_path):
+    path = tmp_path / "given.pdf"
+
+    def refused(count):
+        path.write_bytes(b"%PDF-1.7\n" + b"1" * 400 * count + b"\nstartxref\n9\n%%EOF" * count)
+        with pytest.raises(InputError, match="is no PDF, or is cut off"):
+            open_package(path)
+
+    assert not grows_faster(refused, int, 500)
 
 
 def test_a_pdf_without_the_input_is_an_input_error(tmp_path):
