@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -160,10 +161,11 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
 def _heading_problems(headings: list[str]) -> Iterator[str]:
     accepted = ", ".join([*_KEYS, f"{_PRD} [mm]", f"{_RESIDUAL} [mm]"])
     keys = [_HEADINGS[heading][0] if heading in _HEADINGS else "" for heading in headings]
+    counts = Counter(keys)
     for heading, key in zip(headings, keys, strict=True):
         if not key:
             yield f"{NAME}, row 1: found the heading {shown(heading)}; accepted are {accepted}"
-        elif keys.count(key) > 1:
+        elif counts[key] > 1:
             yield f"{NAME}, row 1: the heading {heading} is there twice"
     for key in _REQUIRED:
         if key not in keys:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import tables
+from growth import grows_faster
 from solver.model import InputError
 from solver.sliding.least_model import Model
 from solver.verification.checks import G, trapezoid
@@ -182,3 +183,14 @@ def test_no_file_and_other_bytes_are_refused(folder):
     assert "give a folder with tests.csv" in faults(folder)[0]
     (folder / "tests.csv").write_bytes(b"\xff\xfe\x00T")
     assert "not CSV UTF-8, separated by commas; save it so" in faults(folder)[0]
+
+
+def test_many_headings_are_refused_in_a_time_that_grows_as_their_number(tmp_path):
+    def written(count):
+        folder = tmp_path / str(count)
+        folder.mkdir(exist_ok=True)
+        (folder / "tests.csv").write_text("x," * count)
+        return folder
+
+    assert "the heading x is there twice" in faults(written(10))[0]
+    assert not grows_faster(faults, written, 4_000)
