@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic_core import from_json
 
 import solver
 from report.manual.machine import installed, processor
@@ -125,7 +126,7 @@ def check_former(folder: Path, manifest: Mapping[str, Any]) -> None:
     if not path.exists():
         return
     try:
-        former = json.loads(path.read_bytes())
+        former = from_json(path.read_bytes())
         schema, wrote = former["schema_version"], dict(former["program"])
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"{path}: damaged, not the manifest of a study; {away}") from error

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pydantic_core import from_json
 
 from report.study.extra import ARROW, extra
 from report.study.manifest import NAME, machine
@@ -209,7 +210,7 @@ def _journal(folder: Path) -> Iterator[dict[str, Any]]:
         return
     for line in lines:
         try:
-            content = json.loads(line)
+            content = from_json(line)
         except ValueError:
             continue
         if isinstance(content, dict) and Done.__dataclass_fields__.keys() <= content.keys():

@@ -152,7 +152,7 @@ def test_a_torn_line_of_the_journal_loses_one_part_only(copy):
     folder, c, _ = copy
     lines = (folder / JOURNAL).read_bytes().splitlines(keepends=True)
     lost = json.loads(lines[-1])["number"]
-    (folder / JOURNAL).write_bytes(b"".join(lines)[:-20])
+    (folder / JOURNAL).write_bytes(b"".join(lines)[:-20] + b"\n" + b"[" * 100_000 + b"\n")
     assert run(folder, c)[1] == [lost]
     assert run(folder, c)[1] == []
 
@@ -179,7 +179,8 @@ def test_a_manifest_of_another_version_is_refused_with_what_to_do(copy, change):
 
 @pytest.mark.parametrize(
     ("text", "wanted"),
-    [("{", "not the manifest of a study"), ("[]", "not the manifest of a study"),
+    [("{", "not the manifest of a study"), ("[" * 100_000, "not the manifest of a study"),
+     ("[]", "not the manifest of a study"),
      ('{"schema_version": 1}', "not the manifest of a study"), ('"x"', "not the manifest"),
      ('{"schema_version": 99, "program": {}}', "schema_version 99")],
 )  # fmt: skip
