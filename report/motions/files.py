@@ -98,7 +98,7 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
     file, _, channel = name.partition(BAR)
     sheets = (sheet.values for sheet in book.book.worksheets if sheet.title == "Motions")
     cells = (str(cell) for rows in sheets for row in rows for cell in row if cell)
-    taken = {cell.partition(BAR)[0].strip() for cell in cells}
+    taken = (cell.partition(BAR)[0].strip() for cell in cells)
     path = path_beside(book.path.parent, file.strip(), MAX_BYTES, "records/m1-x.csv", taken)
     return path, channel.strip()
 

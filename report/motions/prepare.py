@@ -22,7 +22,7 @@ from solver.model import Motion
 # Of all files, each counted for every motion that names it: what is read within 10 s.
 MAX_TOGETHER = 64_000_000
 # Once a record is at fault: the faults so far are told without reading all others.
-MAX_BESIDE_FAULTS = 10_000_000
+MAX_BESIDE_FAULTS, MOST_FAULTS = 10_000_000, 100
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +38,7 @@ _TOO_MUCH = (
     f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together",
     "give fewer motions, or convert the records (roofslip motion convert)",
 )
+_NOT_READ = ("the records from here on are not read", "correct those before it first")
 
 
 def prepare(sheet: Sheet) -> Shaking:
@@ -58,7 +59,8 @@ def read_records(sheet: Sheet) -> tuple[Components, ...]:
     total = 0
     for index, row in enumerate(sheet.draft["motions"]):
         total += bytes_of(sheet.book, {row[field] for field in LABELS if row.get(field)})
-        if faults and total > MAX_BESIDE_FAULTS:
+        if len(faults) > MOST_FAULTS or (faults and total > MAX_BESIDE_FAULTS):
+            faults.append(Finding.error(Place("motions", index, "record"), *_NOT_READ))
             break
         if total > MAX_TOGETHER:
             faults.append(Finding.error(Place("motions", index, "record"), *_TOO_MUCH))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import posixpath
-from collections.abc import Collection
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
@@ -23,7 +23,7 @@ MAX_DOCUMENTS = 20_000_000
 """Bytes of all documents that a workbook attaches."""
 
 MOST_LISTED = 2_000
-"""Files among which one is sought whose name nearly fits."""
+"""Files among which one is sought whose name nearly fits, and names that are taken."""
 
 DOCUMENTS = (("friction_tests", "report_file"), ("options", "peer_letter"))
 """Single cells that name a document to attach."""
@@ -40,11 +40,11 @@ class Document:
 
 
 def path_beside(
-    folder: Path, name: str, max_bytes: int, example: str, taken: Collection[str] = ()
+    folder: Path, name: str, max_bytes: int, example: str, taken: Iterable[str] = ()
 ) -> Path:
     """Return the file of a name, which must lie within the workbook's folder.
 
-    Names that are taken are not the ones that may have been meant.
+    Names that are taken, read only if the file is missing, are not those that were meant.
 
     Raises
     ------
@@ -76,12 +76,12 @@ def path_beside(
     return path
 
 
-def _meant(folder: Path, name: str, taken: Collection[str]) -> str:
+def _meant(folder: Path, name: str, taken: Iterable[str]) -> str:
     """Ask for the file whose name nearly fits, in the named folder or one of the workbook's."""
     wanted = PurePosixPath(name)
     near = islice(chain((folder / wanted).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
     by_stem = grouped_by((path for path in near if path.is_file()), lambda path: path.stem)
-    stems = [PurePosixPath(each).stem for each in taken]
+    stems = {PurePosixPath(each).stem for each in islice(taken, MOST_LISTED)}
     alike = by_stem.get(nearest(wanted.stem, by_stem, stems), [])
     files = [path.relative_to(folder).as_posix() for path in alike]
     return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""
