@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 from report.sheet.checking.conditions import ORDERED
 from report.sheet.checking.drafts import suggestion
@@ -27,7 +28,7 @@ from report.sheet.schema.shapes import (
 )
 from report.words.units import Quantity, pair
 
-LEAST_VERTICES = 3
+LEAST_VERTICES, MOST_OVERLAPS = 3, 1_000
 _EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
 _PLACED = ("arrays", "objects")
 
@@ -80,7 +81,7 @@ def plan_faults(draft: Draft, where: Where) -> Iterator[Finding]:
     yield from _outline_rows(draft, where)
     yield from _doubled(draft, where)
     yield from _on_the_roof(draft, where)
-    yield from _overlaps(draft, where)
+    yield from islice(_overlaps(draft, where), MOST_OVERLAPS)
 
 
 def _shape(row: DraftRow, outline: _Outline | None) -> Shape | None:

@@ -8,9 +8,21 @@ from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
 from cells import address, cell
 from places import ROOT
+from report.sheet.checking.plan_checks import MOST_OVERLAPS
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
-from sheets import at, edit, make, of, problems, put, read_workbook, said, type_into
+from sheets import (
+    arrays,
+    at,
+    edit,
+    make,
+    of,
+    problems,
+    put,
+    read_workbook,
+    said,
+    type_into,
+)
 from solver.model import InputError
 from solver.rules.provisions import OVERRIDABLE
 
@@ -558,3 +570,9 @@ def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it
         low <= at_cell.rstrip("0123456789") <= (high or low) and at_cell.endswith(row)
         for low, row, high in named
     ), caught.value
+
+
+def test_of_a_thousand_overlaps_and_more_a_thousand_are_told(tmp_path):
+    same = [arrays()[0] | {"id": f"A{k}"} for k in range(1, 51)]
+    found = problems(make(tmp_path, arrays=same))
+    assert sum("overlap in plan; correct one of them" in each for each in found) == MOST_OVERLAPS
