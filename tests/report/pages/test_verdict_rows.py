@@ -52,9 +52,9 @@ def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
 
 def test_deleting_the_row_of_a_clearance_lowers_nothing():
     """What the plan shows and no row covers counts as the row did: D/C, letter, cover, counts."""
-    array, far = stand_in.array("A1", 0.5), stand_in.clearance("A1", "RTU-8", 40.0)
+    array, far = stand_in.array("A1", 0.5), stand_in.clearance("A1", "RTU-8", 40.0 * stand_in.FOOT)
     objects = [NEAR, stand_in.roof_object("RTU-8", "fixed object", 140, 145, 35, 42, height=1.0)]
-    near = stand_in.clearance("A1", "RTU-9", 1.0)  # as in plan
+    near = stand_in.clearance("A1", "RTU-9", stand_in.FOOT)  # as in plan
     both = scenes.package(arrays=[array], objects=objects, clearances=[far, near])
     deleted = scenes.package(arrays=[array], objects=objects, clearances=[far])
     ratios, names = [], []
