@@ -57,7 +57,7 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
     """Return the requirements on the whole project, its motions and its friction tests."""
     return (
         _building_code(data),
-        _roof_outline(data),
+        *_roof_outline(data),
         *_dates(data),
         *_peer_review(data),
         *override_rows(data),
@@ -84,19 +84,19 @@ def _building_code(data: ProjectInput) -> Requirement:
     )
 
 
-def _roof_outline(data: ProjectInput) -> Requirement:
-    is_given = data.roof.placed is not None
-    return condition(
-        id="roof_outline",
-        title="Outline of the roof",
-        found="given" if is_given else NOT_GIVEN,
-        limit="given",
-        basis="roof plan",
-        is_satisfied=is_given,
-        remedy="Enter the outline of the roof on the sheet Site: without it, roof edges near the "
-        "arrays were not looked for.",
-        place=Place("roof", 0, "x_from_m"),
-    )
+def _roof_outline(data: ProjectInput) -> Iterator[Requirement]:
+    if data.roof.placed is None:
+        yield condition(
+            id="roof_outline",
+            title="Outline of the roof",
+            found=NOT_GIVEN,
+            limit="given",
+            basis="roof plan",
+            is_satisfied=False,
+            remedy="Enter the outline of the roof on the sheet Site: without it, roof edges near "
+            "the arrays were not looked for.",
+            place=Place("roof", 0, "x_from_m"),
+        )
 
 
 def _dates(data: ProjectInput) -> Iterator[Requirement]:
