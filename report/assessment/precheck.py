@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from shlex import quote
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
@@ -154,7 +155,7 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
         f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}."
         f" Reach before any run: twice the prescriptive displacement, {reach}, or what it requires."
         f" {'Add the roof edges as objects, then run' if is_bare else 'Run'} roofslip plan"
-        " clearances, or add the rows"
+        f" clearances {quote(str(sheet.path))}, or add the rows"
     )
     yield limit(Place("clearances"), text)
 

@@ -91,7 +91,7 @@ def checked(
     progress("reading the records")
     shaking = prepare(sheet)
     progress("comparing with the limits")
-    typed_over = formula_findings(overwritten(sheet.book))
+    typed_over = formula_findings(overwritten(sheet.book), sheet.path)
     return (
         sheet,
         shaking,

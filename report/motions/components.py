@@ -15,7 +15,7 @@ import numpy as np
 
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
 from report.motions.spikes import spikes
-from report.sheet.checking.motion_checks import LABELS
+from report.sheet.checking.motion_checks import LABELS, SHORTEST_S
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.unseen import Unseen
 from report.sheet.schema.choices import AccelUnit, Baseline, Scaling
@@ -26,9 +26,6 @@ from solver.formats import read_motion_file
 from solver.model import InputError
 from solver.records.processing import Processing, process, process_together
 from solver.records.record import Record
-
-SHORTEST_S = 1.0
-"""Duration [s] below which a motion is refused: no earthquake record is as short."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -17,6 +17,9 @@ from solver.building.beam import MOST_STORIES
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
 """Fields of a motion that name a record, each with the name of its component."""
 
+SHORTEST_S = 1.0
+"""Duration [s] below which a motion is refused: no earthquake record is as short."""
+
 
 def motion_faults(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield all inconsistencies in the motions of a draft."""
@@ -51,7 +54,7 @@ def _scale_value(index: int, row: DraftRow) -> Iterator[Finding]:
 def _processing(index: int, row: DraftRow) -> Iterator[Finding]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
-        wanted = f"give more than the start time, {start or 0.0:g} s"
+        wanted = f"give {(start or 0.0) + SHORTEST_S:g} s or more"
         yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", wanted)
     high, low = row.get("highpass_hz"), row.get("lowpass_hz")
     if high is not None and low is not None and low <= high:

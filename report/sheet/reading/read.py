@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from shlex import quote
 from typing import Any, Generic, TypeVar
 
 from report.sheet.checking.checks import faults
@@ -150,7 +151,8 @@ def read_book(book: OpenBook) -> Sheet:
         `report.motions.prepare` those together with the errors of its records.
     """
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
-        raise InputError(f"{_STUDY}: this is the workbook of a study; run roofslip study on it")
+        run = f"roofslip study {quote(str(book.path))}"
+        raise InputError(f"{_STUDY}: this is the workbook of a study; run {run}")
     sheet = read_as(ProjectInput, book, faults)
     documents, wrong = read_documents(book, sheet.draft)
     problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))

@@ -10,6 +10,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby, product
+from pathlib import Path
+from shlex import quote
 
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
@@ -86,7 +88,7 @@ def _differs(found: Found, formula: str) -> bool:
     return found.formula != formula and canonical(found.formula) != canonical(formula)
 
 
-def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
+def findings(lost: Sequence[Overwritten], workbook: Path) -> Iterator[Finding]:
     """Yield a warning for each run of cells below each other."""
     keys = {section.sheet: section.key for section in reversed(SECTIONS)}
     for run in _runs(lost):
@@ -94,7 +96,7 @@ def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
         cell = first.position.address
         cells = f"{cell}:{last.position.cell}" if len(run) > 1 else cell
         place = Place(keys.get(first.position.sheet, SECTIONS[0].key))
-        text = _text(first, len(run))
+        text = _text(first, len(run), workbook)
         yield Finding(level=Level.WARNING, place=place, text=text, cell=cells)
 
 
@@ -108,7 +110,7 @@ def _runs(lost: Sequence[Overwritten]) -> Iterator[list[Overwritten]]:
         yield [item for _, item in run]
 
 
-def _text(item: Overwritten, count: int) -> str:
+def _text(item: Overwritten, count: int, workbook: Path) -> str:
     title = f"{item.title} ({count} cells)" if count > 1 else item.title
     if not item.can_be_restored:
         return f"{title} refers to a column that is missing; write its heading again, or {FRESH}"
@@ -122,7 +124,7 @@ def _text(item: Overwritten, count: int) -> str:
         what = f"is {_from(found.formula, start)}, and its formula is {_from(formula, start)}"
     else:
         what = f"is {cut(plain(found.value))}, typed over its formula {cut(formula, _SHOWN)}"
-    return f"{title} {what}; roofslip check --repair restores it"
+    return f"{title} {what}; roofslip check --repair {quote(str(workbook))} restores it"
 
 
 def _from(formula: str, start: int) -> str:

@@ -241,7 +241,7 @@ CONTRADICTIONS = [
      "<Motions/M1/Factor or PPA>: factor or PPA is 2, but scaling is 'target spectrum'; change"
      " the scaling or leave this blank"),
     ({"Motions/M1/Start time": 1.5, "Motions/M1/End time": 1.5},
-     "<Motions/M1/End time>: end time is 1.5 s; give more than the start time, 1.5 s"),
+     "<Motions/M1/End time>: end time is 1.5 s; give 2.5 s or more"),
     ({"Motions/M1/High-pass corner": 20, "Motions/M1/Low-pass corner": 20},
      "<Motions/M1/Low-pass corner>: low-pass corner is 20 Hz; give more than the high-pass"
      " corner, 20 Hz"),

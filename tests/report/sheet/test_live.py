@@ -69,9 +69,10 @@ OVER = {
 
 
 def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
-    found = overwritten(open_book(edit(make(tmp_path), typed_over)))
+    path = edit(make(tmp_path), typed_over)
+    found = overwritten(open_book(path))
     assert tuple(item.position.address for item in found) == said(*OVER)
-    texts = {item.cell: item.text for item in findings(found)}
+    texts = {item.cell: item.text for item in findings(found, path)}
     ratios = ":".join((at(RATIO.format(1)), at(RATIO.format(3)).partition("!")[2]))
     for place, words in {
         "Site/S_DS/Computed": "S_DS, computed, is 1.2, typed over its formula =IF(ISNUM",
@@ -80,7 +81,8 @@ def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
         ratios: "D/C, prescriptive (3 cells) is 0.5, typed",
     }.items():
         assert words in texts[at(place)]
-    assert all(text.endswith("; roofslip check --repair restores it") for text in texts.values())
+    restores = f"; roofslip check --repair {path} restores it"
+    assert all(text.endswith(restores) for text in texts.values())
 
 
 def test_check_warns_and_repair_restores_every_formula_to_the_letter(tmp_path):
@@ -151,7 +153,7 @@ def test_a_formula_that_refers_to_a_deleted_column_is_named_and_not_repaired(tmp
         retitle(book, "Arrays", "Slope in degrees", "My column")
 
     path = edit(make(tmp_path), delete)
-    texts = [item.text for item in findings(overwritten(open_book(path)))]
+    texts = [item.text for item in findings(overwritten(open_book(path)), path)]
     assert any("refers to a column that is missing" in text for text in texts)
     before = path.read_bytes()
     assert check("--repair", path).output.startswith("0 formulas restored\n")
