@@ -107,7 +107,7 @@ class ClearanceResult(Entity):
         """The direction after a comma, if it has one."""
         return "" if self.direction is Direction.ANY else f", {self.direction.value}"
 
-    @unwritten(words("Between", 2.4))
+    @unwritten(words("Between", 1.6))
     def between(self) -> str:
         """What is on either side."""
         return f"{self.array}–{self.object}"
