@@ -118,8 +118,10 @@ class Scan(ContentHandler):
                 self._formula, self._text = dict(attrs), []
                 if element == "f":
                     self.extent.grow(self._row, self._column)
-                defined = attrs.get("name", "")
-                if defined and self._is_again(defined.casefold(), attrs.get("localSheetId")):
+                # LibreOffice writes those of Excel's own twice, such as _xlnm.Print_Titles.
+                defined = attrs.get("name", "_xlnm.")
+                is_own = defined.startswith("_xlnm.")
+                if not is_own and self._is_again(defined.casefold(), attrs.get("localSheetId")):
                     self.twice = defined
             case "ddeLink":
                 self.outside.append(f"DDE {attrs.get('ddeService')}|{attrs.get('ddeTopic')}")
