@@ -10,6 +10,7 @@ import pytest
 from places import ROOT
 from solver.files import LOCK, locked, write_all, write_whole
 from solver.model import InputError
+from stranger import occupied
 
 
 @pytest.fixture
@@ -36,21 +37,6 @@ def test_a_link_that_the_user_gave_is_followed(tmp_path, path):
     assert target.read_bytes() == b"new"
 
 
-def placed(kind, path, outside):
-    """Put something in the place of a file, which leads to a file outside or to none."""
-    match kind:
-        case "link":
-            path.symlink_to(outside)
-        case "dangling link":
-            path.symlink_to(outside.with_name("nowhere"))
-        case "device":
-            path.symlink_to(os.devnull)
-        case "pipe":
-            os.mkfifo(path)
-        case "folder":
-            path.mkdir()
-
-
 TOLD = {
     "link": "is a link to .*/outside",
     "dangling link": "is a link to .*/nowhere",
@@ -67,7 +53,7 @@ def test_nothing_is_written_through_what_is_in_the_place_of_a_file(tmp_path, kin
     (folder / "sub").mkdir(parents=True)
     outside.write_bytes(b"old")
     (folder / "a.csv").write_bytes(b"old")
-    placed(kind, folder / name, outside)
+    occupied(folder / name, kind, outside)
     with pytest.raises(InputError, match=rf"{name}: {TOLD[kind]}.*; move it away"):
         write_all({"a.csv": b"new", name: b"new"}, folder)
     assert sorted(os.listdir(tmp_path)) == ["here", "outside"]
@@ -158,9 +144,7 @@ def test_a_lock_is_not_opened_through_what_is_in_its_place(tmp_path, kind):
     outside, folder = tmp_path / "outside", tmp_path / "here"
     folder.mkdir()
     outside.write_bytes(b"old")
-    placed(kind, folder / LOCK, outside)
-    if kind == "hard link":
-        os.link(outside, folder / LOCK)
+    occupied(folder / LOCK, kind, outside)
     told = TOLD.get(kind, "is also the file of another name")
     with pytest.raises(InputError, match=rf"{LOCK}: {told}"):
         locked(folder).__enter__()
