@@ -226,7 +226,7 @@ def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
             "Until it is satisfied, the value from analysis is not permitted: replace or complete "
             "the motions."
         )
-    return "The design displacements are prescriptive; the analysis is for information."
+    return "No array takes the value from analysis."
 
 
 def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requirement, ...]:
