@@ -1,4 +1,4 @@
-"""What would satisfy a clearance or an array marked NG: friction, separation, S_DS.
+"""What would satisfy a clearance or an array marked NG: friction, separation.
 
 Searches with the runs of `report.assessment.trials`; `report.pages.remedies` prints the results.
 Read `remedies`.
@@ -7,7 +7,7 @@ Read `remedies`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass
 from enum import StrEnum
@@ -19,7 +19,6 @@ from report.assessment.trials import (
     HUNDREDTH,
     Trials,
     above,
-    below,
     displaced,
     hundredths,
     involved,
@@ -33,20 +32,12 @@ from report.sheet.schema.scene import Clearance
 from solver.friction_tests import MOST_MU
 from solver.rules.provisions import Basis
 
-LEAST_S_DS_G = 0.05
-"""Smallest S_DS tried [g]."""
-
-S_DS_STRIDES = (20, 5, 1)
-"""Hundredths of g between the values of each pass. Displacements fall with growing acceleration in
-0.03 % of steps, with falling friction in 0.3 %: S_DS takes a coarser first pass."""
-
 
 class RemedyKind(StrEnum):
     """Quantity that would have to change."""
 
     FRICTION = "friction coefficient"
     SEPARATION = "provided separation"
-    S_DS = "S_DS"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,8 +48,7 @@ class Remedy:
     clearance: int  # number of the clearance in the workbook, from 1; 0 for the runs of an array
     array: str  # array whose friction or displacement it is
     given: float  # value in the workbook
-    # the one that would do: the least friction coefficient, the least separation [m] or the largest
-    # S_DS [g]; NaN if none within the search would
+    # least coefficient or separation [m] that would do; NaN if none within the search would
     value: float
     resolution: float  # step of the search; 0 for a value that follows from the runs of the package
     # smallest and largest of the values at which all runs satisfied, without failure between
@@ -87,12 +77,9 @@ def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
         short = [one for one in here if not _satisfies(one.array, given, gap.clearance)]
         yield from (_friction(one, number, gap.clearance) for one in short)
         yield _separation(given, number, gap)
-        if short:
-            yield _s_ds(short, number, gap.clearance)
     for array in given.arrays:
         if not is_final(array):
             yield _friction(trials[array.id], 0, None)
-            yield _s_ds([trials[array.id]], 0, None)
 
 
 def _satisfies(array: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
@@ -164,38 +151,4 @@ def _separation(given: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
         basis="there is no design displacement"
         if math.isnan(required)
         else "the required separation at the design displacement of this package",
-    )
-
-
-def _s_ds(trials: Sequence[Trials], number: int, row: Clearance | None) -> Remedy:
-    """Return the largest S_DS with which all arrays of a clearance satisfy."""
-    array, given = trials[0].array, trials[0].given
-    site, start = given.project.site, hundredths(LEAST_S_DS_G)
-    end = below(site.s_ds)
-    held: tuple[int, ...] = ()
-    if array.analysis.basis is not Basis.TOO_FEW and end >= start:
-        held = search(
-            lambda s_ds: all(one.satisfies(row, s_ds=s_ds) for one in trials),
-            start,
-            end,
-            S_DS_STRIDES,
-        )
-    most = held[-1] / 100 if held else math.nan
-    takes_floor = any(one.route is Route.ANALYSIS and one.floor_m for one in given.arrays)
-    floor = " and the floor" if takes_floor else ""
-    scaled = (
-        f"all motions scaled in proportion to S_DS, the prescriptive displacement{floor} by "
-        f"formula, seismic design category {site.sdc_text}"
-    )
-    none = f"no S_DS from {LEAST_S_DS_G} g is low enough"
-    return Remedy(
-        kind=RemedyKind.S_DS,
-        clearance=number,
-        array=array.id,
-        given=site.s_ds,
-        value=most,
-        resolution=HUNDREDTH,
-        verified=(LEAST_S_DS_G if held else math.nan, most),
-        n_values=len(held),
-        basis=scaled if held else _too_few(array) or none,
     )

@@ -1,4 +1,4 @@
-"""One array rerun with other friction or with weaker motions, through the checks of a project.
+"""One array rerun with other friction, through the checks of a project.
 
 Runs nothing by itself: `report.assessment.remedies` and `report.assessment.uncertainty` search with
 it. Read `Trials`, then `search`.
@@ -22,7 +22,7 @@ from report.sheet.schema.scene import Array, Clearance
 from solver.model import Status
 
 HUNDREDTH = 0.01
-"""Resolution of the searches, in friction coefficient and in S_DS [g]."""
+"""Resolution of the searches for a friction coefficient."""
 
 STRIDES = (5, 1)
 """Hundredths between the values of each pass of a search."""
@@ -55,9 +55,7 @@ def with_mu(array: Array, mu: float) -> Array:
     return at_low_velocity(array).model_copy(update={"mu": mu})
 
 
-def search(
-    satisfies: Callable[[int], bool], start: int, end: int, strides: Sequence[int] = STRIDES
-) -> tuple[int, ...]:
+def search(satisfies: Callable[[int], bool], start: int, end: int) -> tuple[int, ...]:
     """Walk from one value toward another, and return those before the first failure, in order.
 
     Each pass goes on from the last value of the one before, in smaller steps: no value tried
@@ -72,18 +70,17 @@ def search(
         return ()
     way = 1 if end >= start else -1
     held = [start]
-    for step in strides:
+    for step in STRIDES:
         while (following := held[-1] + way * step) * way <= end * way and satisfies(following):
             held.append(following)
     return tuple(held)
 
 
 class Trials:
-    """One array under the motions of a project, with other friction or with weaker motions.
+    """One array under the motions of a project, with other friction, in hundredths.
 
-    Friction and S_DS are in hundredths. Friction that varies with velocity is scaled as a whole;
-    its low-velocity coefficient names it. Results are kept: several clearances of an array ask for
-    the same ones.
+    Friction that varies with velocity is scaled as a whole; its low-velocity coefficient names it.
+    Results are kept: several clearances of an array ask for the same ones.
 
     Parameters
     ----------
@@ -98,44 +95,38 @@ class Trials:
         self.array = array
         self._pool = pool
         self._runs = runs
-        self._done: dict[tuple[int, int, bool], ArrayAssessment] = {}
+        self._done: dict[tuple[int, bool], ArrayAssessment] = {}
 
-    def satisfies(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
-        """Whether all runs have final values and satisfy a clearance, if any.
-
-        Parameters
-        ----------
-        mu, s_ds : int
-            Friction coefficient and S_DS in hundredths; 0 for those given.
-        """
+    def satisfies(self, row: Clearance | None, *, mu: int) -> bool:
+        """Whether all runs have final values and satisfy a clearance, if any."""
         # The governing orientations alone refute a value at a quarter of the runs.
-        return self.may_satisfy(row, mu=mu, s_ds=s_ds) and self._passes(row, mu, s_ds, every=True)
+        return self.may_satisfy(row, mu=mu) and self._passes(row, mu, every=True)
 
-    def may_satisfy(self, row: Clearance | None, *, mu: int = 0, s_ds: int = 0) -> bool:
+    def may_satisfy(self, row: Clearance | None, *, mu: int) -> bool:
         """Whether the governing orientation of each motion alone satisfies a clearance."""
-        return self._passes(row, mu, s_ds, every=False)
+        return self._passes(row, mu, every=False)
 
     def required_m(self, row: Clearance, *, mu: int) -> float:
         """Return the separation that the array requires with all runs [m]."""
-        trial = self._tried(mu, 0, every=True)
+        trial = self._tried(mu, every=True)
         return single_array_check(self.given, self.given.project, trial, row).required_m
 
-    def _passes(self, row: Clearance | None, mu: int, s_ds: int, *, every: bool) -> bool:
-        trial = self._tried(mu, s_ds, every=every)
+    def _passes(self, row: Clearance | None, mu: int, *, every: bool) -> bool:
+        trial = self._tried(mu, every=every)
         if not is_final(trial) or (self.array.satisfies_limits and not trial.satisfies_limits):
             return False
-        return row is None or single_array_check(self.given, self._data(s_ds), trial, row).ok
+        return row is None or single_array_check(self.given, self.given.project, trial, row).ok
 
-    def _tried(self, mu: int, s_ds: int, *, every: bool) -> ArrayAssessment:
+    def _tried(self, mu: int, *, every: bool) -> ArrayAssessment:
         """Return the array with all runs, or with the governing orientation of each motion only."""
-        which = (mu, s_ds, every)
+        which = (mu, every)
         if which not in self._done:
-            given = self.array.array
-            array, key = with_mu(given, mu / 100) if mu else given, (which, scene_key(given))
+            array = with_mu(self.array.array, mu / 100)
+            key = (which, scene_key(self.array.array))
             if key not in self._runs:
                 self._runs[key] = self._run(array, *which)
             self._done[which] = assess_array(
-                self._data(s_ds),
+                self.given.project,
                 self.given.rules,
                 array,
                 self._runs[key],
@@ -144,18 +135,11 @@ class Trials:
             )
         return self._done[which]
 
-    def _run(self, array: Array, mu: int, s_ds: int, every: bool) -> tuple[MotionRun, ...]:
+    def _run(self, array: Array, mu: int, every: bool) -> tuple[MotionRun, ...]:
         if every:
-            first = self._tried(mu, s_ds, every=False)
+            first = self._tried(mu, every=False)
             return tuple(self._pool.map(partial(_other_runs, array), first.motions))
-        share = s_ds / 100 / self.given.project.site.s_ds if s_ds else 1.0
-        return tuple(self._pool.map(partial(_first_run, array, share), self.array.motions))
-
-    def _data(self, s_ds: int) -> ProjectInput:
-        """Return the input with an S_DS; the seismic design category remains as given."""
-        data = self.given.project
-        site = data.site.model_copy(update={"s_ds_g": s_ds / 100})
-        return data.model_copy(update={"site": site}) if s_ds else data
+        return tuple(self._pool.map(partial(_first_run, array), self.array.motions))
 
 
 def trials_of(given: Assessment, pool: Executor) -> Mapping[str, Trials]:
@@ -164,9 +148,8 @@ def trials_of(given: Assessment, pool: Executor) -> Mapping[str, Trials]:
     return {array.id: Trials(given, array, pool, runs) for array in given.arrays}
 
 
-def _first_run(array: Array, share: float, run: MotionRun) -> MotionRun:
-    motion = replace(run.motion, scale=run.motion.scale * share)
-    return motion_run(motion, [run_oriented(array, motion, run.governing.orientation)])
+def _first_run(array: Array, run: MotionRun) -> MotionRun:
+    return motion_run(run.motion, [run_oriented(array, run.motion, run.governing.orientation)])
 
 
 def _other_runs(array: Array, first: MotionRun) -> MotionRun:

@@ -20,7 +20,7 @@ from report.sheet.schema.building import BuildingInput
 from solver.model import Status
 from solver.rules.provisions import AnalysisValue
 
-_UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m", RemedyKind.S_DS: "_g"}
+_UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m"}
 
 
 def _cells(rows: Any) -> tuple[str, ...]:
@@ -46,25 +46,17 @@ class RemedyResult(Entity):
     """Value entered: friction coefficient."""
     given_m: OfUnit
     """Value entered: separation."""
-    given_g: OfUnit
-    """Value of the project: S_DS."""
     value: OfUnit
     """Least friction coefficient that satisfies."""
     value_m: OfUnit
     """Least separation that satisfies."""
-    value_g: OfUnit
-    """Largest S_DS that satisfies."""
     resolution: OfUnit
     """Step of the search."""
     resolution_m: OfUnit
     """Step of the search; 0 where the value follows from the runs."""
-    resolution_g: OfUnit
-    """Step of the search."""
     verified: RangeOfUnit
     """Range in which every value tried satisfied."""
     verified_m: RangeOfUnit
-    """Range in which every value tried satisfied."""
-    verified_g: RangeOfUnit
     """Range in which every value tried satisfied."""
     n_values: int
     """Number of values tried in that range."""

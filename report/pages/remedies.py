@@ -52,8 +52,6 @@ def _answer(package: PackageData, remedy: Remedy) -> PrintedRemedy:
         shows = ((given, beside(value, given)), (value, no_less))
         us_first = package.fmt.us_first
         texts = [pair(length_m, Quantity.SIZE, us_first, show) for length_m, show in shows]
-    elif remedy.kind is RemedyKind.S_DS:
-        texts = [f"{number(given, 3)} g", f"{number(value, 2)} g"]
     else:
         array = next(array for array in package.data.arrays if array.id == remedy.array)
         mus = (given, value) if remedy.exists else (given, given)
@@ -88,7 +86,7 @@ def _table(package: PackageData, found: Sequence[PrintedRemedy]) -> Table:
     def value(one: PrintedRemedy) -> str | Wide:
         if not one.value:
             return Wide(with_symbols(f"none: {one.remedy.basis}"), 3)
-        return f"{'≤' if one.remedy.kind is RemedyKind.S_DS else '≥'} {one.value}"
+        return f"≥ {one.value}"
 
     def resolution(one: PrintedRemedy) -> str:
         return f"{one.remedy.resolution:g}" if one.remedy.resolution else "exact"
