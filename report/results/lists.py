@@ -11,6 +11,7 @@ from dataclasses import asdict
 from typing import Annotated, ClassVar
 
 from report.assessment.overrides import OVERRIDDEN
+from report.assessment.precheck import limit_value
 from report.assessment.project import Assessment
 from report.assessment.spectra import Spectra
 from report.entities.cells import Column
@@ -23,7 +24,7 @@ from report.motions.prepare import Shaking
 from report.results.sheets import Pages, SheetRow, write_list, write_live, write_table
 from report.sheet.schema.choices import Direction
 from report.words.units import G_MPS2
-from solver.rules.limit import Limit
+from solver.rules.limit import Limit, Measure
 
 
 class RunRow(SheetRow, RunResult):
@@ -127,7 +128,12 @@ def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
 
 
 def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:
-    found, limit = (f"{v:.6g} {row.measure.unit}".rstrip() for v in (row.found, row.limit))
+    found, limit = (
+        limit_value(row, value, assessment.project.us_first)
+        if row.measure is Measure.LENGTH_M
+        else f"{value:.6g} {row.measure.unit}".rstrip()
+        for value in (row.found, row.limit)
+    )
     is_excepted = row.passes_by_exception
     return RequirementRow(
         subject=item,

@@ -352,6 +352,9 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
     found = next(row for row in rows if row[:2] == ("A1", slope.title))
     assert float(found[2].removesuffix(" deg")) == pytest.approx(slope.found, rel=1e-5)
     assert found[5] == ("OK" if slope.ok else "NG")
+    height = next(c for c in limits if c.measure == "m")
+    found = next(row for row in rows if row[:2] == ("A1", height.title))
+    assert found[2] == f"{height.found / 0.0254:.1f} in ({1e3 * height.found:.0f} mm)"
 
 
 def test_the_workbook_has_no_verdict_where_no_route_is_permitted():
