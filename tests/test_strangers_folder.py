@@ -2,6 +2,7 @@
 
 import errno
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -270,3 +271,11 @@ def test_of_two_commands_at_once_none_loses_a_row(folder):
         assert other.wait() == 0
     data = read(folder).project
     assert (data.motions[-1].id, data.arrays[0].mu) == ("KJM", 0.123)
+
+
+def test_a_command_that_is_printed_runs_as_it_is_pasted(tmp_path):
+    told = commands.printed("new", tmp_path / "Projekt für Dächer", "--example")
+    words = shlex.split(told.rpartition("run: ")[2])
+    assert words == ["roofslip", "report", str(tmp_path / "Projekt für Dächer")]
+    told = commands.run("check", tmp_path / "Projekt für Dächer").stdout
+    assert shlex.split(told.rpartition("Next: ")[2]) == words

@@ -22,7 +22,7 @@ from report.cli.terminal import (
     print_json,
     say,
 )
-from report.words.command import called
+from report.words.command import command
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
         click.echo(_summary(sheet, shaking, found))
         for line in lines(sheet, found):
             say(line)
-        click.echo(f"Next: {called()} report {source}")
+        click.echo(f"Next: {command('report', source)}")
 
 
 def checked(

@@ -16,7 +16,7 @@ from report.cli.groups import SectionedGroup
 from report.cli.plan_layers import choose, given_kinds
 from report.cli.terminal import SOURCE, Progress, input_errors, plain, say_next
 from report.cli.values import Number
-from report.words.command import called
+from report.words.command import command
 from report.words.counts import grouped_by, numbered
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def read(
         except InputError as error:
             more = [
                 f"Clearances are not added yet: {error.problems[0]}.",
-                f"Once the workbook has no errors, run: {called()} plan clearances {project}",
+                f"Once the workbook has no errors, run: {command('plan clearances', project)}",
             ]
     lines = (
         *turn,

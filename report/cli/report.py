@@ -28,7 +28,7 @@ from report.cli.terminal import (
     print_json,
     say,
 )
-from report.words.command import called
+from report.words.command import command
 
 if TYPE_CHECKING:
     from report.assessment.changes import Changes
@@ -50,10 +50,10 @@ def new(folder: Path, units: str, example: bool, study: bool) -> None:
         path = _new_project(folder, units, is_example=example, is_study=study)
     if example:
         click.echo(f"{path}: a warehouse with three arrays and seven motions, complete;")
-        click.echo(f"to see its package, run: {called()} report {folder}")
+        click.echo(f"to see its package, run: {command('report', folder)}")
         return
     click.echo(f"{path}: fill in the yellow cells, put the roof motions in {folder / 'records'},")
-    click.echo(f"then run: {called()} {'study' if study else 'check'} {folder}")
+    click.echo(f"then run: {command('study' if study else 'check', folder)}")
 
 
 def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> Path:

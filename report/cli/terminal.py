@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 import click
 
 from report.cli.colors import colored
-from report.words.command import as_typed, called
+from report.words.command import as_typed, command
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
@@ -162,7 +162,7 @@ def say_problems(source: Path, problems: Sequence[Problem]) -> None:
 
 def say_next(project: Path, has_formulas: bool) -> None:
     """Say what comes after cells of a workbook were filled in."""
-    click.echo(f"Next: {called()} check {project}")
+    click.echo(f"Next: {command('check', project)}")
     if has_formulas:
         click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
 
