@@ -119,8 +119,7 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
                 limit=f"not later than the package, {issued}",
                 basis="plan check",
                 is_satisfied=False,
-                remedy="Correct it, or date the package later. Nothing that is dated later is "
-                "taken as given.",
+                remedy="Correct the date, or date the package later.",
                 place=place,
             )
 

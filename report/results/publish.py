@@ -60,7 +60,7 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
     there = [name for name in names if os.path.lexists(folder / name)]
     if mixed := [name for name in there if _sha256(_content(folder / name)) != listed.get(name)]:
         warnings.warn(
-            f"{folder}: {', '.join(mixed)} not as {STAMP} says: a run was cut off, or the file was"
+            f"{folder}: not as {STAMP} says: {', '.join(mixed)}; a run was cut off, or files were"
             " changed since",
             stacklevel=2,
         )

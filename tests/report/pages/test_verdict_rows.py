@@ -71,3 +71,11 @@ def test_deleting_the_row_of_a_clearance_lowers_nothing():
     assert ratios[0] == pytest.approx(ratios[1])
     assert names == [("RTU-9", names[0][1]), ("RTU-9 (not given)", names[0][1])]
     assert "The plan shows one of them without a row" in printed(deleted, "letter")
+
+
+def test_of_one_pair_without_a_row_the_letter_says_so():
+    made = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[NEAR], clearances=[])
+    said = printed(made, "letter")
+    assert (
+        "The clearance is not satisfied. The plan shows it without a row in the workbook." in said
+    )
