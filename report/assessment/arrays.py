@@ -159,6 +159,11 @@ class ArrayAssessment(RouteLimits):
         return self.is_permitted and all(check.ok for check in self.limits)
 
     @property
+    def lacks_motions(self) -> bool:
+        """Whether it takes the value from analysis, and the motions are too few for one."""
+        return self.route is Route.ANALYSIS and self.analysis.basis is Basis.TOO_FEW
+
+    @property
     def has_unpermitted_value(self) -> bool:
         """Whether there is a design displacement, by a route that is not permitted."""
         return not math.isnan(self.design_m) and not self.is_permitted
@@ -205,6 +210,13 @@ class ArrayAssessment(RouteLimits):
         """The mark of what is by a route that an override alone permits."""
         is_opened = self.adopted is not None and self.is_permitted > self.adopted.is_permitted
         return OVERRIDDEN if is_opened else ""
+
+    @property
+    def prescriptive_mark(self) -> str:
+        """The mark of the prescriptive displacement."""
+        is_permitted = all(check.ok for check in self.prescriptive_checks)
+        overridden = self.mark(lambda array: array.prescriptive.value_m)
+        return overridden if is_permitted else f"{overridden}, {NOT_PERMITTED}"
 
     @property
     def design_mark(self) -> str:

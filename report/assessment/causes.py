@@ -1,15 +1,21 @@
-"""What gives an array its verdict, in a few words, for its row in a table.
+"""What gives an array its verdict, in a few words for its row in a table, and what gives an NG.
 
-Draws no verdict: `Assessment.array_verdict` does. Read `unshown_cause`.
+Draws no verdict: `Assessment.array_verdict` does. Read `unshown_cause`, then `reasons`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from report.assessment.verdict import Verdict
-from report.words.counts import lowered
+from report.assessment.arrays import statistic_basis
+from report.assessment.precheck import lacking_motions, limit_words
+from report.assessment.runs import nan_is_worst
+from report.assessment.verdict import Requirement, Verdict
+from report.sheet.schema.choices import ModelChoice
+from report.words.counts import lowered, ranged
+from report.words.units import Quantity, compared_pairs, ratio
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -55,3 +61,61 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
 def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:
     words = f"clearance to {gap.across_from(item.id)}"
     return words if gap.is_permitted else f"{words}, no verdict"
+
+
+def reasons(assessment: Assessment) -> Iterator[str]:
+    """Yield what makes a project NG, each with array, value, limit and what would do, in order.
+
+    What the clearances rest on is before them, and of them that with the largest D/C.
+    """
+    us_first = assessment.project.us_first
+    for check in (check for check in assessment.building_checks if not check.ok):
+        yield f"building, {limit_words(check, us_first)}"
+    for item in assessment.arrays:
+        for check in (check for check in item.limits if not check.ok):
+            yield f"array {item.id}, {limit_words(check, us_first)}"
+    few = [each.id for each in assessment.arrays if each.lacks_motions]
+    if few:
+        basis, count = statistic_basis(assessment.project), len(assessment.shaking.motions)
+        yield f"{ranged(few)}, {lacking_motions(assessment.rules, basis, count)}"
+    for run in assessment.warnings:
+        yield f"{lowered(run.text.rstrip('.'))}; {run.would_do}"
+    yield from _models(assessment)
+    short = [gap for gap in assessment.clearances if not gap.verdict.is_permitted]
+    for gap in sorted(short, key=lambda gap: -nan_is_worst(gap.demand_capacity)):
+        yield _short(gap, us_first)
+    for row, ids in assessment.alike_conditions:
+        if not row.verdict.is_permitted:
+            yield row_words(row, ids)
+
+
+def row_words(row: Requirement, subjects: Sequence[str]) -> str:
+    """Return a requirement that is not satisfied, with all that it is said of."""
+    where = f"{ranged(subjects)}, " if row.subject else ""
+    return f"{where}{lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
+
+
+def _models(assessment: Assessment) -> Iterator[str]:
+    """Yield arrays that tip, and whose model is not adequate."""
+    for item in assessment.arrays:
+        if not item.tipping.is_ok:
+            tipping = f"{ratio(item.tipping.ratio)} of the ratio at which it tips; 1.00 or less is"
+            yield (
+                f"array {item.id} starts to tip: {tipping} required, with a lower center of gravity"
+                " or wider supports"
+            )
+        if not item.is_model_enough:
+            text = f"array {item.id}, requested model '{item.array.model}' is not adequate; select"
+            yield f"{text} '{ModelChoice.CHOOSE}' on the sheet Arrays"
+    for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
+        yield f"one rigid block has not been shown to be adequate for array {name}"
+
+
+def _short(gap: ClearanceCheck, us_first: bool) -> str:
+    """Return a clearance that is too small, with what would do."""
+    row = gap.clearance
+    required, provided = compared_pairs(gap.required_m, row.provided_m, Quantity.SIZE, us_first)
+    name = f"clearance {row.array} to {row.object}: {provided} provided"
+    if math.isnan(gap.required_m):
+        return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
+    return f"{name}; {required}{gap.mark} required (D/C {gap.ratio_words})"

@@ -286,13 +286,17 @@ def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tup
     for number, side in enumerate(sides(outline.points), start=1):
         (x0, y0), (x1, y1) = side
         outward_deg = math.degrees(math.atan2(x0 - x1, y1 - y0))
-        # East, first in the list, is a quarter turn clockwise of north.
-        point = _COMPASS[round((outward_deg - north_deg + 90.0) / 45.0) % 8]
-        name = f"{point} edge of the roof"
+        name = f"{compass(outward_deg, north_deg)} edge of the roof"
         if isinstance(outline, Polygon):
             name += f" (side {number})"
         found += [BareEdge(name, ends) for ends in _bare(side, strips)]
     return tuple(found)
+
+
+def compass(way_deg: float, north_deg: float) -> str:
+    """Return the point of the compass of a direction in plan, counterclockwise from +x."""
+    # East, first in the list, is a quarter turn clockwise of north.
+    return _COMPASS[round((way_deg - north_deg + 90.0) / 45.0) % 8]
 
 
 def _line(start: Point, end: Point) -> Shape:

@@ -107,7 +107,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     basis = statistic_basis(data)
     # Only the statistic counts, not its value, which the runs give.
     few = provisions.analysis_value(rules, [0.0] * len(shaking.motions), basis).basis
-    lacking = _lacking(rules, basis, len(shaking.motions)) if few is Basis.TOO_FEW else ""
+    lacking = lacking_motions(rules, basis, len(shaking.motions)) if few is Basis.TOO_FEW else ""
     routes = [
         limits_of(
             data,
@@ -167,7 +167,7 @@ def _limit(check: Limit, section: str, row: int, us_first: bool) -> Iterator[Fin
         yield limit(place or Place("motions"), text)
 
 
-def _lacking(rules: RuleSet, basis: Basis | None, count: int) -> str:
+def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
     """Return which statistic the motions are too few for."""
     asked = Basis.LARGEST_FACTORED if basis is None else basis
     least = provisions.minimum_motions(rules, asked)

@@ -43,7 +43,7 @@ from report.assessment.neighbors import ComparedGap, PlanNeighbor, plan_pairs, r
 from report.assessment.overrides import rule_set_of
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits
-from report.assessment.run_warnings import run_warnings
+from report.assessment.run_warnings import RunWarning, run_warnings
 from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
 from report.motions.prepare import Shaking
@@ -227,14 +227,9 @@ class Assessment:
         return self._gaps_by_array.get(array_id, ())
 
     @property
-    def troubled_runs(self) -> Mapping[Status, str]:
-        """Runs whose displacement is missing or not final, in words, by their status."""
-        return run_warnings(self.arrays, self.project.us_first)
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[RunWarning, ...]:
         """Runs whose displacement is missing or not final, in words."""
-        return tuple(self.troubled_runs.values())
+        return run_warnings(self.arrays, self.project.us_first)
 
     def governing_gap(self, array_id: str = "") -> ComparedGap | None:
         """Return the gap with the largest D/C, if any; of an array that from either side.
@@ -246,7 +241,12 @@ class Assessment:
         return max(found, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
 
 
-def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> Assessment:
+def assess(
+    sheet: Sheet,
+    shaking: Shaking,
+    former: Assessment | None = None,
+    project: ProjectInput | None = None,
+) -> Assessment:
     """Run every array under every motion and check every limit and clearance.
 
     Parameters
@@ -254,13 +254,15 @@ def assess(sheet: Sheet, shaking: Shaking, former: Assessment | None = None) -> 
     former : Assessment, optional
         Of the same motions and targets: the limits on them are taken from it, and the runs of
         arrays with the same slope, friction and model.
+    project : ProjectInput, optional
+        Assessed in place of that of the sheet.
 
     Raises
     ------
     InputError
         For an override of a provision that the rule set does not have.
     """
-    data = sheet.project
+    data = project or sheet.project
     with ThreadPoolExecutor(THREADS) as pool:
         begin = partial(begin_runs, pool, motions=shaking.motions)
         begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())

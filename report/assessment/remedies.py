@@ -1,20 +1,25 @@
-"""What would satisfy a clearance or an array marked NG: friction, separation.
+"""What would satisfy a clearance or an array marked NG: separation, peer review, friction.
 
-Searches with the runs of `report.assessment.trials`; `report.pages.remedies` prints the results.
-Read `remedies`.
+Each is entered and assessed (`report.assessment.entered`); friction is searched with the runs of
+`report.assessment.trials`. `report.pages.remedies` prints the results. Read `remedies`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import partial
 
-from report.assessment.arrays import ArrayAssessment, Route
+from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
 from report.assessment.clearances import ClearanceCheck
+from report.assessment.entered import Outcome, changed, entered, outcome, refused
+from report.assessment.moves import moves
 from report.assessment.project import THREADS, Assessment
+from report.assessment.runs import nan_is_worst
 from report.assessment.trials import (
     HUNDREDTH,
     Trials,
@@ -26,11 +31,13 @@ from report.assessment.trials import (
     search,
     single_array_check,
     trials_of,
+    with_mu,
 )
 from report.assessment.verdict import Verdict
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Clearance
+from report.words.counts import ranged
 from solver.friction_tests import MOST_MU
-from solver.rules.provisions import Basis
 
 
 class RemedyKind(StrEnum):
@@ -38,6 +45,7 @@ class RemedyKind(StrEnum):
 
     FRICTION = "friction coefficient"
     SEPARATION = "provided separation"
+    REVIEW = "design displacement by peer review"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,16 +53,20 @@ class Remedy:
     """One quantity that would satisfy a clearance, or give an array final values, by itself."""
 
     kind: RemedyKind
-    clearance: int  # number of the clearance in the workbook, from 1; 0 for the runs of an array
-    array: str  # array whose friction or displacement it is
-    given: float  # value in the workbook
-    # least coefficient or separation [m] that would do; NaN if none within the search would
+    clearance: int  # number of the clearance in the workbook, from 1; 0 for no single one
+    array: str  # array whose friction or displacement it is; those of a peer review
+    given: float  # value in the workbook; by peer review the largest design displacement [m]
+    # least coefficient or separation [m] that would do, or that displacement without its floor; NaN
+    # if none within the search would
     value: float
-    resolution: float  # step of the search; 0 for a value that follows from the runs of the package
+    resolution: float = 0.0  # step of the search; 0 for a value that follows from the runs
     # smallest and largest of the values at which all runs satisfied, without failure between
     verified: tuple[float, float]
     n_values: int  # number of values tried from one to the other
     basis: str  # what was varied and what with it; or why no value would do; a clause
+    # of the project with it, and with the friction of the other array of the clearance where that
+    # is short, too
+    outcome: Outcome | None
 
     @property
     def exists(self) -> bool:
@@ -65,21 +77,69 @@ class Remedy:
 def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
     """Return what would satisfy each clearance marked NG, and each array without final values."""
     with ThreadPoolExecutor(THREADS) as pool:
-        return tuple(_all(assessment, pool))
+        return tuple(one for way in _ways(assessment, pool) for one in way)
 
 
-def _all(given: Assessment, pool: Executor) -> Iterator[Remedy]:
+def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Remedy]:
+    """Return what is entered together as the best remedy of the governing clearance; or nothing.
+
+    The first with which the project is not NG, or else the first that would do.
+    """
+    first: Sequence[Remedy] = ()
+    with ThreadPoolExecutor(THREADS) as pool:
+        for way in _ways(assessment, pool, most=1, may_run=may_run):
+            outcomes = [one.outcome for one in way if one.outcome]
+            if way and len(outcomes) == len(way):
+                first = first or way
+                if outcomes[0].verdict.is_permitted:
+                    return way
+    return first
+
+
+def _ways(
+    given: Assessment, pool: Executor, *, most: int | None = None, may_run: bool = True
+) -> Iterator[Sequence[Remedy]]:
+    """Yield the remedies that are entered together, those that need runs last.
+
+    Of the clearances marked NG, or of that many with the largest D/C.
+    """
+    if given.verdict.is_permitted:
+        return
+    numbered = enumerate(given.clearances, start=1)
+    found = [(number, gap) for number, gap in numbered if gap.verdict is Verdict.NG]
+    short = sorted(found, key=lambda each: -nan_is_worst(each[1].demand_capacity))[:most]
+    yield from ([_separation(given, *each)] for each in short)
+    yield list(_review(given))
+    if not may_run:
+        return
     trials = trials_of(given, pool)
-    for number, gap in enumerate(given.clearances, start=1):
-        if gap.verdict is not Verdict.NG:
-            continue
-        here = [trials[array.id] for array in involved(given, gap.clearance)]
-        short = [one for one in here if not _satisfies(one.array, given, gap.clearance)]
-        yield from (_friction(one, number, gap.clearance) for one in short)
-        yield _separation(given, number, gap)
+    yield from (_frictions(given, *each, trials) for each in short)
     for array in given.arrays:
         if not is_final(array):
-            yield _friction(trials[array.id], 0, None)
+            yield _together(given, [_friction(trials[array.id], 0, None)])
+
+
+def _frictions(
+    given: Assessment, number: int, gap: ClearanceCheck, trials: Mapping[str, Trials]
+) -> Sequence[Remedy]:
+    """Return the friction of each array beside a clearance that is too small for it."""
+    here = [trials[array.id] for array in involved(given, gap.clearance)]
+    short = [one for one in here if not _satisfies(one.array, given, gap.clearance)]
+    found = [_friction(one, number, gap.clearance) for one in short]
+    return _together(given, found)
+
+
+def _together(given: Assessment, found: Sequence[Remedy]) -> Sequence[Remedy]:
+    """Return coefficients with what comes of all of them, if each would do."""
+    if not all(one.exists for one in found):
+        return found
+    done = entered(given, _with_mus(given.project, {one.array: one.value for one in found}))
+    return [replace(one, outcome=outcome(done)) for one in found]
+
+
+def _with_mus(data: ProjectInput, mus: dict[str, float]) -> ProjectInput:
+    arrays = (with_mu(row, mus[row.id]) if row.id in mus else row for row in data.arrays)
+    return changed(data, arrays=tuple(arrays))
 
 
 def _satisfies(array: ArrayAssessment, given: Assessment, row: Clearance) -> bool:
@@ -89,16 +149,17 @@ def _satisfies(array: ArrayAssessment, given: Assessment, row: Clearance) -> boo
 def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
     """Return the least friction coefficient with which an array satisfies."""
     array = trials.array.array
-    start, end = hundredths(MOST_MU), above(array.mu)
+    end, most = above(array.mu), _most_mu(trials)
     reason = _in_vain(trials, row)
     held: tuple[int, ...] = ()
-    if not reason and end <= start:
-        held = search(lambda mu: trials.satisfies(row, mu=mu), start, end)
+    if not reason and end <= most:
+        held = search(lambda mu: trials.satisfies(row, mu=mu), most, end)
     law = (
         "one coefficient at every velocity"
         if array.friction.is_constant
         else "the friction law scaled as a whole, the coefficient given being that at low velocity"
     )
+    by_tests = "" if most == hundredths(MOST_MU) else ", the most that its tests give,"
     least = held[-1] / 100 if held else math.nan
     return Remedy(
         kind=RemedyKind.FRICTION,
@@ -107,48 +168,85 @@ def _friction(trials: Trials, number: int, row: Clearance | None) -> Remedy:
         given=array.mu,
         value=least,
         resolution=HUNDREDTH,
-        verified=(least, MOST_MU if held else math.nan),
+        verified=(least, most / 100 if held else math.nan),
         n_values=len(held),
-        basis=law if held else reason or f"no coefficient up to {MOST_MU} is sufficient",
+        basis=law if held else reason or f"no coefficient up to {most / 100}{by_tests} is enough",
+        outcome=None,
     )
+
+
+def _most_mu(trials: Trials) -> int:
+    """Return the largest coefficient that `check` accepts, in hundredths; tests may limit it."""
+    data, array = trials.given.project, trials.array.array
+    mus = range(above(array.mu), hundredths(MOST_MU) + 1)
+
+    def is_refused(mu: int) -> bool:
+        return bool(refused(data, _with_mus(data, {array.id: mu / 100})))
+
+    return mus.start - 1 + bisect_left(mus, True, key=is_refused)
 
 
 def _in_vain(trials: Trials, row: Clearance | None) -> str:
     """Return why no friction can satisfy, if so: found without a run."""
     given, array = trials.given, trials.array
-    if few := _too_few(array):
-        return few
+    if array.lacks_motions:
+        return "there are too few motions for the requested statistic"
     is_prescriptive = array.route is Route.PRESCRIPTIVE
     least_m = array.prescriptive.value_m if is_prescriptive else array.floor_m
-    if (
-        row is None
-        or single_array_check(given, given.project, displaced(array, 0.0, least_m), row).ok
-    ):
+    holds = partial(single_array_check, given, given.project)
+    if row is None or holds(displaced(array, 0.0, least_m), row).ok:
         return ""
-    if single_array_check(given, given.project, displaced(array, 0.0, 0.0), row).ok:
+    if holds(displaced(array, 0.0, 0.0), row).ok:
         least = "prescriptive displacement" if is_prescriptive else "floor"
         return f"the {least} alone requires more than is provided"
     return "the minimum separation of the rule set is more than is provided"
 
 
-def _too_few(array: ArrayAssessment) -> str:
-    few = array.analysis.basis is Basis.TOO_FEW
-    return "there are too few motions for the requested statistic" if few else ""
-
-
 def _separation(given: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
-    """Return the required separation, which the runs of the package give."""
-    required = gap.required_m
+    """Return the required separation, where the plan has room for it or does not show both."""
+    required, basis, found = gap.required_m, "there is no design displacement", None
+    if not math.isnan(required):
+        found, basis = moves(given, number, gap)
+    value = required if found else math.nan
     return Remedy(
         kind=RemedyKind.SEPARATION,
         clearance=number,
         array=gap.governing_array,
         given=gap.clearance.provided_m,
-        value=required,
-        resolution=0.0,
-        verified=(required, required),
-        n_values=0 if math.isnan(required) else 1,
-        basis="there is no design displacement"
-        if math.isnan(required)
-        else "the required separation at the design displacement of this package",
+        value=value,
+        verified=(value, value),
+        n_values=1 if found else 0,
+        basis=basis,
+        outcome=outcome(found),
+    )
+
+
+def _review(given: Assessment) -> Iterator[Remedy]:
+    """Yield peer review, where it removes a floor that governs."""
+    data = given.project
+    floored = [
+        item for item in given.arrays if item.governs is DesignBasis.FLOOR and item.is_permitted
+    ]
+    if not floored:
+        return
+    review = {
+        "peer_reviewed": True,
+        "peer_date": data.project.date,
+        **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be given"),
+    }
+    done = entered(given, changed(data, options=data.options.model_copy(update=review)))
+    if done is None:
+        return
+    ids = [item.id for item in floored]
+    value = max(item.design_m for item in done.arrays if item.id in ids)
+    yield Remedy(
+        kind=RemedyKind.REVIEW,
+        clearance=0,
+        array=ranged(ids),
+        given=max(item.design_m for item in floored),
+        value=value,
+        verified=(value, value),
+        n_values=1,
+        basis="peer review of the analysis removes the floor",
+        outcome=outcome(done),
     )

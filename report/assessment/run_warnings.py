@@ -2,30 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.runs import OrientedRun
+from report.sheet.schema.choices import ModelChoice
+from report.words.counts import grouped_by
 from report.words.units import Quantity, pair
 from solver.model import Status
 
 _MOST_NAMED = 4  # motions in a sentence; more are counted, and the results have each
 
 
-def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> Mapping[Status, str]:
-    """Return the runs without a final displacement, a sentence for each status that occurs."""
+_ORDER = list(Status)
+_WHAT_WOULD_DO = {
+    Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
+    Status.UPLIFT: "anchor the array, or replace the motion",
+    Status.DIVERGED: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
+    Status.STEP_LIMIT: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class RunWarning:
+    """Runs without a final displacement, as a sentence, and what would do."""
+
+    text: str
+    would_do: str
+
+
+def run_warnings(arrays: Sequence[ArrayAssessment], us_first: bool) -> tuple[RunWarning, ...]:
+    """Return the runs without a final displacement, a sentence for each outcome and its remedy."""
     troubled = [
         (array.id, motion.motion.id, run)
         for array in arrays
         for motion in array.motions
         for run in motion.runs
+        if run.result.status is not Status.OK
     ]
-    return {
-        status: f"{_place(same)}: {_outcome(status, [run for _, _, run in same], us_first)}."
-        for status in Status
-        if status is not Status.OK
-        and (same := [each for each in troubled if each[2].result.status is status])
-    }
+    found = grouped_by(troubled, lambda each: (each[2].result.status, _would_do(each[2])))
+    return tuple(
+        RunWarning(f"{_place(same)}: {_outcome(status, [each[2] for each in same], us_first)}.", do)
+        for (status, do), same in sorted(found.items(), key=lambda item: _ORDER.index(item[0][0]))
+    )
+
+
+def _would_do(run: OrientedRun) -> str:
+    status, scene = run.result.status, run.scene
+    if status is Status.SLIDING_AT_END and scene.friction.mu_slow <= math.tan(scene.slope_rad):
+        return (
+            "its friction coefficient is not above tan θ of its slope, so that no record is long "
+            "enough: give it more friction, or attach it"
+        )
+    return _WHAT_WOULD_DO[status]
 
 
 def _place(runs: Sequence[tuple[str, str, OrientedRun]]) -> str:

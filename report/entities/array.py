@@ -244,9 +244,6 @@ class ArrayResult(LowVelocityResult):
     runs: tuple[RunResult, ...]
     """All runs."""
     source: Annotated[str, words("Governs", 1.55)] = printed("")
-    limits: Annotated[Verdict, at("limits_verdict"), centered("Limits", 0.85)] = printed(
-        Verdict.NONE
-    )
     governing_gap: Annotated[str, words("Clearance to", 1.4)] = printed("none given")
     largest_dc: Annotated[str, Shown(head="D/C", share=0.8)] = printed("—")
     gap_required_m: Annotated[Number, required("Required", 0.8)] = printed(math.nan)
@@ -326,7 +323,6 @@ def array_result(
         item,
         **near,
         cause=unshown_cause(assessment, item),
-        limits_verdict=Verdict.OK if item.satisfies_limits else Verdict.NG,
         clause=clause,
         marks=marks,
         keep_clear=distance + keep_clear_mark(assessment, item),

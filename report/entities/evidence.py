@@ -14,13 +14,12 @@ from pydantic import BeforeValidator
 from report.assessment.neighbors import Cover, NearbyKind
 from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
+from report.assessment.verdict import Verdict
 from report.entities.cells import Column
 from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, Shown, at, length, words
 from report.sheet.schema.building import BuildingInput
 from solver.model import Status
 from solver.rules.provisions import AnalysisValue
-
-_UNITS = {RemedyKind.FRICTION: "", RemedyKind.SEPARATION: "_m"}
 
 
 def _cells(rows: Any) -> tuple[str, ...]:
@@ -62,6 +61,10 @@ class RemedyResult(Entity):
     """Number of values tried in that range."""
     basis: str
     """What was varied, or why no value satisfies."""
+    verdict: Verdict | None
+    """On the project with it; null where no value satisfies."""
+    governing: str | None
+    """The same with the clearance that then governs, in words."""
 
 
 class GivenResult(Entity):
@@ -214,17 +217,20 @@ def variation_result(building: BuildingInput, value: AnalysisValue) -> Variation
     return VariationResult.of(building, **asdict(value))
 
 
-def remedy_result(item: Remedy) -> RemedyResult:
+def remedy_result(item: Remedy, us_first: bool) -> RemedyResult:
     """Return a remedy."""
     names = ("given", "value", "resolution", "verified")
+    unit = "" if item.kind is RemedyKind.FRICTION else "_m"
     return RemedyResult(
         quantity=item.kind,
         clearance=f"{item.clearance}" if item.clearance else None,
         array=item.array,
         exists=item.exists,
-        **{f"{name}{_UNITS[item.kind]}": getattr(item, name) for name in names},
+        **{f"{name}{unit}": getattr(item, name) for name in names},
         n_values=item.n_values,
         basis=item.basis,
+        verdict=item.outcome.verdict if item.outcome else None,
+        governing=item.outcome.words(us_first) if item.outcome else None,
     )
 
 

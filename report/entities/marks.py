@@ -78,8 +78,7 @@ class Marked:
 
     def prescriptive_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of the prescriptive displacement."""
-        mark = array.mark(lambda item: item.prescriptive.value_m)
-        return joined(self.mark(self.prescriptive_key(array)), mark)
+        return joined(self.mark(self.prescriptive_key(array)), array.prescriptive_mark)
 
     def floor_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of the floor of an array, if it has one."""

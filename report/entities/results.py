@@ -173,7 +173,10 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         sdc_is_confirmed=not assessment.project.site.sdc_lacks,
         findings=tuple(finding_results(findings(sheet, shaking), sheet.addresses)),
         linked=tuple(map(linked_result, assessment.linked)),
-        remedies=tuple(map(remedy_result, evidence.remedies)),
+        warnings=tuple(run.text for run in assessment.warnings),
+        remedies=tuple(
+            remedy_result(item, assessment.project.us_first) for item in evidence.remedies
+        ),
         certainty=uncertainty_result(evidence.uncertainty),
         cumulative=evidence.cumulative,
         building_variations=tuple(starmap(variation_result, evidence.building)),

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.assessment.arrays import ArrayAssessment
+from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
 from report.assessment.clearances import ClearanceCheck
 from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
@@ -89,6 +89,8 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
     axes.plot([design], [row], "D", markersize=6, color=INK, label="design")
     if math.isnan(design):
         axes.text(prescriptive / 2, row, "none", ha="center", va="center")
+    if not all(check.ok for check in array.prescriptive_checks):
+        axes.text(prescriptive, row, f"{NOT_PERMITTED} ", ha="right", va="bottom", fontsize=6)
 
 
 @memoized

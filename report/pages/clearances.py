@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
 from report.document.tables import Table, listed
 from report.entities.evidence import NeighborResult
 from report.entities.shown import length, words
 from report.pages.parts import PackageData
-from report.pages.remedies import answers
 from report.sheet.schema.choices import ObjectKind
 from solver.rules.provisions import Neighbor
 
 
-def clearances(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+def clearances(package: PackageData) -> Mapping[str, object]:
     """Return the part on clearances, without its chart."""
     near = list(map(NeighborResult.of, package.assessment.neighbors))
     beyond = [pair for pair in package.assessment.pairs if not pair.is_listed]
@@ -30,7 +28,6 @@ def clearances(package: PackageData, evidence: Evidence) -> Mapping[str, object]
         "friction": mus_words(package.data.arrays),
         "parapets": _parapets(package),
         "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),
-        "remedies": answers(package, evidence.remedies),
     }
 
 

@@ -44,7 +44,7 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
     arrays, is_refused = package.assessment.arrays, bool(_motion_faults(package))
     found: Mapping[str, Sequence[object]] = {
         "warnings": package.assessment.warnings,
-        "few": [array for array in arrays if array.analysis.basis is Basis.TOO_FEW],
+        "few": [array for array in arrays if array.lacks_motions],
         "refused": [array for array in arrays if is_refused and array.route is Route.ANALYSIS],
         "models": tuple(model_troubles(package)),
         "tipping": [array for array in arrays if not array.tipping.is_ok],

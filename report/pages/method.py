@@ -41,7 +41,7 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 def _demand(package: PackageData) -> Mapping[str, object]:
     """Return AC156, and F_p / W_p with what its formula has beside given numbers."""
-    site, force = package.data.site, site_force(package)
+    site, force = package.data.site, site_force(package.data)
     horizontal, vertical = ac156(package.data)
     i_p = max(array.i_p for array in package.data.arrays)
     amplified = math.nan

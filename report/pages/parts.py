@@ -12,6 +12,7 @@ from functools import cached_property
 from markupsafe import Markup
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.causes import reasons
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.friction_rows import basis_words
 from report.assessment.precheck import limit_value
@@ -113,6 +114,11 @@ class PackageData(Marked):
             "limit": [check.ok for _, check in self.checks],
             "requirement": [row.verdict.is_permitted for row in given.rows],
         }
+
+    @cached_property
+    def reasons(self) -> Sequence[str]:
+        """What makes the project NG, in order."""
+        return tuple(reasons(self.assessment))
 
     @property
     def fingerprint(self) -> str:

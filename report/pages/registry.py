@@ -75,7 +75,7 @@ PAGES = (
     Page("method", "Method and equations", _alone(method.page), method.below),
     Page("results", "Results", results.page, results.below),
     Page("comparison", "Comparison with the prescriptive displacement", _alone(results.comparison)),
-    Page("clearances", "Clearances", clearances.clearances),
+    Page("clearances", "Clearances", _alone(clearances.clearances)),
     Page("limits", "Limits and interconnection strength", _alone(limits.limits)),
     Page("provisions", "Provisions and overrides", _alone(provisions.provisions)),
     Page("model", "Model used", _alone(model.page)),

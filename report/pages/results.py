@@ -68,7 +68,7 @@ def _results(
             for run, path in zip(array.motions, paths, strict=True)
             if not path.across_m.size and path.result.prd_m > 0.0
         ],
-        "troubles": run_warnings(group, package.fmt.us_first).values(),
+        "troubles": run_warnings(group, package.fmt.us_first),
     }
 
 

@@ -6,10 +6,15 @@ Derived values are those of `Site.parameters`, unrounded; printing alone rounds.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
+from report.assessment.project import Assessment
 from report.pages.parts import PackageData
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import RiskCategory
 from report.sheet.schema.project import Site
+from report.words.counts import grouped_by, ranged
+from report.words.units import Quantity, digits_up, no_less, pair
 from solver.building.periods import approximate_period_s
 from solver.rules import hazard
 from solver.rules.hazard import ComponentForce, component_force
@@ -28,18 +33,39 @@ def site(package: PackageData) -> Mapping[str, object]:
     return {
         "i_p": tuple(dict.fromkeys((factors[0], factors[-1]))),
         "period_s": approximate_period_s(building.structure or "other", site.structure_height_m),
-        "force": site_force(package),
+        "force": site_force(package.data),
         "near_fault_g": hazard.NEAR_FAULT_S_1_G,
         "categories": categories,
     }
 
 
-def site_force(package: PackageData) -> ComponentForce | None:
+def attachment(given: Assessment) -> str:
+    """Return the force of a positive attachment of the arrays that are NG, if any is."""
+    data = given.project
+    arrays = [item.array for item in given.arrays if not given.array_verdict(item).is_permitted]
+    if not arrays:
+        return ""
+    force, names = site_force(data), ranged(array.id for array in arrays)
+    if force is None:
+        factors = " and ".join(data.site.edition.force_factors)
+        return (
+            f"Positive attachment of {names}, by others: give {factors} on the sheet Site for F_p."
+        )
+    weight = partial(pair, quantity=Quantity.WEIGHT, us_first=data.us_first, show=no_less)
+    alike = grouped_by(arrays, lambda array: weight(force.value * array.weight_n))
+    forces = (f"{ranged(array.id for array in same)} {each}" for each, same in alike.items())
+    return (
+        f"Positive attachment of {names}, by others, for F_p = {digits_up(force.value, 3)} W_p, at "
+        f"each: {'; '.join(forces)}. It is not assessed here."
+    )
+
+
+def site_force(data: ProjectInput) -> ComponentForce | None:
     """Return F_p / W_p with the largest I_p of the arrays, if a_p and R_p are given.
 
     The height factor of ASCE 7-22 takes the period where the workbook states period or structure.
     """
-    site, building = package.data.site, package.data.building
+    site, building = data.site, data.building
     if site.force_factor is None or site.force_divisor is None:
         return None
     period_s = building.period_s
@@ -50,7 +76,7 @@ def site_force(package: PackageData) -> ComponentForce | None:
         s_ds_g=site.s_ds,
         factor=site.force_factor,
         divisor=site.force_divisor,
-        i_p=max(array.i_p for array in package.data.arrays),
+        i_p=max(array.i_p for array in data.arrays),
         z_over_h=site.z_over_h,
         period_s=period_s,
     )

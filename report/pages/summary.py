@@ -5,42 +5,29 @@ Finished lines; computes nothing. Read `summary`.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from report.assessment.arrays import NOT_PERMITTED
-from report.assessment.causes import causes
+from report.assessment.causes import causes, reasons, row_words
 from report.assessment.overrides import MEANING
-from report.assessment.precheck import findings, limit_words
-from report.assessment.verdict import Verdict
+from report.assessment.precheck import findings
 from report.entities.array import ArrayResult, array_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
-from report.pages.registry import package_data, parts
+from report.pages.remedies import best_words
 from report.sheet.checking.findings import lines
-from report.sheet.schema.choices import ModelChoice
 from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
-from report.words.counts import lowered, ranged
 from report.words.formats import aligned, finite
-from report.words.units import Quantity, compared_pairs, ratio
-from solver.model import Status
+from solver.rules.limit import Consequence
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
-    from report.assessment.clearances import ClearanceCheck
     from report.assessment.project import Assessment
 
 _COLUMNS = ("array", "computed", "prescriptive", "design", "governing clearance to", "D/C", "")
-
-_WHAT_WOULD_DO = {
-    Status.SLIDING_AT_END: "give a longer record, or Zero padding on the sheet Motions",
-    Status.UPLIFT: "anchor the array, or replace the motion",
-    Status.DIVERGED: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
-    Status.STEP_LIMIT: f"select the model '{ModelChoice.CHOOSE}' on the sheet Arrays",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,23 +87,15 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
     )
 
 
-def attention(assessment: Assessment) -> Iterator[Concern]:
-    """Yield what is not satisfied, each with array, value, limit, and what would do."""
-    us_first = assessment.project.us_first
-    for status, text in assessment.troubled_runs.items():
-        yield Concern("NG", f"{lowered(text.rstrip('.'))}; {_WHAT_WOULD_DO[status]}")
-    yield from _models(assessment)
-    for check in (check for check in assessment.building_checks if not check.ok):
-        yield Concern("NG", f"building, {limit_words(check, us_first)}")
-    for item in assessment.arrays:
-        for check in (check for check in item.limits if not check.ok):
-            yield Concern("NG", f"array {item.id}, {limit_words(check, us_first)}")
-    for gap in (gap for gap in assessment.clearances if gap.verdict is Verdict.NG):
-        yield Concern("NG", _short(gap, us_first))
+def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Concern]:
+    """Yield what is not satisfied, what makes it NG first, and what would do, with runs or not."""
+    for reason in reasons(assessment):
+        yield Concern(Consequence.NG.value, reason)
+    if best := best_words(assessment, may_run=may_run):
+        yield Concern("remedy", best)
     for row, ids in assessment.alike_conditions:
-        where = f"{ranged(ids)}, " if row.subject else ""
-        text = f"{where}{lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
-        yield Concern(row.consequence.value, text)
+        if row.verdict.is_permitted:
+            yield Concern(row.consequence.value, row_words(row, ids))
     for finding in what_is_new(assessment.sheet.book):
         yield Concern(finding.level.value, finding.text)
     found = findings(assessment.sheet, assessment.shaking)
@@ -125,30 +104,3 @@ def attention(assessment: Assessment) -> Iterator[Concern]:
             reason = line.finding.reason
             answer = f" Acknowledged: {reason}" if reason else ""
             yield Concern("warning", f"{line.cells}: {line.finding.text} [{line.names}]{answer}")
-
-
-def _models(assessment: Assessment) -> Iterator[Concern]:
-    """Yield arrays that tip, and whose model is not adequate."""
-    (title,) = (part.title for part in parts(package_data(assessment)) if part.id == "model")
-    see = f"see '{title}' in the package"
-    for item in assessment.arrays:
-        if not item.tipping.is_ok:
-            tipping = f"{ratio(item.tipping.ratio)} of the ratio at which it tips; 1.00 or less is"
-            text = f"array {item.id} starts to tip: {tipping} required, with a lower center of"
-            yield Concern("NG", f"{text} gravity or wider supports; {see}")
-        if not item.is_model_enough:
-            text = f"array {item.id}, requested model '{item.array.model}' is not adequate; select"
-            yield Concern("NG", f"{text} '{ModelChoice.CHOOSE}' on the sheet Arrays; {see}")
-    for name in (row.design.id for row in assessment.linked if not row.is_rigid_enough):
-        text = f"one rigid block has not been shown to be adequate for array {name}"
-        yield Concern("NG", f"{text}; {see}")
-
-
-def _short(gap: ClearanceCheck, us_first: bool) -> str:
-    """Return a clearance that is too small, with what would do."""
-    row = gap.clearance
-    required, provided = compared_pairs(gap.required_m, row.provided_m, Quantity.SIZE, us_first)
-    name = f"clearance {row.array} to {row.object}: {provided} provided"
-    if math.isnan(gap.required_m):
-        return f"{name}; there is no design displacement of {gap.governing_array} to compare with"
-    return f"{name}; {required}{gap.mark} required (D/C {gap.ratio_words})"

@@ -28,7 +28,6 @@ from report.typeset.pdf import TEMPLATES
 from report.web.plan import USUAL_PX, plan
 from report.web.tables import Cell, ShowVerdict, cells, heads, stamp
 from report.words.units import beside, no_less
-from solver.rules.limit import Consequence
 
 _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
 _CLEARANCE = "count array provided_m required_m demand_capacity verdict"
@@ -96,8 +95,7 @@ def answer(
 
 def _reasons(assessment: Assessment) -> list[dict[str, str]]:
     """Return what needs attention, the causes of NG first."""
-    lines = sorted(attention(assessment), key=lambda line: line.level != Consequence.NG)
-    return list(map(asdict, lines))
+    return list(map(asdict, attention(assessment, may_run=False)))
 
 
 def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:

@@ -9,8 +9,8 @@ function tag(verdict) {
 
 /** Show the verdict of a full answer: the causes of NG whole, and what else needs attention. */
 export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
-  const causes = reasons.filter(({ level }) => level === "NG");
-  const others = reasons.filter(({ level }) => level !== "NG");
+  const causes = reasons.filter(({ level }) => ["NG", "remedy"].includes(level));
+  const others = reasons.filter((reason) => !causes.includes(reason));
   const more = causes.length > 0 && others.length > 0;
   const summary = html("summary", {}, `Conditions and warnings: ${others.length}`);
   const listed = html("div", { class: "reasons" }, list(causes), more ? html("details", {}, summary, list(others)) : list(others));

@@ -244,7 +244,10 @@ def test_the_warehouse_is_ng_in_the_same_word_everywhere(conditions):
     words = {"A1": "Condition", "A2": "NG"}
     assert conditions.results["verdict"] == "NG"
     assert {a["id"]: a["verdict"] for a in conditions.results["arrays"]} == verdicts
-    assert page("conditions", "summary").line("NG Marked NG: 1 of 2 arrays, 1 of 6 clearances.")
+    said = page("conditions", "summary").line(
+        "NG Clearance A2 to RTU-1: 12.0 in (305 mm) provided;"
+    )
+    assert said.endswith(". Marked NG: 1 of 2 arrays, 1 of 6 clearances.")
     for name, verdict in words.items():
         line = next(x for x in conditions.terminal.splitlines() if x.startswith(f"{name} "))
         assert re.search(rf" {verdict}(: .+)?$", line)

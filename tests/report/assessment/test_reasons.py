@@ -1,0 +1,107 @@
+"""The reason of an NG, whatever it is, stands first: cover, letter, summary, terminal and page."""
+
+import numpy as np
+import pytest
+
+import scenes
+import stand_in
+from printed import printed
+from report.assessment.causes import reasons
+from report.assessment.verdict import Verdict
+from report.pages.summary import summary
+from report.web.answers import answer
+
+ARRAY, GAP, FOOT = stand_in.array, stand_in.clearance, stand_in.FOOT
+WIDE = {
+    "arrays": [ARRAY("A1", 0.5), ARRAY("A2", 0.5, x=220)],
+    "objects": [],
+    "clearances": [GAP("A1", "A2", 110 * FOOT)],
+}
+WEAK = tuple(
+    stand_in.motion(f"W{k}", 0.05 * m.ax_mps2[:400], dt_s=m.dt_s)
+    for k, m in enumerate(scenes.motions())
+)
+LIFTING = stand_in.motion("UP", np.zeros(300), np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100))
+SLIPPERY = {"arrays": [ARRAY("A1", 3.0, mu=0.03), WIDE["arrays"][1]]}
+BARE = {"arrays": [ARRAY("A1", 0.5, interconnection_n=1.0), WIDE["arrays"][1]]}
+NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
+
+
+@pytest.fixture(autouse=True)
+def _without_a_workbook(monkeypatch):
+    monkeypatch.setattr("report.pages.summary.what_is_new", lambda book: [])
+
+
+CASES = {
+    "risk category": (None, {"site": stand_in.site(risk_category="IV", i_e=1.5)}, "Building, risk"),
+    "stories": (None, {"site": stand_in.site(stories=7)}, "Building, number of stories: 7"),
+    "slope": (None, {"arrays": [ARRAY("A1", 8.0), WIDE["arrays"][1]]}, "Array A1, roof slope"),
+    "friction below the slope": (WEAK, SLIPPERY, "Array A1, motions W0"),
+    "uplift": ((*scenes.motions(), LIFTING), {}, "Arrays A1, A2, motion UP"),
+    "clearance": (None, {"clearances": [GAP("A1", "A2", 0.5 * FOOT)]}, "Clearance A1 to A2: 6.0"),
+    "no row": (None, {"objects": [NEAR]}, "A1, clearance A1 to RTU-9"),
+    "strength": (None, BARE, "A1, interconnection strength"),
+    "too few": (None, {"options": {"statistic": "mean"}, "arrays": [ARRAY("A1", 4.0)],
+                       "clearances": []}, "A1, 3 motions are given, and the statistic 'mean'"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_reason_stands_first_wherever_the_verdict_does(name):
+    shaking, changes, start = CASES[name]
+    made = scenes.package(shaking or scenes.motions(), **WIDE | changes)
+    done = made.assessment
+    assert done.verdict is Verdict.NG
+    first = next(reasons(done))
+    for page in ("cover", "letter", "summary"):
+        (line,) = (x for x in printed(made, page).splitlines() if ". Marked NG: " in x)
+        assert line.removeprefix("Verdict | ").startswith(f"NG {start}")
+    lines = list(summary(done))
+    levels = [line.split(":")[0] for line in lines if line.startswith(("NG: ", "condition: "))]
+    assert f"NG: {first}" in lines
+    assert levels == sorted(levels)
+    shown = answer(done, is_provisional=False)
+    assert shown["verdict_text"].startswith(start)
+    assert shown["reasons"][0] == {"level": "NG", "text": first}
+    assert "Limits" not in printed(made, "summary").table("Arrays").rows[0]
+
+
+def test_what_is_not_ng_has_no_reason():
+    done = scenes.package(**WIDE).assessment
+    assert done.verdict is Verdict.CONDITIONS
+    assert list(reasons(done)) == []
+
+
+def test_no_longer_record_is_offered_for_what_slides_on_by_its_weight():
+    done = scenes.package(WEAK, **WIDE | SLIPPERY).assessment
+    (found,) = done.warnings
+    assert found.would_do.startswith("its friction coefficient is not above tan θ of its slope")
+    assert "longer record" not in found.would_do
+    cut = tuple(
+        stand_in.motion(f"C{k}", np.full(100, 8.0), dt_s=0.01, signs=(1,)) for k in range(3)
+    )
+    (other,) = scenes.package(cut, **WIDE).assessment.warnings
+    assert other.would_do.startswith("give a longer record")
+
+
+def test_a_prescriptive_value_that_is_not_permitted_says_so_wherever_it_stands():
+    arrays = [ARRAY("A1", 4.0), ARRAY("A2", 0.5, x=220)]
+    made = scenes.package(**WIDE | {"arrays": arrays})
+    for page, table in (("summary", "Arrays"), ("comparison", "Displacement by analysis")):
+        one, other = printed(made, page).table(table).column("Prescriptive [in]")
+        assert one.endswith(", not permitted")
+        assert "not permitted" not in other
+    terminal = list(summary(made.assessment))
+    assert ["mm), not permitted" in line for line in terminal[1:3]] == [True, False]
+    rows = answer(made.assessment, is_provisional=False)["arrays"]["rows"]
+    assert ["not permitted" in row[3]["text"] for row in rows] == [True, False]
+
+
+def test_the_prescriptive_value_is_not_offered_where_the_analysis_exceeds_it():
+    strong = scenes.motions(3, 30.0, peak_g=6.0, vertical_peak_g=0.1)
+    made = scenes.package(strong, **WIDE | {"options": {"peer_reviewed": True}})
+    item = made.assessment.arrays[0]
+    assert item.analysis.value_m > item.prescriptive.value_m
+    words = printed(made, "comparison")
+    assert "may be used instead" not in words
+    assert "the displacement by analysis exceeds its value" in words
