@@ -22,10 +22,11 @@ from report.assessment.overrides import override_rows
 from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
+from report.sheet.checking.motion_checks import FIELDS
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
-from report.sheet.schema.scene import Array
+from report.sheet.schema.scene import SIDES, Array
 from report.words.counts import lowered
 from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, number, pair
 from solver.records.acceptance import Acceptance
@@ -70,17 +71,17 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
 
 def _building_code(data: ProjectInput) -> Requirement:
     site = data.site
-    given = ("building code", site.code_text), ("jurisdiction", site.jurisdiction)
-    found, is_complete = stated(given)
     return condition(
         id="building_code",
         title="Building code and jurisdiction",
-        found=found,
+        **stated(
+            "site",
+            building_code=("building code", site.code_text),
+            jurisdiction=("jurisdiction", site.jurisdiction),
+        ),
         limit="code with its year, and jurisdiction",
         basis="plan check",
-        is_satisfied=is_complete,
         remedy="State on the sheet Site the adopted building code and the jurisdiction.",
-        place=Place("site", 0, "building_code"),
     )
 
 
@@ -95,7 +96,7 @@ def _roof_outline(data: ProjectInput) -> Iterator[Requirement]:
             is_satisfied=False,
             remedy="Enter the outline of the roof on the sheet Site: without it, roof edges near "
             "the arrays were not looked for.",
-            place=Place("roof", 0, "x_from_m"),
+            places=tuple(Place("roof", 0, side) for side in SIDES),
         )
 
 
@@ -120,7 +121,7 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
                 basis="plan check",
                 is_satisfied=False,
                 remedy="Correct the date, or date the package later.",
-                place=place,
+                places=(place,),
             )
 
 
@@ -129,24 +130,22 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
     if not options.peer_reviewed:
         return
     fields = ("reviewer", "license", "date", "letter")
-    found, is_complete = stated([(name, getattr(options, f"peer_{name}")) for name in fields])
     yield condition(
         id="peer_review",
         title="Peer review of the analysis",
-        found=found,
+        **stated("options", **{f"peer_{x}": (x, getattr(options, f"peer_{x}")) for x in fields}),
         limit="reviewer, license, date and letter",
         basis=data.site.rule_set,
-        is_satisfied=is_complete,
         remedy="Give reviewer, license, date and letter. Without peer review the floor and the "
         "slope limit of the analysis route apply.",
-        place=Place("options", 0, "peer_reviewer"),
     )
 
 
 def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Requirement]:
     for index, motion in enumerate(prepared):
         if drifts(motion):
-            largest = max(abs(m.final_displacement_m) for m in motion.measures.values())
+            ends = {name: abs(m.final_displacement_m) for name, m in motion.measures.items()}
+            largest = max(ends.values())
             found, most = compared_pairs(largest, DRIFT_M, Quantity.DISPLACEMENT, data.us_first)
             yield condition(
                 id="drift",
@@ -158,7 +157,7 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
                 is_satisfied=False,
                 remedy="Drift of a record is computed as slip: correct its baseline, or show that "
                 "the displacement is real.",
-                place=Place("motions", index, "record"),
+                places=(Place("motions", index, FIELDS[max(ends, key=ends.__getitem__)]),),
             )
 
 
@@ -188,7 +187,7 @@ def _ground_motions(
             is_satisfied=ratio <= MOST_LONG_RATIO,
             remedy="Obtain the peer reviewer's acceptance of the ground motions in writing, or use "
             "ground motions that match the target at long periods.",
-            place=Place("motions"),
+            places=(Place("motions"),),
         )
 
 
@@ -213,7 +212,7 @@ def _motion_row(missed: Limit, takes_analysis: bool) -> Requirement:
         is_satisfied=False,
         consequence=Consequence.NG if is_ng and takes_analysis else Consequence.CONDITION,
         remedy=_motion_remedy(is_ng, takes_analysis),
-        place=Place("motions"),
+        places=(Place("motions"),),
     )
 
 
@@ -308,7 +307,7 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
             is_satisfied=is_confirmed,
             remedy="State measured on the sheet Clearances, or on the sheet Project who confirmed "
             "them and when.",
-            place=Place("clearances", drawn[0], "source"),
+            places=tuple(Place("clearances", index, "source") for index in drawn),
         )
 
 
@@ -327,7 +326,7 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
             consequence=Consequence.NG,
             remedy="Reduce the weight, or have the roof's engineer state a larger capacity.",
-            place=_place(data, array, "roof_capacity_pa"),
+            places=_places(data, array, "weight_n", "roof_capacity_pa"),
         )
     if wind_pa is not None:
         found, here = (
@@ -344,7 +343,7 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             basis="wind, by others",
             is_satisfied=wind == weight,  # to the digits that are printed
             remedy="Use one weight with ballast in both: correct it, or the wind design.",
-            place=_place(data, array, "wind_weight_pa"),
+            places=_places(data, array, "weight_n", "wind_weight_pa"),
         )
 
 
@@ -360,7 +359,7 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
         basis="fire code†",
         is_satisfied=largest <= FIRE_LANE_M * (1.0 + _NOISE),
         remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
-        place=_place(data, array, "x_from_m"),
+        places=_places(data, array, *SIDES),
     )
 
 
@@ -372,12 +371,13 @@ def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Req
         **_provided(array.interconnection_n, required_n, Quantity.WEIGHT, data.us_first),
         basis=data.site.rule_set,
         remedy="Show that the racking provides the required strength between its parts.",
-        place=_place(data, array, "interconnection_n"),
+        places=_places(data, array, "interconnection_n"),
     )
 
 
-def _place(data: ProjectInput, array: Array, field: str) -> Place:
-    return Place("arrays", [each.id for each in data.arrays].index(array.id), field)
+def _places(data: ProjectInput, array: Array, *fields: str) -> tuple[Place, ...]:
+    index = [each.id for each in data.arrays].index(array.id)
+    return tuple(Place("arrays", index, field) for field in fields)
 
 
 def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
@@ -434,7 +434,7 @@ def pathway_rows(
             is_satisfied=left_m >= row.pathway_m * (1.0 - _NOISE),
             consequence=Consequence.NG,
             remedy="Widen the clearance, or reduce the displacement.",
-            place=Place("clearances", index, "pathway_m"),
+            places=(Place("clearances", index, "pathway_m"),),
         )
 
 

@@ -40,36 +40,46 @@ def friction_rows(data: ProjectInput) -> tuple[Requirement, ...]:
 
 def _on_file(data: ProjectInput) -> Requirement:
     tests = data.friction_tests
-    found, is_complete = stated(
-        (("laboratory", tests.laboratory), ("report number", tests.report), ("date", tests.date))
+    said = stated(
+        "friction_tests",
+        laboratory=("laboratory", tests.laboratory),
+        report=("report number", tests.report),
+        date=("date", tests.date),
     )
+    attached = "; attached" if tests.report_file else ""
     return _row(
         title="Friction test report on file",
-        found=f"{found}; attached" if tests.report_file else found,
+        **{**said, "found": said["found"] + attached},
         limit="laboratory, report number, date",
-        is_satisfied=is_complete,
         remedy="Obtain the friction test report and complete the sheet Friction tests.",
     )
 
 
 def _standard(data: ProjectInput) -> Requirement:
     tests = data.friction_tests
-    by_standard = bool(STANDARD.search(tests.standard))
+    lacking = {
+        "standard": not STANDARD.search(tests.standard),
+        "accreditation": not tests.accreditation,
+    }
     standard = f"standard {tests.standard or NOT_GIVEN}"
     accreditation = f"accreditation {tests.accreditation or NOT_GIVEN}"
     return _row(
         title="Tested to ASTM G115",
         found=f"{standard}; {accreditation}",
         limit="ASTM G115, accredited laboratory",
-        is_satisfied=by_standard and bool(tests.accreditation),
+        is_satisfied=not any(lacking.values()),
         remedy="Obtain tests to ASTM G115 by an accredited laboratory, and state both on the sheet "
         "Friction tests.",
+        places=tuple(
+            Place("friction_tests", 0, field) for field, lacks in lacking.items() if lacks
+        ),
     )
 
 
 def _wet_and_dry(data: ProjectInput) -> Requirement:
     given = {(one.report, one.surface): one for one in tested(data)}
     reports = dict.fromkeys(report for report, _ in given)
+    still = [index for index, row in enumerate(data.friction_runs) if row.velocity_mps is None]
     found = [
         (f"report {report or 'without a number'}: " if len(reports) > 1 else "")
         + ", ".join(_runs({s: given.get((report, s)) for s in Surface}, data.us_first))
@@ -84,6 +94,8 @@ def _wet_and_dry(data: ProjectInput) -> Requirement:
         and all(map(has_enough_runs, given.values())),
         remedy="Obtain the runs that are missing, and enter them with velocities on the sheet "
         "Friction tests.",
+        places=tuple(Place("friction_runs", index, "velocity_mps") for index in still)
+        or (Place("friction_runs"),),
     )
 
 
@@ -164,9 +176,4 @@ def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
     return f"{first} ({second})"
 
 
-_row = partial(
-    condition,
-    id="friction_tests",
-    basis="friction tests",
-    place=Place("friction_tests", 0, "report"),
-)
+_row = partial(condition, id="friction_tests", basis="friction tests")

@@ -15,6 +15,11 @@ from report.sheet.schema.project import Site
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
 
+_FIELDS = {
+    symbol: Place("site", 0, field)
+    for symbol, field in (("S_S", "s_s_g"), ("S_1", "s_1_g"), ("S_D1", "s_d1_g"))
+}
+
 
 def hazard_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     """Return the rows on the seismic parameters of the site."""
@@ -29,28 +34,23 @@ def _is_studied(site: Site) -> bool:
 def _source(site: Site) -> Requirement:
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
     if not _is_studied(site):
-        found, is_complete = stated((source, date))
         return condition(
             id="hazard_source",
             title="Source and date of the seismic parameters",
-            found=found,
+            **stated("site", hazard_source=source, hazard_date=date),
             limit="source and date",
             basis="seismic parameters",
-            is_satisfied=is_complete,
             remedy="State on the sheet Site which tool or report the values are from, and when "
             "they were read.",
-            place=Place("site", 0, "hazard_source"),
         )
-    found, is_complete = stated((source, ("report number", site.hazard_report), date))
+    number = ("report number", site.hazard_report)
     return condition(
         id="hazard_source",
         title="Report on the site-specific hazard analysis",
-        found=found,
+        **stated("site", hazard_source=source, hazard_report=number, hazard_date=date),
         limit="source, report number and date",
         basis=site.edition.clause("site_specific"),
-        is_satisfied=is_complete,
         remedy="Obtain the report, and state its author, number and date on the sheet Site.",
-        place=Place("site", 0, "hazard_source"),
     )
 
 
@@ -68,7 +68,7 @@ def _category(site: Site) -> Requirement:
         basis=site.edition.clause("sdc"),
         is_satisfied=not lacking,
         remedy=f"The SDC also depends on {missing}: enter {'both' if len(lacking) > 1 else 'it'}.",
-        place=Place("site", 0, "sdc"),
+        places=tuple(_FIELDS[symbol] for symbol in lacking),
     )
 
 
@@ -90,7 +90,7 @@ def _site_class(site: Site) -> Iterator[Requirement]:
         remedy=holds
         if site.edition.has_site_coefficients
         else "The values of a hazard tool depend on the site class: determine it.",
-        place=Place("site", 0, "site_class"),
+        places=(Place("site", 0, "site_class"),),
     )
 
 
@@ -113,5 +113,5 @@ def _site_specific(site: Site) -> Iterator[Requirement]:
         if missing
         else "S_DS and S_D1 are mapped values: obtain a site-specific hazard analysis, or state "
         "the exception that applies.",
-        place=Place("site", 0, "hazard"),
+        places=tuple(_FIELDS[symbol] for symbol in missing) or (Place("site", 0, "hazard"),),
     )

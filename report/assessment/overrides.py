@@ -80,7 +80,7 @@ def _override(rules: RuleSet, index: int, row: Override) -> Requirement:
         found=f"{value}{OVERRIDDEN}, {row.reason}",
         limit=f"{sign} {adopted}",
         basis=given.clause,
-        place=Place("overrides", index, "value"),
+        places=(Place("overrides", index, "value"),),
     )
 
 
@@ -93,7 +93,7 @@ def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Requirement]:
             found=f"displacement toward each clearance{OVERRIDDEN}, {options.directional_reason}",
             limit="design displacement in full in every direction",
             basis=rules.name,
-            place=Place("options", 0, "directional"),
+            places=(Place("options", 0, "directional"),),
         )
     if _takes_plain_mean(data):
         yield _row(
@@ -102,7 +102,7 @@ def _departures(data: ProjectInput, rules: RuleSet) -> Iterator[Requirement]:
             found=f"{options.statistic}{OVERRIDDEN}",
             limit="statistic of the rule set, with its factor",
             basis=rules.values["analysis_factor"].clause,
-            place=Place("options", 0, "statistic"),
+            places=(Place("options", 0, "statistic"),),
         )
 
 

@@ -37,8 +37,6 @@ _FIELDS: Mapping[str, str] = {
     "low_profile_in": "cg_height_m",
     "ibc_max_slope_deg": "slope_value",
     "analysis_max_slope_deg": "slope_value",
-    "prescriptive_max_slope_deg": "slope_value",
-    "prescriptive_min_mu": "mu",
     "max_risk_category": "risk_category",
     "max_stories": "stories",
 }
@@ -118,16 +116,21 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
         )
         for array in data.arrays
     ]
+    statistic = Place("options", 0, "statistic")
+    if basis and lacking and any(limits.route is Route.ANALYSIS for limits in routes):
+        yield limit(f"{lacking}: {Verdict.NG.value}", statistic)
     for index, limits in enumerate(routes):
         for check in limits.limits:
             yield from _limit(check, "arrays", index, us_first)
         if limits.route is Route.PRESCRIPTIVE:
-            failed = [
-                limit_words(check, us_first) for check in limits.analysis_checks if not check.ok
-            ]
-            why = "; ".join(failed) or lacking or "the motions do not qualify"
-            text = f"array {data.arrays[index].id} takes the prescriptive displacement: {why}"
-            yield note(Place("arrays", index, "slope_value"), text)
+            failed = [check for check in limits.analysis_checks if not check.ok]
+            why = "; ".join(limit_words(check, us_first) for check in failed)
+            place = statistic if lacking else Place("motions")
+            yield note(
+                _place(failed[0], "arrays", index) if failed else place,
+                f"array {data.arrays[index].id} takes the prescriptive displacement: "
+                f"{why or lacking or 'the motions do not qualify'}",
+            )
     yield from _requirements(project_rows(data, shaking.prepared))
     yield from _requirements(motion_rows(acceptance, (limits.route for limits in routes)))
     for index, array in enumerate(data.arrays):
@@ -137,7 +140,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
             text = (
                 f"{array.id}, electrical slack: not given; provide at least the design displacement"
             )
-            yield limit(Place("arrays", index, "slack_m"), f"{text}: {Verdict.CONDITIONS.word}")
+            yield limit(f"{text}: {Verdict.CONDITIONS.word}", Place("arrays", index, "slack_m"))
 
 
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
@@ -157,14 +160,17 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
         f" {'Add the roof edges as objects, then run' if is_bare else 'Run'} roofslip plan"
         f" clearances {quote(str(sheet.path))}, or add the rows"
     )
-    yield limit(Place("clearances"), text)
+    yield limit(text, Place("clearances"))
 
 
 def _limit(check: Limit, section: str, row: int, us_first: bool) -> Iterator[Finding]:
     if not check.ok:
-        place = Place(section, row, _FIELDS[check.key]) if check.key in _FIELDS else None
         text = f"{limit_words(check, us_first)}: {Verdict.NG.value}"
-        yield limit(place or Place("motions"), text)
+        yield limit(text, _place(check, section, row))
+
+
+def _place(check: Limit, section: str, row: int) -> Place:
+    return Place(section, row, _FIELDS[check.key]) if check.key in _FIELDS else Place("motions")
 
 
 def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
@@ -178,4 +184,4 @@ def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
     for row in (row for row in rows if not row.is_satisfied):
         subject = f"{row.subject}, " if row.subject else ""
         text = f"{subject}{lowered(row.title)}: {row.found}; {row.limit} required ({row.basis}): "
-        yield limit(row.place, f"{text}{row.verdict.word}. {row.remedy}")
+        yield limit(f"{text}{row.verdict.word}. {row.remedy}", *row.places)

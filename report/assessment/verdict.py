@@ -5,7 +5,7 @@ What follows from a requirement is stated where it is made. Read `Requirement`, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping
 from enum import StrEnum
 from functools import partial
 from typing import Any
@@ -40,10 +40,6 @@ class Verdict(StrEnum):
 
 
 BY_CONSEQUENCE = {Consequence.NG: Verdict.NG, Consequence.CONDITION: Verdict.CONDITIONS}
-
-
-KNOWN_AFTER_RUNS = Place("")
-"""The cell of a requirement that `check` does not know."""
 
 
 def _all_are_written(schema: dict[str, Any]) -> None:
@@ -81,7 +77,8 @@ class Requirement(BaseModel):
     """Of this requirement alone."""
     # what the verdict of the subject calls it; empty for its title
     cause: SkipJsonSchema[str] = Field(default="", exclude=True)
-    place: SkipJsonSchema[Place] = Field(default=KNOWN_AFTER_RUNS, exclude=True)  # to look at
+    # the cells to fill in or to change; none of what `check` does not know
+    places: SkipJsonSchema[tuple[Place, ...]] = Field(default=(), exclude=True)
 
     @field_validator("remedy")
     @classmethod
@@ -106,12 +103,16 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 NOT_GIVEN = "not given"
 
 
-def stated(parts: Sequence[tuple[str, object]]) -> tuple[str, bool]:
-    """Return what a workbook states of several parts and what it does not, and whether all."""
-    given = [str(value) for _, value in parts if value]
-    missing = [name for name, value in parts if not value]
-    if not given:
-        return NOT_GIVEN, False
-    return "; ".join(
-        given + ([f"{', '.join(missing)} {NOT_GIVEN}"] if missing else [])
-    ), not missing
+def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
+    """Return what a block states of several parts, name and value by field, and what it does not.
+
+    With whether it states all, and the cells of those that are missing.
+    """
+    given = [str(value) for _, value in parts.values() if value]
+    missing = {field: name for field, (name, value) in parts.items() if not value}
+    lacks = [f"{', '.join(missing.values())} {NOT_GIVEN}"] if missing else []
+    return {
+        "found": "; ".join([*given, *lacks]) if given else NOT_GIVEN,
+        "is_satisfied": not missing,
+        "places": tuple(Place(section, 0, field) for field in missing),
+    }

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from report.motions.components import RecordFile
 from report.motions.prepare import Shaking
 from report.sheet.checking.findings import note, warning
-from report.sheet.checking.motion_checks import LABELS
+from report.sheet.checking.motion_checks import FIELDS
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Place
 
@@ -23,8 +23,6 @@ MOST_DURATION_S = 300.0
 MOST_UNEQUAL = 0.05
 """Share of the longest component that may be trimmed from it without a warning."""
 
-_FIELDS = {label: field for field, label in LABELS.items()}
-
 
 def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
     """Yield what is unusual in the records of each motion."""
@@ -36,7 +34,7 @@ def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
             yield from _unequal(index, files)
         for file in files:
             yield from _spikes(index, file)
-            place = Place("motions", index, _FIELDS[file.component])
+            place = Place("motions", index, FIELDS[file.component])
             yield from (note(place, f"{file.name}: {text}") for text in file.notes)
 
 
@@ -90,4 +88,4 @@ def _seconds(file: RecordFile) -> float:
 
 
 def _place(index: int, file: RecordFile) -> Place:
-    return Place("motions", index, _FIELDS[file.component])
+    return Place("motions", index, FIELDS[file.component])

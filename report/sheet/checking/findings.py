@@ -19,9 +19,9 @@ def warning(name: str, place: Place, text: str) -> Finding:
     return Finding(level=Level.WARNING, id=name, place=place, text=text)
 
 
-def limit(place: Place, text: str) -> Finding:
-    """Return a warning that cannot be acknowledged."""
-    return Finding(level=Level.WARNING, place=place, text=text)
+def limit(text: str, place: Place, *others: Place) -> Finding:
+    """Return a warning that cannot be acknowledged, with the cells to look at."""
+    return Finding(level=Level.WARNING, place=place, others=others, text=text)
 
 
 def note(place: Place, text: str) -> Finding:
@@ -46,11 +46,12 @@ def in_order(findings: Iterable[Finding]) -> tuple[Finding, ...]:
 
 
 def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterator[str]:
-    """Yield the address of each finding: its cell, or else its table or sheet."""
+    """Yield the address of each finding: its cells, or else its table or sheet."""
     for finding in findings:
         place = finding.place
         table = addresses.get(Place(place.section), _SHEETS[place.section])
-        yield finding.cell or addresses.get(place, table)
+        cells = (addresses.get(each, table) for each in (place, *finding.others))
+        yield finding.cell or listed(cells, _MOST_CELLS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,6 +76,7 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
         yield FindingGroup(finding=group[0][0], cells=cells, names=names)
 
 
+_MOST_CELLS = 4  # of one finding
 _SHEETS = {section.key: section.sheet for section in SECTIONS}
 _ORDER = {section.key: count for count, section in enumerate(SECTIONS)}
 

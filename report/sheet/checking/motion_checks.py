@@ -17,6 +17,9 @@ from solver.building.beam import MOST_STORIES
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
 """Fields of a motion that name a record, each with the name of its component."""
 
+FIELDS = {label: field for field, label in LABELS.items()}
+"""The same by component."""
+
 SHORTEST_S = 1.0
 """Duration [s] below which a motion is refused: no earthquake record is as short."""
 

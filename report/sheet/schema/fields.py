@@ -47,6 +47,7 @@ class Finding:
 
     level: Level
     place: Place  # the cell to look at
+    others: tuple[Place, ...] = ()  # further ones of its section
     text: str  # what was found; of a warning also what would do
     remedy: str = ""  # what would do, of an error
     id: str = ""  # by which the sheet Acknowledged answers a warning; a limit has none

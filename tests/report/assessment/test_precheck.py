@@ -95,3 +95,11 @@ def test_a_statistic_that_needs_more_motions_is_named_as_the_reason():
     reason = "7 motions are given, and the statistic 'mean' needs 11 or more"
     assert found
     assert all(reason in text for text in found)
+
+
+def test_a_statistic_that_leaves_no_route_is_ng_at_its_cell():
+    found = findings(stand_in.steep(options={"statistic": "mean"}), SEVEN)
+    texts = [f.text for f in found if f.place == Place("options", 0, "statistic")]
+    assert "7 motions are given, and the statistic 'mean' needs 11 or more: NG" in texts
+    prescribed = findings(stand_in.project(options={"statistic": "mean"}), SEVEN)
+    assert not any(f.text.endswith(": NG") for f in prescribed if f.place.section == "options")
