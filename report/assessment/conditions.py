@@ -32,7 +32,7 @@ from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, numb
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
-from solver.rules.provisions import Neighbor
+from solver.rules.provisions import RULE_SETS, Neighbor, review_lifts_slope
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
@@ -130,14 +130,16 @@ def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
     if not options.peer_reviewed:
         return
     fields = ("reviewer", "license", "date", "letter")
+    lifts_slope = review_lifts_slope(RULE_SETS[data.site.rule_set], data.site.sdc)
+    back = "floor and the slope limit of the analysis route apply"
     yield condition(
         id="peer_review",
         title="Peer review of the analysis",
         **stated("options", **{f"peer_{x}": (x, getattr(options, f"peer_{x}")) for x in fields}),
         limit="reviewer, license, date and letter",
         basis=data.site.rule_set,
-        remedy="Give reviewer, license, date and letter. Without peer review the floor and the "
-        "slope limit of the analysis route apply.",
+        remedy="Give reviewer, license, date and letter. Without peer review the "
+        f"{back if lifts_slope else 'floor of the analysis route applies'}.",
     )
 
 

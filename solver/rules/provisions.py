@@ -289,6 +289,11 @@ def prescriptive_checks(rules: RuleSet, *, slope_rad: float, mu: float) -> tuple
     )
 
 
+def review_lifts_slope(rules: RuleSet, sdc: str) -> bool:
+    """Whether roofs steeper than the limit of the analysis route are permitted with peer review."""
+    return rules.steeper_if_reviewed and sdc in "ABC"
+
+
 def analysis_checks(
     rules: RuleSet, *, slope_rad: float, n_motions: int, sdc: str, is_reviewed: bool
 ) -> tuple[Limit, ...]:
@@ -304,7 +309,7 @@ def analysis_checks(
         "analysis_max_slope_deg",
         measure=Measure.ANGLE_DEG,
     )
-    may_exceed = rules.steeper_if_reviewed and sdc in "ABC" and is_reviewed
+    may_exceed = is_reviewed and review_lifts_slope(rules, sdc)
     count = _check(rules, "Number of motions", n_motions, "analysis_min_motions")
     return replace(slope, may_exceed=may_exceed), count
 

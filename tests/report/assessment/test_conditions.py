@@ -44,6 +44,18 @@ def test_a_peer_review_without_name_license_date_and_letter_is_a_condition(missi
     assert found.consequence is Consequence.CONDITION
 
 
+@pytest.mark.parametrize(
+    ("rule_set", "sdc", "lifts"),
+    [("ASCE 7-16", "C", True), ("ASCE 7-16", "D", False), ("SEAOC PV1-2012", "C", False)],
+)
+def test_the_slope_limit_is_named_only_where_peer_review_lifts_it(rule_set, sdc, lifts):
+    site = stand_in.site(rule_set=rule_set, sdc=sdc)
+    data = stand_in.project(site=site, options={"peer_reviewed": True})
+    said = next(item for item in project_rows(data, ()) if item.id == "peer_review")
+    assert ("slope limit" in said.remedy) is lifts
+    assert "floor" in said.remedy
+
+
 def test_without_a_peer_review_nothing_is_said_of_it():
     assert row(assessed(), "peer_review") is None
 
