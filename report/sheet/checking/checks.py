@@ -15,7 +15,7 @@ from report.sheet.checking.friction_checks import friction_faults
 from report.sheet.checking.motion_checks import motion_faults
 from report.sheet.checking.plan_checks import places_of, plan_faults, shapes_of, us_first
 from report.sheet.checking.site_checks import site_faults
-from report.sheet.schema import factors
+from report.sheet.schema import factors, provision_name
 from report.sheet.schema.choices import ModelChoice, SlopeUnit
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.links import coefficients
@@ -23,9 +23,9 @@ from report.sheet.schema.scene import slope_rad
 from report.sheet.schema.shapes import Rectangle, Shape, gap_m
 from report.words.letters import cut
 from report.words.units import Quantity, pair
+from solver.meant import nearest
 from solver.model import INCH_M
-from solver.rules.provisions import OVERRIDABLE
-from solver.rules.rulesets import ALLOWED
+from solver.rules.rulesets import ALLOWED, OVERRIDABLE, RULE_SETS
 
 GAP_TOLERANCE = 0.01
 # Below the inch at which a package states that a clearance contradicts the plan
@@ -204,15 +204,24 @@ def _smaller_events(draft: Draft, where: Where) -> Iterator[Finding]:
 
 def _overrides(draft: Draft, where: Where) -> Iterator[Finding]:
     given = list(column(draft, ("overrides",), "provision"))
+    names = {key: provision_name(key) for key in OVERRIDABLE}
+    rules = next((RULE_SETS[name] for _, name in column(draft, ("site",), "rule_set")), None)
     for place, key in given:
-        if key not in OVERRIDABLE:
-            wanted = f"choose one of {', '.join(OVERRIDABLE)}"
-            yield Finding.error(place, f"provision is '{key}'", wanted)
-    for place, key, first in repeated(cell for cell in given if cell[1] in OVERRIDABLE):
-        found = f"provision is '{key}', already given at {where(first)}"
+        if key not in names:
+            near = nearest(key, names.values())
+            wanted = (
+                f"did you mean '{near}'?" if near else "choose a name from the list of the cell"
+            )
+            yield Finding.error(place, f"provision is '{cut(key)}'", wanted)
+        elif rules and key not in rules.values:
+            found = f"provision is '{names[key]}', which {rules.name} does not have"
+            yield Finding.error(place, found, "delete the row")
+    for place, key, first in repeated(cell for cell in given if cell[1] in names):
+        found = f"provision is '{names[key]}', already given at {where(first)}"
         yield Finding.error(place, found, "delete one")
     for place, value in column(draft, ("overrides",), "value"):
         key = draft["overrides"][place.row].get("provision", "")
         allowed = ALLOWED.get(key)
         if allowed and not allowed.has(value):
-            yield Finding.error(place, f"value is {value:g} for {key}", f"give {allowed.words}")
+            found = f"value is {value:g} for the {OVERRIDABLE[key]}"
+            yield Finding.error(place, found, f"give {allowed.words}")

@@ -24,7 +24,6 @@ from sheets import (
     type_into,
 )
 from solver.model import InputError
-from solver.rules.provisions import OVERRIDABLE
 
 
 def together(folder, cases, touched):
@@ -50,6 +49,7 @@ RULE_SETS = "choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22"
 CONTROL = "with control characters; retype it"
 
 # Cell, its content, how the line begins, and what it goes on with for each content.
+PARAPET = "for the minimum height of a qualifying parapet above the roof [in]"
 SINGLE_CELLS = [
     ("Arrays/A1/Friction coefficient", "friction coefficient is ", {
         "abc": f"'abc'; {NUMBER}", "0_4": f"'0_4'; {NUMBER}", "٠.٤": f"'٠.٤'; {NUMBER}",
@@ -117,8 +117,8 @@ SINGLE_CELLS = [
         -0.01: "-0.01; give a number of more than 0 to 1 [s]",
     }),
     ("Options/1/Value", "value is ", {
-        -1: "-1 for parapet_height_in; give a number from 0 to 240",
-        1e9: "1e+09 for parapet_height_in; give a number from 0 to 240",
+        -1: f"-1 {PARAPET}; give a number from 0 to 240",
+        1e9: f"1e+09 {PARAPET}; give a number from 0 to 240",
     }),
     ("Options/Peer review", "peer review is ", {"maybe": "'maybe'; choose Yes or No"}),
 ]  # fmt: skip
@@ -288,7 +288,8 @@ CONTRADICTIONS = [
      "<Motions/M1/Factor or PPA>: factor or PPA is 2, but scaling is 'as recorded'; change the"
      " scaling or leave this blank"),
     ({"Options/2/Provision": "parapet_height_in", "Options/2/Value": 20, "Options/2/Reason": "x"},
-     "<Options/2/Provision>: provision is 'parapet_height_in', already given at"
+     "<Options/2/Provision>: provision is 'Minimum height of a qualifying parapet above the"
+     " roof', already given at"
      " <Options/1/Provision>; delete one"),
     ({"Site/S_S": 2.4},
      "<Site/S_DS>: S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for"
@@ -448,7 +449,14 @@ TYPED = [
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
      f"<Site/Height of the array z/Unit>: unit of height of the array z is missing; {LENGTHS}"),
     ({"Options/1/Provision": "parapet"},
-     "<Options/1/Provision>: provision is 'parapet'; choose one of " + ", ".join(OVERRIDABLE)),
+     "<Options/1/Provision>: provision is 'parapet'; choose a name from the list of the cell"),
+    ({"Options/1/Provision": "minimum height of qualifying parapet above roof"},
+     "<Options/1/Provision>: provision is 'minimum height of qualifying parapet above roof'; did"
+     " you mean 'Minimum height of a qualifying parapet above the roof'?"),
+    ({"Site/Rule set": "ASCE 7-16", "Options/1/Value": 20,
+      "Options/1/Provision": "Prescriptive displacement in SDC A, B, C"},
+     "<Options/1/Provision>: provision is 'Prescriptive displacement in SDC A, B, C', which"
+     " ASCE 7-16 does not have; delete the row"),
     ({"Arrays/heading/CG height": "CG height [yd]"},
      f"<Arrays/heading/CG height>: unit of CG height is 'yd'; {LENGTHS}"),
 ]  # fmt: skip
