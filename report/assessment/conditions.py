@@ -391,6 +391,7 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
         **_provided(array.slack_m, assessed.permitted_m, Quantity.SIZE, data.us_first),
         basis="design displacement",
         remedy="Provide wiring slack of at least the design displacement.",
+        places=_places(data, array, "slack_m"),
     )
 
 

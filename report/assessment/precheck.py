@@ -7,7 +7,7 @@ Runs nothing. `report.assessment.project` decides the verdict after the runs. Re
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from shlex import quote
 
 from report.assessment.acceptance import shaking_acceptance
@@ -28,7 +28,7 @@ from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Place
 from report.words.counts import lowered, numbered
-from report.words.units import Quantity, number, pair
+from report.words.units import Quantity, number, pair, round_down, round_up
 from solver.rules import provisions
 from solver.rules.limit import Limit, Measure
 from solver.rules.provisions import Basis, RuleSet
@@ -72,23 +72,36 @@ def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
     )
 
 
-def limit_value(check: Limit, value: float, us_first: bool) -> str:
-    """Return a number of a check with the units of its measure."""
+def limit_value(
+    check: Limit, value: float, us_first: bool, rounded: Callable[[float, int], float] = round
+) -> str:
+    """Return a number of a check, rounded, with the units of its measure."""
+
+    def show(value: float, decimals: int) -> str:
+        return number(rounded(value, decimals), decimals)
+
     match check.measure:
         case Measure.ANGLE_DEG:
             percent = 100.0 * math.tan(math.radians(value))
-            return f"{number(value, 2)}° ({number(percent, 1)} %)"
+            return f"{show(value, 2)}° ({show(percent, 1)} %)"
         case Measure.LENGTH_M:
-            return pair(value, Quantity.SIZE, us_first)
+            return pair(value, Quantity.SIZE, us_first, lambda m, u: show(m / u.si, u.decimals))
         case Measure.COUNT:
             return number(value, 0)
         case _:
-            return number(value, 3)
+            return show(value, 3)
 
 
 def limit_words(check: Limit, us_first: bool) -> str:
-    """Return a limit that is not satisfied: quantity, value, what would do, clause."""
-    value, most = (limit_value(check, v, us_first) for v in (check.found, check.limit))
+    """Return a limit that is not satisfied: quantity, value, what would do, clause.
+
+    The limit as printed satisfies it, and the value as printed does not.
+    """
+    safe, other = (round_up, round_down) if check.is_at_least else (round_down, round_up)
+    most = limit_value(check, check.limit, us_first, safe)
+    value = limit_value(check, check.found, us_first)
+    if value.split()[0] == most.split()[0]:
+        value = limit_value(check, check.found, us_first, other)
     wanted = f"at least {most} is required" if check.is_at_least else f"at most {most} is permitted"
     return f"{lowered(check.title)}: {value}; {wanted} ({check.provision.clause})"
 

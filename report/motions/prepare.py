@@ -36,7 +36,7 @@ class Shaking:
 
 _TOO_MUCH = (
     f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together",
-    "give fewer motions, or convert the records (roofslip motion convert)",
+    "give fewer motions, or convert the records (roofslip motion convert --help)",
 )
 _NOT_READ = ("the records from here on are not read", "correct those before it first")
 

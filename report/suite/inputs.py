@@ -204,7 +204,7 @@ def _group(name: str, files: Iterable[MotionFile]) -> tuple[Record, ...]:
     if len(group) > 3:
         raise InputError(
             f"{name}: has {len(group)} channels; give one, two or three for each motion "
-            "(roofslip motion convert extracts a channel)"
+            "(to extract a channel: roofslip motion convert --help)"
         )
     names = [Path(f.name).stem if r.name == f.name else r.name for f, r in channels]
     verticals = [k for k, name in enumerate(names) if VERTICAL.search(name)]

@@ -12,6 +12,7 @@ from itertools import pairwise
 from report.sheet.checking.site_checks import site_parameters
 from report.sheet.schema.choices import RecordedAt, Scaling
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.words.units import digits_up
 from solver.building.beam import MOST_STORIES
 
 LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "vertical"}
@@ -161,5 +162,5 @@ def _design_spectrum(draft: Draft, ground: list[int], where: Where) -> Iterator[
     t_s = None if parameters is None else parameters.t_s
     if t_s is not None and t_l_s is not None and t_l_s <= t_s:
         text = f"long-period transition T_L is {t_l_s:g} s"
-        wanted = f"give more than T_S = S_D1/S_DS = {t_s:.3g} s"
+        wanted = f"give more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
         yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)

@@ -150,7 +150,7 @@ def _read(path: Path) -> bytes:
 
 def _zip(data: bytes) -> zipfile.ZipFile:
     if not data:
-        raise InputError("empty file; start again from a fresh workbook (roofslip new)")
+        raise InputError("empty file; start again from a fresh workbook (roofslip new FOLDER)")
     if data.startswith(b"\xd0\xcf\x11\xe0"):
         if "EncryptedPackage".encode("utf-16-le") in data:
             raise InputError("protected with a password; save it without one")

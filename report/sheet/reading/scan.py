@@ -74,7 +74,7 @@ class Budget:
         if self.others < 0:
             raise InputError(
                 f"more than {MAX_OTHERS:,} comments, formats and the like; copy the inputs into a "
-                "fresh workbook (roofslip new)"
+                "fresh workbook (roofslip new FOLDER)"
             )
 
 

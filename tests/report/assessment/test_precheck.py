@@ -72,7 +72,7 @@ def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledg
     assert [finding.text for finding in listed if finding.place == slope] == [
         "roof slope, any ballasted system: 8.00° (14.1 %); at most 4.76° (8.3 %) is permitted"
         " (IBC 1613.3): NG",
-        "roof slope, analysis route: 8.00° (14.1 %); at most 7.00° (12.3 %) is permitted"
+        "roof slope, analysis route: 8.00° (14.1 %); at most 7.00° (12.2 %) is permitted"
         " (PV1-2012): NG",
     ]
 

@@ -7,7 +7,7 @@ from sheets import at, make, problems
 NO_TEXT = "not a text file; give the text of a record"
 TOO_MUCH = (
     "the records to here have more than 64 MB together; give fewer motions, or convert the records"
-    " (roofslip motion convert)"
+    " (roofslip motion convert --help)"
 )
 
 

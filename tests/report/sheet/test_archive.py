@@ -60,7 +60,7 @@ def test_openpyxl_reads_with_the_parser_of_python():
 @pytest.mark.parametrize(
     ("content", "line"),
     [
-        (b"", "empty file; start again from a fresh workbook (roofslip new)"),
+        (b"", "empty file; start again from a fresh workbook (roofslip new FOLDER)"),
         (b"name,number\n", f"not a workbook, or truncated; {REOPEN}"),
         (b"PK\x03\x04" + bytes(50), f"not a workbook, or truncated; {REOPEN}"),
         (OLE, f"an old Excel workbook (.xls) by its content; {SAVE_AS}"),
@@ -97,7 +97,7 @@ BOOK, RELATIONS, STYLES = "xl/workbook.xml", "xl/_rels/workbook.xml.rels", "xl/s
 BESIDE = "keep records in files beside it"
 OTHERS = (
     f"xl/odd.xml: more than {MAX_OTHERS:,} comments, formats and the like; copy the inputs into a"
-    " fresh workbook (roofslip new)"
+    " fresh workbook (roofslip new FOLDER)"
 )
 
 

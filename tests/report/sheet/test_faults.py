@@ -424,7 +424,7 @@ def test_a_setting_that_is_given_twice_is_reported_with_both_cells(tmp_path):
     )
 
 
-FRESH = "copy it from a fresh workbook (roofslip new)"
+FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
 HEADING = f"write it here in its own column, or {FRESH}"
 LENGTHS = "write one of in, ft, mm, cm, m"
 
