@@ -95,7 +95,7 @@ class ClearanceResult(Entity):
     verdict: Annotated[
         Verdict,
         centered("Verdict", 0.95),
-        Column("Result", formula=_OK, is_always=True),
+        Column("Verdict", formula=_OK, is_always=True),
         Told(ChangeKind.VERDICT, "Clearance {row.array} to {row.object}"),
     ]
     """OK, NG, or none where the required separation is not known."""

@@ -46,7 +46,7 @@ def made(done):
 
 def results_of_clearances(book):
     headings, *rows = book["Clearances"].iter_rows(min_row=4, values_only=True)
-    return [row[headings.index("Result")] for row in rows if row[0]]
+    return [row[headings.index("Verdict")] for row in rows if row[0]]
 
 
 def page(name, key):

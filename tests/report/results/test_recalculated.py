@@ -109,12 +109,12 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
         headings = ("Design", "Factor", "Required [in]", "Provided", "D/C")
         assert compared(book, row, headings) == pytest.approx(wanted, rel=1e-9)
         governing = f"{gap.governing_array}, {gap.governing_direction.value}"
-        assert compared(book, row, (GOVERNING, "Result")) == [governing, gap.verdict.value]
+        assert compared(book, row, (GOVERNING, "Verdict")) == [governing, gap.verdict.value]
 
 
 @pytest.mark.nightly
 def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
-    headings = (GOVERNING, "Design", "Required [in]", "Provided", "Result")
+    headings = (GOVERNING, "Design", "Required [in]", "Provided", "Verdict")
     governing, design, required, provided, result = compared(changed[1], "Clearances/1", headings)
     assert governing == f"{other_array(reviewed)}, any"
     assert design == pytest.approx(1.1 * 90.0)

@@ -277,7 +277,7 @@ def test_without_a_value_the_workbook_states_no_value_and_no_verdict():
     steep = stand_in.steep()
     values = opened(xlsx(stand_in.assess_input(steep, scenes.motions(2))))[1]
     assert valued(values, "Design/1", "Design [in]", "Verdict") == ["none", "NG"]
-    assert valued(values, "Clearances/1", "Required [in]", "Result") == ["none", "none"]
+    assert valued(values, "Clearances/1", "Required [in]", "Verdict") == ["none", "none"]
     assert cell(values, "Design/Verdict").value == "NG"
     rows = list(values["Requirements"].iter_rows(min_row=5, values_only=True))
     assert any(row[0] == "Motions" and row[5] == "NG" for row in rows)
@@ -361,12 +361,12 @@ def test_the_workbook_has_no_verdict_where_no_route_is_permitted():
     links = [stand_in.links("A1", "0.3, 0.3", 50)]
     formulas, values = opened(xlsx(stand_in.unpermitted(links=links)))
     check_formulas(formulas, values)
-    headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Result")
+    headings = ("Design [in]", "Required [in]", "Required [mm]", "D/C", "Verdict")
     first, second, third = rows_of(values["Clearances"], 4)
     for row in (first, second):
         assert row[GOVERNING] == "A1, any"
         assert [row[heading] for heading in headings] == ["none"] * 5
-    assert third["Result"] == "OK"
+    assert third["Verdict"] == "OK"
     assert [row["Verdict"] for row in rows_of(values["Design"], 4)] == ["NG", "NG"]
     assert rows_of(values["Links"], 4)[0]["Result"] == "NG"
 
