@@ -20,7 +20,7 @@ from report.drawing.widths import tick_text, width_in
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.scene import RoofObject
 from report.sheet.schema.shapes import Point, Rectangle
-from report.words.units import Quantity, number, pair
+from report.words.units import Quantity, no_less, number, pair
 
 ARROW_IN, SCREEN_ARROW_IN = 0.3, 0.2
 _BASE_IN = 0.0625  # from the middle of a line along an edge to its baseline
@@ -142,7 +142,7 @@ def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]
         return
     if plan.size.is_full:
         says.insert(0, fmt.both)
-    moves = [f"Δ {say(array.design_m, Quantity.SIZE)}{array.design_mark}" for say in says]
+    moves = [f"Δ {say(array.design_m, Quantity.SIZE, no_less)}{array.design_mark}" for say in says]
     if math.isnan(array.permitted_m):
         moves = [f"Δ {NOT_PERMITTED}" if array.has_unpermitted_value else "no value"]
     if plan.size.is_full:

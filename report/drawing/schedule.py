@@ -18,7 +18,7 @@ from report.drawing.widths import width_in
 from report.entities.columns import UnitFormat
 from report.sheet.schema.shapes import Shape, around
 from report.words.counts import ids_by, ranged
-from report.words.units import Quantity, measured, number
+from report.words.units import Quantity, measured, no_less, number
 
 ROW_IN = 0.175  # of a table of the package
 _IDS_IN, _FROM_IN, _TO_IN = 0.48, 0.33, 0.46  # width of words in columns of the tables
@@ -40,7 +40,7 @@ def alike_arrays(assessment: Assessment, fmt: UnitFormat) -> Sequence[AlikeArray
     """Return the arrays of an assessment, those alike together."""
 
     def key(array: ArrayAssessment) -> tuple[str, str, str, str]:
-        design = fmt.cells(array.permitted_m, mark=array.design_mark)[0]
+        design = fmt.cells(array.permitted_m, mark=array.design_mark, show=no_less)[0]
         keep = keep_clear(keep_clear_m(assessment, array), fmt.us_first).partition(" ")[0]
         keep += keep_clear_mark(assessment, array)
         slope = f"{number(math.degrees(array.array.slope_rad), 2)}°"

@@ -21,7 +21,7 @@ from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
 from report.words.counts import named
-from report.words.units import number
+from report.words.units import measured, no_less, number
 from solver.model import Orientation, SlideHistory, Status
 
 PEAK_ROWS = 16
@@ -145,7 +145,9 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
     ):
         field = name.replace("floor", "floor_m")
         is_changed = any((item.id, field) in package.changes.values for item in group)
-        toward_cells = (fmt.cells(m)[0] + mark for m, mark in zip(excursions, after, strict=True))
+        show = measured if name.endswith("_prd_m") else no_less
+        pairs = zip(excursions, after, strict=True)
+        toward_cells = (fmt.cells(m, mark=mark, show=show)[0] for m, mark in pairs)
         yield TableRow(
             cells=(Wide(label, 1 + runs), *row.cells(name, fmt), *toward_cells, Wide(about, 5)),
             kind=package.bar(is_changed, "total"),

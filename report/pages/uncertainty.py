@@ -13,7 +13,7 @@ from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
 from report.assessment.uncertainty import TOLERANCE, Margin, ResponseSurface, Uncertainty
 from report.document.tables import Column, Table, listed
-from report.entities.shown import length, text, words
+from report.entities.shown import length, required, text, words
 from report.pages.parts import PackageData
 from report.words.letters import power_of_ten
 from report.words.units import number
@@ -120,6 +120,6 @@ def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
         (words("Array"), lambda item: item.array.id),
         (length(f"{times}mean sum"), lambda item: factor * item.mean_m),
         (length(f"{times}largest sum"), lambda item: factor * item.largest_m),
-        (length("Design displacement"), lambda item: item.array.design_m),
+        (required("Design displacement"), lambda item: item.array.design_m),
     )
     return listed(sums, columns, package.fmt, kind="compact")
