@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from report.assessment.arrays import statistic_basis
@@ -14,13 +15,14 @@ from report.assessment.precheck import lacking_motions, limit_words
 from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Requirement, Verdict
 from report.sheet.schema.choices import ModelChoice
-from report.words.counts import lowered, ranged
-from report.words.units import Quantity, compared_pairs, ratio
+from report.words.counts import ids_by, lowered, ranged
+from report.words.units import Quantity, beside, compared_pairs, no_less, ratio
 from solver.model import Status
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
     from report.assessment.clearances import ClearanceCheck
+    from report.assessment.neighbors import ComparedGap
     from report.assessment.project import Assessment
 
 
@@ -34,6 +36,42 @@ def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
     if not found or (verdict is Verdict.NG and is_shown):
         return ""
     return found[0] + (f" and {len(found) - 1} more" if len(found) > 1 else "")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """What an input comes to: verdict, governing clearance, and what else makes it NG."""
+
+    verdict: Verdict
+    gap: ComparedGap | None  # none without a required separation
+    others: tuple[str, ...]
+
+    def words(self, us_first: bool) -> str:
+        """Return it in a few words, such as `NG, A3 to RTU-2 60.4 > 60.0 in`."""
+        said = self.verdict.value
+        if self.gap:
+            required_m, had_m = self.gap.required_m, self.gap.provided_m
+            unit = Quantity.SIZE.us if us_first else Quantity.SIZE.si
+            required, had = no_less(required_m, unit), beside(required_m, had_m)(had_m, unit)
+            sign = "≤" if required_m <= had_m else ">"
+            names = " to ".join(self.gap.between)
+            said += f", {names} {required}{self.gap.mark} {sign} {had} {unit.symbol}"
+        return "; ".join((said, *self.others))
+
+
+def outcome(done: Assessment) -> Outcome:
+    """Return what an assessment comes to."""
+    gaps = [gap for gap in (*done.clearances, *done.missing_gaps) if gap.demand_capacity >= 0.0]
+    failed = (item for item in done.arrays if done.array_verdict(item) is Verdict.NG)
+    groups = ids_by(failed, lambda item: unshown_cause(done, item))
+    return Outcome(
+        verdict=done.verdict,
+        gap=max(gaps, key=lambda gap: gap.demand_capacity, default=None),
+        others=(
+            *(lowered(limit.title) for limit in done.building_checks if not limit.ok),
+            *(f"{ranged(ids)}: {cause}" for cause, ids in groups.items() if cause),
+        ),
+    )
 
 
 def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:

@@ -1,4 +1,4 @@
-"""What a plan checker asks about the seismic parameters: source, SDC, site class, 11.4.8.
+"""What a plan checker asks about the seismic parameters: code, source, SDC, site class, 11.4.8.
 
 Each row that is not satisfied is a condition, not NG; values below their table are errors
 (`report.sheet.checking.site_checks`). Read `hazard_rows`.
@@ -7,12 +7,13 @@ Each row that is not satisfied is a condition, not NG; values below their table 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
 from report.sheet.schema.project import Site
-from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, HazardBasis
+from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, REFERENCED, HazardBasis
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
 
 _FIELDS = {
@@ -24,16 +25,41 @@ _FIELDS = {
 def hazard_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     """Return the rows on the seismic parameters of the site."""
     site = data.site
-    return (_source(site), _category(site), *_site_class(site), *_site_specific(site))
+    return (*_code(site), _source(site), _category(site), *_site_class(site), *_site_specific(site))
 
 
-def _is_studied(site: Site) -> bool:
-    return site.hazard is HazardBasis.SITE_SPECIFIC
+def _code(site: Site) -> Iterator[Requirement]:
+    """Yield what is not by the edition of ASCE 7 that the building code references."""
+    code, edition = site.code_text, REFERENCED.get(site.code_text)
+    row = partial(condition, basis=f"{code}, chapter 35†", is_satisfied=False)
+    if code and not edition:
+        yield row(
+            id="code_edition",
+            title="Edition of ASCE 7 that the building code references",
+            found=f"not known to this program for the {code}",
+            limit="confirmation",
+            remedy="Confirm which it is, and that the rule set and the seismic parameters are by "
+            f"it. Known for: {', '.join(REFERENCED)}.",
+            places=(Place("site", 0, "building_code_year"),),
+        )
+    for field, what, used, instead in (
+        ("rule_set", "", site.rule_set, "select the rule set"),
+        ("edition_name", "the seismic parameters of ", site.edition.name, "enter those of"),
+    ):
+        if edition and used != edition:
+            yield row(
+                id=field,
+                title=f"Acceptance of {what}{used} by the jurisdiction",
+                found=used,
+                limit=f"{edition} of the {code}†, or acceptance in writing",
+                remedy=f"Obtain the jurisdiction's acceptance in writing, or {instead} {edition}.",
+                places=(Place("site", 0, field),),
+            )
 
 
 def _source(site: Site) -> Requirement:
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
-    if not _is_studied(site):
+    if site.hazard is not HazardBasis.SITE_SPECIFIC:
         return condition(
             id="hazard_source",
             title="Source and date of the seismic parameters",
@@ -73,7 +99,7 @@ def _category(site: Site) -> Requirement:
 
 
 def _site_class(site: Site) -> Iterator[Requirement]:
-    if site.assumed_class != BY_DEFAULT or _is_studied(site):
+    if site.assumed_class != BY_DEFAULT or site.hazard is HazardBasis.SITE_SPECIFIC:
         return
     holds = (
         f"F_a is then at least {LEAST_F_A_BY_DEFAULT:g} ({site.edition.clause('s_ms')}), and S_1 of"

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import asdict
 from functools import partial
 
 from report.assessment.verdict import Requirement, condition
 from report.sheet.schema import Override, ProjectInput, provision_name, provision_unit
-from report.sheet.schema.choices import Statistic
+from report.sheet.schema.choices import RuleSetName, Statistic
 from report.sheet.schema.fields import Place
 from report.words.counts import lowered
+from solver.rules.hazard import REFERENCED
 from solver.rules.provisions import RULE_SETS, Basis, RuleSet
 from solver.rules.rulesets import ALLOWED
 
@@ -58,6 +60,18 @@ def as_adopted(data: ProjectInput) -> ProjectInput:
     if not data.overrides and options == given:
         return data
     return data.model_copy(update={"overrides": (), "options": options})
+
+
+def under_code(data: ProjectInput) -> ProjectInput:
+    """Return an input under the rule set of its building code as adopted; itself if it has that."""
+    site = data.site
+    name = REFERENCED.get(site.code_text, site.rule_set)
+    if name == site.rule_set:
+        return data
+    values = {f"{symbol}_g": value for symbol, value in asdict(site.parameters).items()}
+    # With what it derives: another edition may not.
+    other = site.model_copy(update=values | {"rule_set": RuleSetName(name), "edition_name": None})
+    return as_adopted(data.model_copy(update={"site": other}))
 
 
 def mark_of(value: float, adopted: float) -> str:

@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import ArrayAssessment, assess_array, by_id
+from report.assessment.causes import outcome
 from report.assessment.clearances import (
     ClearanceCheck,
     check_clearance,
@@ -40,7 +41,7 @@ from report.assessment.friction_velocity import (
 )
 from report.assessment.links import LinkedArray, assess_linked
 from report.assessment.neighbors import ComparedGap, PlanNeighbor, plan_pairs, reaches_of
-from report.assessment.overrides import rule_set_of
+from report.assessment.overrides import rule_set_of, under_code
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits
 from report.assessment.run_warnings import RunWarning, run_warnings
@@ -255,7 +256,7 @@ def assess(
         Of the same motions and targets: the limits on them are taken from it, and the runs of
         arrays with the same slope, friction and model.
     project : ProjectInput, optional
-        Assessed in place of that of the sheet.
+        Assessed in place of that of the sheet; what the building code's rule set gives is left out.
 
     Raises
     ------
@@ -275,7 +276,27 @@ def assess(
         acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
         whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
         at_reduced_friction = partial(whole, reduced, begun=less, has_pairs=False)
-        return whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
+        done = whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
+        other = under_code(data)
+        if other is data or project is not None:
+            return done
+        acceptance = shaking_acceptance(shaking, targets(other))  # of another edition maybe
+        return _beside(whole(other, begun=begun, acceptance=acceptance), done)
+
+
+def _beside(other: Assessment, given: Assessment) -> Assessment:
+    """Return an assessment with the outcome by the rule set of its building code in its rows."""
+    linked = tuple(replace(row, design=by_id(other.arrays, row.design.id)) for row in given.linked)
+    one, two = ((each.project.overrides, each.project.options) for each in (given, other))
+    how = "the same motions and S_DS" + ("" if one == two else ", without overrides and departures")
+    words = outcome(replace(other, linked=linked)).words(given.project.us_first)
+    text = f"By {other.rules.name} 13.6.12 with {how}: {words}."
+    ids = "rule_set", "edition_name"
+    rows = [
+        row.model_copy(update={"remedy": f"{row.remedy} {text}"}) if row.id in ids else row
+        for row in given.rows
+    ]
+    return replace(given, rows=tuple(rows))
 
 
 def reassess(

@@ -15,8 +15,9 @@ from enum import StrEnum
 from functools import partial
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
+from report.assessment.causes import Outcome, outcome
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.entered import Outcome, changed, entered, outcome, refused
+from report.assessment.entered import changed, entered, refused
 from report.assessment.moves import moves
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import nan_is_worst
@@ -134,7 +135,7 @@ def _together(given: Assessment, found: Sequence[Remedy]) -> Sequence[Remedy]:
     if not all(one.exists for one in found):
         return found
     done = entered(given, _with_mus(given.project, {one.array: one.value for one in found}))
-    return [replace(one, outcome=outcome(done)) for one in found]
+    return [replace(one, outcome=outcome(done) if done else None) for one in found]
 
 
 def _with_mus(data: ProjectInput, mus: dict[str, float]) -> ProjectInput:
@@ -217,7 +218,7 @@ def _separation(given: Assessment, number: int, gap: ClearanceCheck) -> Remedy:
         verified=(value, value),
         n_values=1 if found else 0,
         basis=basis,
-        outcome=outcome(found),
+        outcome=outcome(found) if found else None,
     )
 
 

@@ -102,6 +102,12 @@ EDITIONS: Mapping[str, Edition] = {
 }
 """Every edition of ASCE 7 by its name."""
 
+REFERENCED: Mapping[str, str] = {
+    **dict.fromkeys(("2018 IBC", "2021 IBC", "2019 CBC", "2022 CBC"), "ASCE 7-16"),
+    **dict.fromkeys(("2024 IBC", "2025 CBC"), "ASCE 7-22"),
+}
+"""Edition of ASCE 7 by building code, as commonly known of its chapter 35; each has 13.6.12."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeismicParameters:

@@ -1,0 +1,172 @@
+"""The building code beside the rule set and the edition of the seismic parameters."""
+
+import pytest
+
+import scenes
+import stand_in
+from report.assessment import project
+from report.assessment.hazard_rows import hazard_rows
+from report.assessment.precheck import limits_before_runs
+from report.assessment.runs import run_motion
+from report.assessment.verdict import Verdict
+from report.sheet.schema.choices import BuildingCode
+from solver.rules.hazard import EDITIONS, REFERENCED
+from solver.rules.rulesets import RULE_SETS
+
+IDS = ("rule_set", "edition_name", "code_edition")
+OF_22 = {"edition_name": "ASCE 7-22", "f_a": None, "f_v": None}
+
+
+def site(code, **changes):
+    year, _, name = code.rpartition(" ")
+    given = {"building_code": name, "building_code_year": int(year)} if code else {}
+    return stand_in.site(**given, **changes)
+
+
+def listed(rows):
+    return {row.id: row for row in rows if row.id in IDS}
+
+
+def before_runs(code, **changes):
+    return listed(hazard_rows(stand_in.project(site=site(code, **changes))))
+
+
+def assessed(code, *, sections=(), **changes):
+    return scenes.package(site=site(code, **changes), **dict(sections)).assessment
+
+
+def test_every_code_that_a_workbook_offers_references_an_edition_that_is_a_rule_set_too():
+    assert {code.split()[1] for code in REFERENCED} == {code.value for code in BuildingCode}
+    assert set(REFERENCED.values()) <= EDITIONS.keys() & RULE_SETS.keys()
+
+
+@pytest.mark.parametrize("year", [2018, 2021, 2024])
+def test_the_cbc_references_what_the_ibc_of_the_year_before_does(year):
+    assert REFERENCED[f"{year + 1} CBC"] == REFERENCED[f"{year} IBC"]
+
+
+@pytest.mark.parametrize(
+    ("code", "changes", "found"),
+    [
+        ("", {}, []),
+        ("2022 CBC", {"rule_set": "ASCE 7-16"}, []),
+        ("2018 IBC", {"rule_set": "ASCE 7-16"}, []),
+        ("2024 IBC", {"rule_set": "ASCE 7-22", "f_a": None, "f_v": None}, []),
+        ("2022 CBC", {}, ["rule_set"]),
+        ("2022 CBC", OF_22, ["rule_set", "edition_name"]),
+        ("2025 CBC", OF_22, ["rule_set"]),
+        ("2025 CBC", {}, ["rule_set", "edition_name"]),
+        ("2025 CBC", {"rule_set": "ASCE 7-16"}, ["rule_set", "edition_name"]),
+        ("2021 IBC", OF_22 | {"rule_set": "ASCE 7-22"}, ["rule_set", "edition_name"]),
+        ("2001 CBC", {}, ["code_edition"]),
+        ("2022 IBC", {"rule_set": "ASCE 7-16"}, ["code_edition"]),
+    ],
+)
+def test_what_is_not_by_the_edition_of_the_building_code_is_a_condition(code, changes, found):
+    rows = before_runs(code, **changes)
+    assert list(rows) == found
+    assert {row.verdict for row in rows.values()} <= {Verdict.CONDITIONS}
+    assert {row.basis for row in rows.values()} <= {f"{code}, chapter 35†"}
+
+
+def test_pv1_beside_a_code_with_13_6_12_asks_for_its_acceptance():
+    row = before_runs("2022 CBC")["rule_set"]
+    assert row.title == "Acceptance of SEAOC PV1-2012 by the jurisdiction"
+    assert (row.found, row.limit) == (
+        "SEAOC PV1-2012",
+        "ASCE 7-16 of the 2022 CBC†, or acceptance in writing",
+    )
+    assert row.remedy.endswith("in writing, or select the rule set ASCE 7-16.")
+
+
+def test_parameters_of_another_edition_ask_for_those_of_the_code():
+    row = before_runs("2025 CBC")["edition_name"]
+    assert row.title == "Acceptance of the seismic parameters of ASCE 7-16 by the jurisdiction"
+    assert (row.found, row.limit) == (
+        "ASCE 7-16",
+        "ASCE 7-22 of the 2025 CBC†, or acceptance in writing",
+    )
+    assert row.remedy.endswith("in writing, or enter those of ASCE 7-22.")
+
+
+def test_a_code_whose_edition_is_not_known_names_those_that_are():
+    row = before_runs("2001 CBC")["code_edition"]
+    assert row.found == "not known to this program for the 2001 CBC"
+    assert all(code in row.remedy for code in REFERENCED)
+
+
+def test_check_says_so_at_the_cell_without_any_run():
+    made = stand_in.book(stand_in.project(site=site("2025 CBC")), scenes.motions())
+    said = {f.place.field: f.text for f in limits_before_runs(made.sheet.project, made.shaking)}
+    for field in ("rule_set", "edition_name"):
+        assert "acceptance of" in said[field]
+        assert "ASCE 7-22 of the 2025 CBC†, or acceptance in writing required" in said[field]
+        assert "By ASCE" not in said[field]
+
+
+def test_the_example_says_that_it_is_ng_by_asce_7_16_with_the_worst_clearance_and_the_slope():
+    done = scenes.shipped("example")
+    assert done.verdict is Verdict.CONDITIONS
+    assert listed(done.conditions)["rule_set"].remedy.endswith(
+        "By ASCE 7-16 13.6.12 with the same motions and S_DS: NG, A1 to RTU-1 65.3 > 48.0 in; A2:"
+        " electrical slack provided; A3: roof slope, analysis route and 4 more."
+    )
+
+
+@pytest.mark.parametrize("changes", [{}, OF_22, {"rule_set": "ASCE 7-16"}])
+def test_both_conditions_say_what_an_assessment_by_the_rule_set_of_the_code_gives(changes):
+    done = assessed("2025 CBC", **changes)
+    rule_set = {"rule_set": "ASCE 7-22", "f_a": None, "f_v": None}
+    by_code = assessed("2025 CBC", **rule_set)
+    assert listed(by_code.conditions) == {}
+    gaps = [gap for gap in by_code.clearances if gap.demand_capacity > 0.0]
+    worst = max(gaps, key=lambda gap: gap.demand_capacity)
+    verdict, between = by_code.verdict, f"{worst.clearance.array} to {worst.clearance.object}"
+    rows = listed(done.conditions)
+    assert len(rows) == (1 if changes == OF_22 else 2)
+    for row in rows.values():
+        assert f"By ASCE 7-22 13.6.12 with the same motions and S_DS: {verdict}, {between} " in (
+            row.remedy
+        )
+
+
+def test_a_reason_other_than_clearances_is_said():
+    sections = {"overrides": [{"provision": "max_stories", "value": 9, "reason": "Agreed"}]}
+    done = assessed("2022 CBC", sections=sections, stories=8)
+    remedy = listed(done.conditions)["rule_set"].remedy
+    assert "S_DS, without overrides and departures: NG, " in remedy
+    assert "; number of stories" in remedy
+
+
+def test_a_departure_is_not_taken_over():
+    options = stand_in.project().options.model_dump() | scenes.DEPARTURE
+    done = assessed("2022 CBC", sections={"options": options})
+    assert "without overrides and departures" in listed(done.conditions)["rule_set"].remedy
+
+
+def test_a_row_of_linked_blocks_counts_under_the_other_rule_set_too():
+    sections = {
+        "arrays": [stand_in.array("A1", 2.0)],
+        "objects": [],
+        "clearances": [],
+        "links": [stand_in.links("A1", "0.40, 0.45, 0.50", 50)],
+        "options": {"peer_reviewed": True},
+    }
+    done = assessed("2022 CBC", sections=sections)
+    assert not done.is_rigid_enough(done.arrays[0])
+    remedy = listed(done.conditions)["rule_set"].remedy
+    assert remedy.endswith("NG; A1: one rigid block.")
+
+
+def test_no_run_is_made_again(monkeypatch):
+    book = stand_in.book(stand_in.project(site=site("2022 CBC")), scenes.motions())
+    runs = []
+
+    def run(array, motion):
+        runs.append((array.id, array.mu, motion.id))
+        return run_motion(array, motion)
+
+    monkeypatch.setattr(project, "run_motion", run)
+    done = project.assess(book.sheet, book.shaking)
+    assert "By ASCE 7-16" in listed(done.conditions)["rule_set"].remedy
+    assert len(runs) == len(set(runs)) == 2 * len(done.arrays) * len(scenes.motions())
