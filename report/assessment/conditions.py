@@ -19,7 +19,7 @@ from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
-from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
+from report.assessment.verdict import NOT_GIVEN, STAYS, Requirement, condition, stated
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
 from report.sheet.checking.motion_checks import FIELDS
@@ -158,7 +158,7 @@ def _drift(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[R
                 basis="limit of this program",
                 is_satisfied=False,
                 remedy="Drift of a record is computed as slip: correct its baseline, or show that "
-                "the displacement is real.",
+                f"the displacement is real. {STAYS}",
                 places=(Place("motions", index, FIELDS[max(ends, key=ends.__getitem__)]),),
             )
 
@@ -188,7 +188,7 @@ def _ground_motions(
             basis="limit of this program",
             is_satisfied=ratio <= MOST_LONG_RATIO,
             remedy="Obtain the peer reviewer's acceptance of the ground motions in writing, or use "
-            "ground motions that match the target at long periods.",
+            f"ground motions that match the target at long periods. {STAYS}",
             places=(Place("motions"),),
         )
 
@@ -220,7 +220,8 @@ def _motion_row(missed: Limit, takes_analysis: bool) -> Requirement:
 
 def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
     if not is_ng:
-        return "Show that the duration of strong motion is sufficient, or replace the motions."
+        show = "Show that the duration of strong motion is sufficient, or replace the motions."
+        return f"{show} {STAYS}"
     if takes_analysis:
         return (
             "Until it is satisfied, the value from analysis is not permitted: replace or complete "
@@ -360,7 +361,8 @@ def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
         limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, data.us_first)}",
         basis="fire code†",
         is_satisfied=largest <= FIRE_LANE_M * (1.0 + _NOISE),
-        remedy="Divide the array by a fire lane, or obtain the fire department's approval.",
+        remedy="Divide the array by a fire lane, or obtain the fire department's approval. "
+        f"{STAYS}",
         places=_places(data, array, *SIDES),
     )
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from functools import partial
 
-from report.assessment.verdict import Requirement, condition
+from report.assessment.verdict import STAYS, Requirement, condition
 from report.sheet.schema import Override, ProjectInput, provision_name, provision_unit
 from report.sheet.schema.choices import RuleSetName, Statistic
 from report.sheet.schema.fields import Place
@@ -29,7 +29,7 @@ OVERRIDE_ID = "override"
 LOWERING = (OVERRIDE_ID, "directional", "statistic")
 """Ids of the rows here."""
 
-CONSENT = "Obtain the consent of the authority having jurisdiction."
+CONSENT = f"Obtain the consent of the authority having jurisdiction. {STAYS}"
 
 
 def override_rows(data: ProjectInput) -> tuple[Requirement, ...]:

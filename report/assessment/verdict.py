@@ -101,6 +101,11 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 NOT_GIVEN = "not given"
+STAYS = (
+    "Evidence or an acceptance in writing goes to the plan checker: the condition stays in the "
+    "package."
+)
+"""Of a remedy whose outcome the workbook has no cell for."""
 
 
 def stated(section: str, **parts: tuple[str, object]) -> Mapping[str, Any]:
