@@ -101,7 +101,8 @@ SECTIONS = {
             "by": inputs.HEAD["prepared_by"],
         }
     ],
-    "site": inputs.SITE | {"s_s_g": 1.97, "f_a": 1.2, "f_v": 1.7},
+    "site": inputs.SITE
+    | {"s_s_g": 1.97, "f_a": 1.2, "f_v": 1.7, "fire_code_section": "2022 CFC, example section"},
     "arrays": [array("A1", 0.5), array("A2", 2.0, x=120), array("A3", 3.0, mu=0.55, y=90)],
     "objects": [
         roof_object("RTU-1", "fixed object", 107, 112, 35, 42, height=42 * INCH),

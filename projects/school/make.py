@@ -94,6 +94,7 @@ def project() -> ProjectInput:
                 "building_code": "IBC",
                 "building_code_year": 2021,
                 "jurisdiction": "City of Albuquerque",
+                "fire_code_section": "2021 IFC, example section",
             },
             "roof": rectangle((0.0, 60.0), (0.0, 34.0), 1.0),
             "arrays": [

@@ -14,6 +14,7 @@ import numpy as np
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.clearances import ClearanceCheck, facing
+from report.assessment.fire_lanes import fire_lane_rows
 from report.assessment.friction import SHIFT
 from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
@@ -40,13 +41,10 @@ if TYPE_CHECKING:
 DRIFT_M = 0.010
 """Final displacement of a record [m] above which it drifts."""
 
-FIRE_LANE_M = 150 * 0.3048
-"""Largest plan dimension of an array between fire lanes [m]."""
-
 LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
 """Periods from which on the mean of the ground motions / their target is compared, and the ratio
 above which a peer reviewer must accept the motions: in no code."""
-_NOISE = 1e-9  # 150 ft given in meters is no more than 150 ft
+_NOISE = 1e-9  # a weight or a width in other units is no more than itself
 
 MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
@@ -55,7 +53,7 @@ NO_DESIGN = "unknown without a permitted design displacement"
 
 
 def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tuple[Requirement, ...]:
-    """Return the requirements on the whole project, its motions and its friction tests."""
+    """Return the requirements on the project, its motions, friction tests and fire lanes."""
     return (
         _building_code(data),
         *_roof_outline(data),
@@ -66,6 +64,7 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
         *_drift(data, prepared),
         *_ground_motions(data, prepared),
         *friction_rows(data),
+        *fire_lane_rows(data),
     )
 
 
@@ -285,8 +284,8 @@ def rows_before_runs(
     data: ProjectInput, array: Array, required_n: float
 ) -> tuple[Requirement, ...]:
     """Return the requirements on an array that no run is needed for, with the strength [N]."""
-    known = _fire_lanes(data, array), _interconnection(data, array, required_n)
-    return *known, *_weight(data, array), *_drawing_distances(data, array)
+    strength = _interconnection(data, array, required_n)
+    return strength, *_weight(data, array), *_drawing_distances(data, array)
 
 
 def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement]:
@@ -348,23 +347,6 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             remedy="Use one weight with ballast in both: correct it, or the wind design.",
             places=_places(data, array, "weight_n", "wind_weight_pa"),
         )
-
-
-def _fire_lanes(data: ProjectInput, array: Array) -> Requirement:
-    plan = array.shape.bounds
-    largest = max(plan.x_to_m - plan.x_from_m, plan.y_to_m - plan.y_from_m)
-    return condition(
-        id="fire_lanes",
-        title="Largest plan dimension between fire lanes",
-        subject=array.id,
-        found=pair(largest, Quantity.PLAN, data.us_first),
-        limit=f"≤ {pair(FIRE_LANE_M, Quantity.PLAN, data.us_first)}",
-        basis="fire code†",
-        is_satisfied=largest <= FIRE_LANE_M * (1.0 + _NOISE),
-        remedy="Divide the array by a fire lane, or obtain the fire department's approval. "
-        f"{STAYS}",
-        places=_places(data, array, *SIDES),
-    )
 
 
 def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from report.assessment.verdict import NOT_GIVEN, Requirement, condition, stated
+from report.assessment.verdict import NOT_GIVEN, STAYS, Requirement, condition, stated
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Place
 from report.sheet.schema.project import Site
@@ -52,7 +52,7 @@ def _code(site: Site) -> Iterator[Requirement]:
                 title=f"Acceptance of {what}{used} by the jurisdiction",
                 found=used,
                 limit=f"{edition} of the {code}†, or acceptance in writing",
-                remedy=f"Obtain the jurisdiction's acceptance in writing, or {instead} {edition}.",
+                remedy=f"Obtain the jurisdiction's acceptance in writing, or {instead} {edition}. {STAYS}",
                 places=(Place("site", 0, field),),
             )
 

@@ -46,6 +46,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("options", "peer_letter"),
         ("options", "plan_paper"),
         ("project", "drawing_confirmed_by drawing_confirmed_date"),
+        ("site", "fire_code_section fire_lane_m"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook

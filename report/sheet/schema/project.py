@@ -146,6 +146,16 @@ class Site(Frozen):
     """Edition of the building code."""
     jurisdiction: Annotated[Text, Cell("Jurisdiction", "City of Los Angeles")] = ""
     """Building department that has jurisdiction. Printed on the cover."""
+    fire_code_section: Annotated[
+        Text, Cell("Fire code section", "Section of the 2022 CFC, as adopted")
+    ] = ""
+    """Code, edition and section that limit the distance between fire lanes. The package prints it
+    beside the plan dimension of the arrays, and without it has a condition."""
+    fire_lane_m: Annotated[
+        Positive, Cell("Fire lane width", 4.0, Quantity.PLAN, usual=(3.0, 10.0))
+    ] = 4 * 0.3048
+    """Arrays that are closer count as one between fire lanes. Blank: 4 ft, a practice: verify
+    against the adopted code."""
 
     @model_validator(mode="after")
     def _enough_for_s_ds(self) -> Site:

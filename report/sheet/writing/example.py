@@ -97,6 +97,7 @@ def project(units: UnitsFirst = UnitsFirst.US) -> ProjectInput:
                 "building_code": "CBC",
                 "building_code_year": 2022,
                 "jurisdiction": "City of Los Angeles",
+                "fire_code_section": "2022 CFC, example section",
             },
             "roof": {**rectangle((0.0, 360), (0.0, 240), FOOT), "north_deg": 90.0},
             "building": {"structure": "other"},

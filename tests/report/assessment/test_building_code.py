@@ -76,7 +76,7 @@ def test_pv1_beside_a_code_with_13_6_12_asks_for_its_acceptance():
         "SEAOC PV1-2012",
         "ASCE 7-16 of the 2022 CBC†, or acceptance in writing",
     )
-    assert row.remedy.endswith("in writing, or select the rule set ASCE 7-16.")
+    assert "in writing, or select the rule set ASCE 7-16. " in row.remedy
 
 
 def test_parameters_of_another_edition_ask_for_those_of_the_code():
@@ -86,7 +86,7 @@ def test_parameters_of_another_edition_ask_for_those_of_the_code():
         "ASCE 7-16",
         "ASCE 7-22 of the 2025 CBC†, or acceptance in writing",
     )
-    assert row.remedy.endswith("in writing, or enter those of ASCE 7-22.")
+    assert "in writing, or enter those of ASCE 7-22. " in row.remedy
 
 
 def test_a_code_whose_edition_is_not_known_names_those_that_are():

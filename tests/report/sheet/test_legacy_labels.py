@@ -84,6 +84,7 @@ def without(section, *fields):
         ("site", "building_code", "building_code_year", "jurisdiction"),
         ("friction_tests", "report_file"),
         ("options", "peer_letter"),
+        ("site", "fire_code_section", "fire_lane_m"),
     ],
 )
 def test_a_workbook_from_before_some_cells_is_read_as_it_is(tmp_path, fields):

@@ -1,0 +1,113 @@
+"""Arrays that no fire lane separates are one, and the section of the fire code is an input."""
+
+import pytest
+
+import scenes
+import stand_in
+from report.assessment.fire_lanes import fire_lane_rows
+from report.assessment.verdict import Verdict
+from report.sheet.schema.fields import Place
+from stand_in import FOOT
+
+SECTION = "2022 CFC, example section"
+
+
+def rows(*x_ft, section=SECTION, units="US", **site):
+    """Arrays side by side, each from one x to another, 60 ft deep."""
+    arrays = [
+        stand_in.array(f"A{n}", 0.5, x_from_m=low * FOOT, x_to_m=high * FOOT)
+        for n, (low, high) in enumerate(x_ft, start=1)
+    ]
+    given = stand_in.site(fire_code_section=section, **site)
+    head = stand_in.project().project.model_dump() | {"units_first": units}
+    data = stand_in.project(arrays=arrays, clearances=[], site=given, project=head)
+    return {row.subject: row for row in fire_lane_rows(data)}
+
+
+@pytest.mark.parametrize(("to_ft", "verdict"), [(150.0, Verdict.OK), (150.1, Verdict.CONDITIONS)])
+def test_fire_lanes_limit_an_array_to_150_feet(to_ft, verdict):
+    (row,) = rows((0, to_ft)).values()
+    assert row.verdict is verdict
+    assert row.found.startswith(f"{to_ft:.2f} ft (45.7")
+
+
+def test_arrays_closer_than_a_lane_are_one_and_each_has_the_condition():
+    found = rows((0, 80), (83.9, 163.9), (167.9, 200))
+    assert [(row.found, row.verdict) for row in found.values()] == [
+        *[("A1, A2 together: 163.90 ft (49.96 m)", Verdict.CONDITIONS)] * 2,
+        ("60.00 ft (18.29 m)", Verdict.OK),
+    ]
+    assert found["A1"].title.endswith("between fire lanes of 4.00 ft (1.22 m)")
+    assert found["A1"].remedy.startswith("Divide the arrays by a fire lane")
+    assert found["A1"].place == Place("arrays", 0, "x_from_m")
+
+
+def test_a_row_of_arrays_is_one_through_its_neighbors_in_any_order():
+    found = rows((0, 60), (126, 186), (63, 123))
+    assert {row.found for row in found.values()} == {"A1 to A3 together: 186.00 ft (56.70 m)"}
+
+
+@pytest.mark.parametrize(
+    ("gap_m", "lane_m", "is_one"),
+    [
+        (1.2, None, True),
+        (1.219, None, False),  # 4 ft is 1.2192 m
+        (1.2192, 1.22, False),
+        (1.2192, 8 * FOOT, True),
+        (0.0, None, True),
+    ],
+)
+def test_a_gap_that_is_a_lane_within_rounding_is_one(gap_m, lane_m, is_one):
+    width = {} if lane_m is None else {"fire_lane_m": lane_m}
+    found = rows((0, 100), (100 + gap_m / FOOT, 200), **width)
+    assert [row.is_satisfied for row in found.values()] == [not is_one] * 2
+
+
+def test_the_distance_is_that_of_the_shapes_not_of_their_boxes():
+    """A ring of an outline around another array is one with it only where it is near."""
+    ring = [(0, 0), (140, 0), (140, 140), (130, 140), (130, 10), (10, 10), (10, 140), (0, 140)]
+    outlines = [{"name": "A1", "x_m": x * FOOT, "y_m": y * FOOT} for x, y in ring]
+    arrays = [
+        stand_in.array("A1", 0.5, **dict.fromkeys(("x_from_m", "x_to_m", "y_from_m", "y_to_m"))),
+        stand_in.array("A2", 0.5, x_from_m=30 * FOOT, x_to_m=110 * FOOT, y_from_m=30 * FOOT,
+                       y_to_m=160 * FOOT),
+    ]  # fmt: skip
+    site = stand_in.site(fire_code_section=SECTION)
+    data = stand_in.project(arrays=arrays, outlines=outlines, clearances=[], site=site)
+    found = {row.subject: row.found for row in fire_lane_rows(data)}
+    assert found["A1"].startswith("140.00 ft")
+    assert found["A2"].startswith("130.00 ft")
+
+
+def test_the_basis_is_the_section_given():
+    (row,) = rows((0, 80)).values()
+    assert (row.basis, row.verdict) == (f"{SECTION}†", Verdict.OK)
+
+
+def test_without_a_section_the_row_says_so_and_is_a_condition():
+    found = rows((0, 80), (90, 150), (160, 320), section="")
+    assert {row.verdict for row in found.values()} == {Verdict.CONDITIONS}
+    assert {row.basis for row in found.values()} == {"fire code, section not given†"}
+    fits, long = found["A2"], found["A3"]
+    assert found["A1"].said == fits.said
+    assert fits.found == "at most 80.00 ft (24.39 m); section not given"
+    assert fits.remedy == "State on the sheet Site the section of the fire code."
+    assert long.found == "160.00 ft (48.77 m); section not given"
+    assert "by a fire lane" in long.remedy
+    assert long.place == Place("site", 0, "fire_code_section")
+
+
+def test_si_comes_first_where_it_does():
+    (row,) = rows((0, 80), units="SI").values()
+    assert row.limit == "≤ 45.72 m (150.00 ft)"
+
+
+def test_the_campus_is_longer_than_its_arrays():
+    """Its arrays are 1.2 m apart, less than 4 ft."""
+    done = scenes.shipped("campus")
+    found = {row.found: row.verdict for row in done.rows if row.id == "fire_lanes"}
+    assert found == {
+        "A1 to A15 together: 84.80 m (278.22 ft)": Verdict.CONDITIONS,
+        "A16 to A30 together: 84.80 m (278.22 ft)": Verdict.CONDITIONS,
+    }
+    assert all(done.array_verdict(item) is not Verdict.OK for item in done.arrays)
