@@ -52,7 +52,8 @@ def _code(site: Site) -> Iterator[Requirement]:
                 title=f"Acceptance of {what}{used} by the jurisdiction",
                 found=used,
                 limit=f"{edition} of the {code}†, or acceptance in writing",
-                remedy=f"Obtain the jurisdiction's acceptance in writing, or {instead} {edition}. {STAYS}",
+                remedy=f"Obtain the jurisdiction's acceptance in writing, or {instead} {edition}. "
+                f"{STAYS}",
                 places=(Place("site", 0, field),),
             )
 
