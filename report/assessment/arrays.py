@@ -159,6 +159,11 @@ class ArrayAssessment(RouteLimits):
         return self.is_permitted and all(check.ok for check in self.limits)
 
     @property
+    def is_by_runs(self) -> bool:
+        """Whether its design displacement follows from its runs; where there is none, too."""
+        return self.route is Route.ANALYSIS or self.design_m != self.prescriptive.value_m
+
+    @property
     def lacks_motions(self) -> bool:
         """Whether it takes the value from analysis, and the motions are too few for one."""
         return self.route is Route.ANALYSIS and self.analysis.basis is Basis.TOO_FEW

@@ -6,7 +6,7 @@ Each row says what its lack leads to. Read `project_rows` and `array_rows`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +20,15 @@ from report.assessment.friction_rows import friction_rows
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import override_rows
-from report.assessment.verdict import NOT_GIVEN, STAYS, Requirement, condition, stated
+from report.assessment.verdict import (
+    NOT_GIVEN,
+    STAYS,
+    VELOCITY_ROW,
+    Requirement,
+    Verdict,
+    condition,
+    stated,
+)
 from report.motions.history import PreparedMotion
 from report.motions.targets import targets
 from report.sheet.checking.motion_checks import FIELDS
@@ -48,6 +56,9 @@ _NOISE = 1e-9  # a weight or a width in other units is no more than itself
 
 MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
+
+_OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
+_NO_EFFECT = "The design displacement is prescriptive and does not follow from the analysis."
 
 NO_DESIGN = "unknown without a permitted design displacement"
 
@@ -192,10 +203,27 @@ def _ground_motions(
         )
 
 
+def noted(rows: Iterable[Requirement], by_runs: Collection[str]) -> Iterator[Requirement]:
+    """Yield rows; what concerns the analysis alone is a note where nothing follows from it.
+
+    Parameters
+    ----------
+    by_runs : collection of str
+        Arrays whose design displacement follows from their runs.
+    """
+    for row in rows:
+        concerned = row.subject in by_runs if row.id == VELOCITY_ROW else bool(by_runs)
+        if row.is_satisfied or concerned or row.id not in _OF_ANALYSIS:
+            yield row
+        else:
+            note = {"consequence": Consequence.NOTE, "verdict": Verdict.NOTE, "remedy": _NO_EFFECT}
+            yield row.model_copy(update=note)
+
+
 def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requirement, ...]:
     """Return the limits on the motions that they miss.
 
-    What makes a value from analysis NG is a condition where no array takes that value.
+    What makes a value from analysis NG is none where no array takes that value.
     """
     takes_analysis = Route.ANALYSIS in routes
     return tuple(_motion_row(missed, takes_analysis) for missed in acceptance.missed)
@@ -226,7 +254,10 @@ def _motion_remedy(is_ng: bool, takes_analysis: bool) -> str:
             "Until it is satisfied, the value from analysis is not permitted: replace or complete "
             "the motions."
         )
-    return "No array takes the value from analysis."
+    return (
+        "The prescriptive displacement is compared with the runs under these motions: replace or "
+        "complete the motions."
+    )
 
 
 def plan_rows(data: ProjectInput, nearby: Sequence[PlanNeighbor]) -> tuple[Requirement, ...]:

@@ -15,16 +15,13 @@ from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.assessment.friction import at_low_velocity, coefficient
 from report.assessment.friction_rows import tested
 from report.assessment.pending_runs import PendingRuns
-from report.assessment.verdict import NOT_GIVEN, Requirement, Verdict, condition
+from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Requirement, Verdict, condition
 from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.words.units import Quantity, no_less, number, pair
 from solver.friction_tests import Series, governing
 from solver.model import Friction
 from solver.rules.provisions import RuleSet
-
-VELOCITY_ROW = "friction_velocity"
-"""Id of the requirement on friction beyond the velocities tested."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

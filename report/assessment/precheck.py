@@ -12,7 +12,7 @@ from shlex import quote
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
-from report.assessment.conditions import motion_rows, project_rows, rows_before_runs
+from report.assessment.conditions import motion_rows, noted, project_rows, rows_before_runs
 from report.assessment.neighbors import REACH_FACTOR, NearbyKind
 from report.assessment.overrides import rule_set_of
 from report.assessment.plan_clearances import design_before_runs_m, pairs_before_runs
@@ -144,8 +144,10 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
                 f"array {data.arrays[index].id} takes the prescriptive displacement: "
                 f"{why or lacking or 'the motions do not qualify'}",
             )
-    yield from _requirements(project_rows(data, shaking.prepared))
-    yield from _requirements(motion_rows(acceptance, (limits.route for limits in routes)))
+    pairs = zip(data.arrays, routes, strict=True)
+    by_runs = {array.id for array, limits in pairs if limits.route is Route.ANALYSIS}
+    rows = motion_rows(acceptance, (limits.route for limits in routes))
+    yield from _requirements(noted((*project_rows(data, shaking.prepared), *rows), by_runs))
     for index, array in enumerate(data.arrays):
         required_n = interconnection_n(data, rules, array)
         yield from _requirements(rows_before_runs(data, array, required_n))
@@ -197,4 +199,6 @@ def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
     for row in (row for row in rows if not row.is_satisfied):
         subject = f"{row.subject}, " if row.subject else ""
         text = f"{subject}{lowered(row.title)}: {row.found}; {row.limit} required ({row.basis}): "
-        yield limit(f"{text}{row.verdict.word}. {row.remedy}", *row.places)
+        text += f"{row.verdict.word}. {row.remedy}"
+        is_note = row.verdict is Verdict.NOTE
+        yield note(row.places[0], text) if is_note else limit(text, *row.places)

@@ -27,6 +27,7 @@ from report.assessment.conditions import (
     array_rows,
     less_friction_rows,
     motion_rows,
+    noted,
     pathway_rows,
     plan_rows,
     project_rows,
@@ -185,8 +186,15 @@ class Assessment:
 
     @property
     def conditions(self) -> tuple[Requirement, ...]:
-        """The rows that are not satisfied, whatever follows from them."""
-        return tuple(row for row in self.rows if not row.is_satisfied)
+        """The rows that are not satisfied and not only a note."""
+        return tuple(
+            row for row in self.rows if not row.is_satisfied and row.verdict is not Verdict.NOTE
+        )
+
+    @property
+    def notes(self) -> tuple[Requirement, ...]:
+        """The rows on the analysis that are not satisfied, where nothing follows from it."""
+        return tuple(row for row in self.rows if row.verdict is Verdict.NOTE)
 
     @property
     def alike_conditions(self) -> Sequence[tuple[Requirement, Sequence[str]]]:
@@ -380,6 +388,7 @@ def _assess(
         *(row for item in arrays for row in array_rows(data, item)),
     ]
     # Last, as these runs are begun last.
+    by_runs = {item.id for item in arrays if item.is_by_runs}
     reduced, slower = reduced_friction() if reduced_friction else None, NOT_BY_VELOCITY
     if slow:
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=acceptance.qualifies)
@@ -396,8 +405,8 @@ def _assess(
         pairs=pairs,
         acceptance=acceptance,
         rows=(
-            *rows,
-            *(velocity_rows(data, arrays, slower) if reduced_friction else ()),
+            *noted(rows, by_runs),
+            *noted(velocity_rows(data, arrays, slower) if reduced_friction else (), by_runs),
             *pathway_rows(data, arrays, clearances),
             *plan_rows(data, [pair for pair in pairs if pair.is_listed]),
             *(less_friction_rows(arrays, clearances, reduced) if reduced else ()),

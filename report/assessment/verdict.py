@@ -20,10 +20,12 @@ from solver.rules.limit import Consequence
 class Verdict(StrEnum):
     """Verdict on a project, an array or a clearance.
 
-    NONE is of a clearance beside an array without a permitted route, whose own verdict is NG.
+    NONE is of a clearance beside an array without a permitted route, whose own verdict is NG. NOTE
+    is of a requirement on what no design displacement follows from.
     """
 
     NONE = "none"
+    NOTE = "note"
     OK = "OK"
     CONDITIONS = "OK with conditions"
     NG = "NG"
@@ -39,7 +41,11 @@ class Verdict(StrEnum):
         return "Condition" if self is Verdict.CONDITIONS else self.value
 
 
-BY_CONSEQUENCE = {Consequence.NG: Verdict.NG, Consequence.CONDITION: Verdict.CONDITIONS}
+BY_CONSEQUENCE = {
+    Consequence.NG: Verdict.NG,
+    Consequence.CONDITION: Verdict.CONDITIONS,
+    Consequence.NOTE: Verdict.NOTE,
+}
 
 
 def _all_are_written(schema: dict[str, Any]) -> None:
@@ -101,6 +107,8 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 NOT_GIVEN = "not given"
+VELOCITY_ROW = "friction_velocity"
+"""Id of the requirement on friction beyond the velocities tested."""
 STAYS = (
     "Evidence or an acceptance in writing goes to the plan checker: the condition stays in the "
     "package."

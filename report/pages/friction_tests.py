@@ -18,8 +18,8 @@ from report.assessment.friction_rows import (
     runs_by_velocity,
     tested,
 )
-from report.assessment.friction_velocity import VELOCITY_ROW, velocity_check
-from report.assessment.verdict import NOT_GIVEN
+from report.assessment.friction_velocity import velocity_check
+from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW
 from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words

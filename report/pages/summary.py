@@ -96,6 +96,8 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Conce
     for row, ids in assessment.alike_conditions:
         if row.verdict.is_permitted:
             yield Concern(row.consequence.value, row_words(row, ids))
+    for row in assessment.notes:
+        yield Concern(row.consequence.value, row_words(row, [row.subject]))
     for finding in what_is_new(assessment.sheet.book):
         yield Concern(finding.level.value, finding.text)
     found = findings(assessment.sheet, assessment.shaking)

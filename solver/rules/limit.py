@@ -28,6 +28,7 @@ class Consequence(StrEnum):
 
     NG = "NG"
     CONDITION = "condition"
+    NOTE = "note"
 
 
 class Measure(StrEnum):

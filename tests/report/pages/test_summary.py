@@ -16,7 +16,7 @@ def test_no_floor_is_removed_where_the_design_is_prescriptive():
     shown = printed(done, "summary").facts
     assert "Floor" not in shown
     assert shown["Peer review"] == (
-        "reviewer not given; no floor is used: the design displacements are prescriptive"
+        "reviewer not given; no floor is used: no array takes the value from analysis"
     )
     assert "floor" not in printed(done, "letter")
 
