@@ -109,10 +109,7 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 NOT_GIVEN = "not given"
 VELOCITY_ROW = "friction_velocity"
 """Id of the requirement on friction beyond the velocities tested."""
-STAYS = (
-    "Evidence or an acceptance in writing goes to the plan checker: the condition stays in the "
-    "package."
-)
+STAYS = "The condition stays for the plan checker."
 """Of a remedy whose outcome the workbook has no cell for."""
 
 
