@@ -169,9 +169,9 @@ def undrawn() -> Iterator[None]:
         empty = '<svg width="1pt" height="1pt"></svg>'
         patch.setattr(Figure, "savefig", lambda _, out, **__: out.write(empty))
         for module, name in (
-            (accelerations, "accelerations"), (charts, "clearances"), (charts, "comparison"),
+            (accelerations, "accelerations"), (charts, "comparison"),
             (history, "histories"), (hodograph, "hodographs"), (plan, "paper_svg"),
-            (plan, "roof_plan"), (spectra, "spectra"),
+            (spectra, "spectra"),
         ):  # fmt: skip
             patch.setattr(module, name, lambda *_, **__: empty)
         yield

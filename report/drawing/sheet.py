@@ -61,7 +61,6 @@ class PlanSize:
         return (0.62, 0.26, 0.65, 0.26) if self.is_full else (0.24, 0.24, 0.24, 0.24)
 
 
-SMALL = PlanSize(wide=6.7, tall=2.95, key_wide=2.05, key_tall=0.95)
 COLUMN_IN, BESIDE_IN = 2.5, 0.15
 """Width of a column of tables beside a full plan, with its distance, and this distance."""
 

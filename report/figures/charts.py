@@ -14,7 +14,6 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
-from report.assessment.clearances import ClearanceCheck
 from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
 from report.figures.base import ACCENT, GRAY, INK, framed, style, svg_text
@@ -91,43 +90,3 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
         axes.text(prescriptive / 2, row, "none", ha="center", va="center")
     if not all(check.ok for check in array.prescriptive_checks):
         axes.text(prescriptive, row, f"{NOT_PERMITTED} ", ha="right", va="bottom", fontsize=6)
-
-
-@memoized
-def clearances(gaps: Sequence[ClearanceCheck], us_first: bool, start: int = 1) -> str:
-    """Return required and provided separations as bars, numbered from `start`."""
-    first, second = UnitFormat(us_first).units()
-    provided = [gap.clearance.provided_m / first.si for gap in gaps]
-    required = [gap.required_m / first.si for gap in gaps]
-    rows = np.arange(len(gaps), dtype=float)
-    with style():
-        names = [
-            f"{count}  {tick_text(gap.clearance.array)} to {tick_text(gap.clearance.object)}"
-            for count, gap in enumerate(gaps, start=start)
-        ]
-        figure, axes = framed(
-            1.3 + min(_row_in(len(gaps)), 0.3) * len(gaps), _label_in(names), 0.1, 0.48, 0.75
-        )
-        axes.barh(rows - 0.18, provided, 0.34, **_BAR, label="provided")
-        hatched = _BAR | {"facecolor": "#b8c7d9", "hatch": "///"}
-        axes.barh(rows + 0.18, np.nan_to_num(required), 0.34, **hatched, label="required")
-        axes.set_yticks(rows, names)
-        axes.set_ylim(len(gaps) - 0.45, -0.55)
-        for row, gap in zip(rows, gaps, strict=True):
-            is_unknown = gap.is_permitted and math.isnan(gap.required_m)
-            text = f"none: {gap.verdict}" if is_unknown else gap.verdict.value
-            reach = np.nanmax([provided[int(row)], required[int(row)]])
-            axes.annotate(
-                text,
-                (reach, row),
-                (5, 0),
-                textcoords="offset points",
-                va="center",
-                weight="normal" if gap.ok else "semibold",
-            )
-        axes.set_xlabel(f"Separation [{first.symbol}]")
-        axes.margins(x=0.12)
-        axes.set_xlim(0, None)
-        _second_scale(axes, first, second)
-        figure.legend(loc="lower center", ncols=2)
-        return svg_text(figure)

@@ -15,12 +15,9 @@ from matplotlib.patches import Circle as Round
 from matplotlib.patches import FancyArrowPatch, Polygon
 from matplotlib.text import Text as Words
 
-from report.assessment.project import Assessment
 from report.drawing.items import Arrow, Circle, Item, Lines, Look, Mark, Outline
 from report.drawing.layers import Layer
-from report.drawing.on_paper import plan_on_paper
 from report.drawing.paper import Paper
-from report.drawing.sheet import PlanSize
 from report.drawing.widths import TYPE_PT
 from report.figures.base import ACCENT, GRAY, INK, PALE, Broken, canvas, style, svg_text
 
@@ -62,11 +59,6 @@ _ARROW: dict[str, Any] = {
     "shrinkA": 0,
     "shrinkB": 0,
 }
-
-
-def roof_plan(assessment: Assessment, size: PlanSize) -> str:
-    """Return the plan as SVG, at true scale where it is printed in its own size."""
-    return paper_svg(plan_on_paper(assessment, size).paper)
 
 
 def paper_svg(paper: Paper) -> str:

@@ -39,7 +39,7 @@ def test_arrays_closer_than_a_lane_are_one_and_each_has_the_condition():
     ]
     assert found["A1"].title.endswith("between fire lanes of 4.00 ft (1.22 m)")
     assert found["A1"].remedy.startswith("Divide the arrays by a fire lane")
-    assert found["A1"].place == Place("arrays", 0, "x_from_m")
+    assert found["A1"].places[0] == Place("arrays", 0, "x_from_m")
 
 
 def test_a_row_of_arrays_is_one_through_its_neighbors_in_any_order():
@@ -94,7 +94,7 @@ def test_without_a_section_the_row_says_so_and_is_a_condition():
     assert fits.remedy == "State on the sheet Site the section of the fire code."
     assert long.found == "160.00 ft (48.77 m); section not given"
     assert "by a fire lane" in long.remedy
-    assert long.place == Place("site", 0, "fire_code_section")
+    assert long.places == (Place("site", 0, "fire_code_section"),)
 
 
 def test_si_comes_first_where_it_does():

@@ -142,6 +142,7 @@ CELLS = {
     "limits": (
         {
             "Site/Number of stories": 9,
+            "Site/Fire code section": "2022 CFC, example section",
             "Arrays/A1/Slope": 12.3,
             "Arrays/A1/CG height": 32.5,
             "Arrays/A2/Slope": 15,

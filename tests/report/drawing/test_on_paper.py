@@ -11,11 +11,12 @@ import scenes
 import stand_in
 from inputs import HEAD, sides
 from places import ROOT
+from plans import SMALL
 from printed import printed
 from report.drawing.items import Circle, Lines, Mark, Outline, Text
 from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper, printed_plan
-from report.drawing.sheet import SMALL, PlanSize
+from report.drawing.sheet import PlanSize
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures import plan as figures
 from report.package.html import part

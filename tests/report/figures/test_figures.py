@@ -6,10 +6,11 @@ import pytest
 
 import scenes
 import stand_in
+from plans import SMALL, roof_plan
 from report.assessment.spectra import spectra
-from report.drawing.sheet import LANDSCAPE, SMALL
+from report.drawing.sheet import LANDSCAPE
 from report.figures import charts as figures
-from report.figures import history, plan
+from report.figures import history
 from report.figures.base import FAMILY
 from report.figures.spectra import spectra as drawn_spectra
 
@@ -28,12 +29,11 @@ def drawn(assessment):
     """Every chart of the package."""
     parts = spectra(assessment)
     return [
-        plan.roof_plan(assessment, SMALL),
-        plan.roof_plan(assessment, LANDSCAPE),
+        roof_plan(assessment, SMALL),
+        roof_plan(assessment, LANDSCAPE),
         drawn_spectra(parts),
         histories(assessment.arrays[0]),
         figures.comparison(assessment.alike, True),
-        figures.clearances(assessment.clearances, True),
     ]
 
 
@@ -93,11 +93,6 @@ def test_a_run_without_a_value_is_drawn_as_such():
     printed = words(histories(done.arrays[0]))
     assert printed.count("none") == 6  # above and within each panel
     assert "none" in words(figures.comparison(done.alike, True))
-    assert words(figures.clearances(done.clearances, True)).count("none: NG") == 5
-
-
-def test_a_failed_clearance_is_marked(assessment):
-    assert words(figures.clearances(assessment.clearances, True)).count("NG") == 1
 
 
 @pytest.mark.parametrize("us_first", [True, False])
@@ -107,8 +102,5 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
     assert f"[{'mm' if us_first else 'in'}]" in printed
 
 
-def test_a_clearance_without_a_permitted_route_is_drawn_without_a_verdict():
-    done = stand_in.unpermitted()
-    found = words(figures.clearances(done.clearances, True))
-    assert [text for text in found if text in ("OK", "NG", "none")] == ["none", "none", "OK"]
-    assert "none" in words(figures.comparison(done.alike, True))
+def test_a_comparison_without_a_permitted_route_says_none():
+    assert "none" in words(figures.comparison(stand_in.unpermitted().alike, True))

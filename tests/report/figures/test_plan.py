@@ -12,15 +12,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import scenes
 import stand_in
 from inputs import NO_SIDES, sides
+from plans import SMALL, roof_plan
 from printed import printed
 from report.assessment.envelopes import keep_clear_words
 from report.drawing.items import Text
 from report.drawing.on_paper import is_wide, plan_on_paper, printed_plan
 from report.drawing.paper import FOOT_M, round_scale
-from report.drawing.sheet import LANDSCAPE, PORTRAIT, SMALL
+from report.drawing.sheet import LANDSCAPE, PORTRAIT
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures.base import style
-from report.figures.plan import painted, paper_svg, roof_plan
+from report.figures.plan import painted, paper_svg
 from report.sheet.schema.scene import Roof
 from sketch import L_FT
 from solver.model import INCH_M
