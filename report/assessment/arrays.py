@@ -216,12 +216,10 @@ class ArrayAssessment(RouteLimits):
         is_opened = self.adopted is not None and self.is_permitted > self.adopted.is_permitted
         return OVERRIDDEN if is_opened else ""
 
-    @property
-    def prescriptive_mark(self) -> str:
-        """The mark of the prescriptive displacement."""
+    def prescriptive_mark(self, refused: str = f", {NOT_PERMITTED}") -> str:
+        """Return the mark of the prescriptive displacement, of a route that is refused, too."""
         is_permitted = all(check.ok for check in self.prescriptive_checks)
-        overridden = self.mark(lambda array: array.prescriptive.value_m)
-        return overridden if is_permitted else f"{overridden}, {NOT_PERMITTED}"
+        return self.mark(lambda array: array.prescriptive.value_m) + refused * (not is_permitted)
 
     @property
     def design_mark(self) -> str:

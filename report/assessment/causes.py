@@ -16,7 +16,7 @@ from report.assessment.runs import nan_is_worst
 from report.assessment.verdict import Requirement, Verdict
 from report.sheet.schema.choices import ModelChoice
 from report.words.counts import ids_by, lowered, ranged
-from report.words.units import Quantity, beside, compared_pairs, no_less, ratio
+from report.words.units import Quantity, compared_pairs, ratio
 from solver.model import Status
 
 if TYPE_CHECKING:
@@ -48,15 +48,8 @@ class Outcome:
 
     def words(self, us_first: bool) -> str:
         """Return it in a few words, such as `NG, A3 to RTU-2 60.4 > 60.0 in`."""
-        said = self.verdict.value
-        if self.gap:
-            required_m, had_m = self.gap.required_m, self.gap.provided_m
-            unit = Quantity.SIZE.us if us_first else Quantity.SIZE.si
-            required, had = no_less(required_m, unit), beside(required_m, had_m)(had_m, unit)
-            sign = "≤" if required_m <= had_m else ">"
-            names = " to ".join(self.gap.between)
-            said += f", {names} {required}{self.gap.mark} {sign} {had} {unit.symbol}"
-        return "; ".join((said, *self.others))
+        gap = f", {self.gap.words(us_first)}" if self.gap else ""
+        return "; ".join((self.verdict.value + gap, *self.others))
 
 
 def outcome(done: Assessment) -> Outcome:

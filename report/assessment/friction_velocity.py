@@ -196,8 +196,7 @@ def _outcome(alone: ArrayAssessment, slow: LowVelocityAssessment, us_first: bool
     if alone.has_unpermitted_value:
         yield NOT_PERMITTED
     gaps = slow.gaps_of(alone.id)
-    failed = [gap.clearance for gap in gaps if gap.verdict is Verdict.NG]
-    if failed:
-        yield f"NG: {', '.join(f'{row.array} to {row.object}' for row in failed)}"
+    if failed := [gap.words(us_first) for gap in gaps if gap.verdict is Verdict.NG]:
+        yield f"NG: {', '.join(failed)}"
     elif gaps and all(gap.ok for gap in gaps):
         yield "all its clearances OK" if len(gaps) > 1 else "its clearance OK"

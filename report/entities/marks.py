@@ -78,7 +78,8 @@ class Marked:
 
     def prescriptive_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of the prescriptive displacement."""
-        return joined(self.mark(self.prescriptive_key(array)), array.prescriptive_mark)
+        mark = array.prescriptive_mark("§") if self.has_daggers else array.prescriptive_mark()
+        return joined(self.mark(self.prescriptive_key(array)), mark)
 
     def floor_mark(self, array: ArrayAssessment) -> str:
         """Return the marks of the floor of an array, if it has one."""

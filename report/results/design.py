@@ -173,7 +173,7 @@ def _row(
         formulas=formulas,
         blanks={"difference"} if math.isnan(item.design_m) else (),
         marks={
-            "prescriptive_m": item.prescriptive_mark,
+            "prescriptive_m": item.prescriptive_mark(),
             "computed_m": item.mark(lambda array: array.analysis.value_m),
             "floor_m": item.mark(lambda array: array.floor_m),
             "interconnection_n": item.mark(lambda array: array.interconnection_n),

@@ -144,7 +144,7 @@ def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
     package = scenes.package(scenes.motions(2), arrays=arrays)
     summary = printed(package, "summary")
     for row in summary.table("Arrays").rows:
-        assert row["Prescriptive [in]"] == "81.6, not permitted"
+        assert row["Prescriptive [in]"] == "81.6§"
         assert {row[f"{name} [in]"] for name in ("Analysis", "Design")} == {"none"}
         assert (row["Governs"], row["D/C"]) == ("none", "none")
         assert row["Verdict"].startswith("NG")
