@@ -106,15 +106,15 @@ def test_events_are_printed_where_the_workbook_gives_any():
     assert "Events" not in printed(scenes.package(), "motions")
 
 
-def test_a_limit_that_is_a_condition_is_one_in_each_table():
-    """Without an array that takes the value from analysis, what makes that value NG is none."""
+def test_a_limit_that_is_a_note_is_one_in_each_table():
+    """Without an array that takes the value from analysis, what makes that value NG is a note."""
     alone = {"arrays": [stand_in.array("A1", 0.5)], "objects": [], "clearances": []}
     package = scenes.package(scenes.motions(2, 4.0), **alone)
     title = "Number of motions"
     rows = printed(package, "limits").table("Other requirements").rows
-    assert [row["Verdict"] for row in rows if row["Requirement"] == title] == ["Condition"]
+    assert [row["Verdict"] for row in rows if row["Requirement"] == title] == ["note"]
     shown = printed(package, "motions").table("Limits on the motions").rows
-    assert [row["Result"] for row in shown if row["Limit"] == title] == ["Condition"]
+    assert [row["Result"] for row in shown if row["Limit"] == title] == ["note"]
 
 
 @pytest.mark.parametrize(
