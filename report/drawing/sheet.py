@@ -146,7 +146,7 @@ class PlanSheet:
 
     @property
     def leader_in(self) -> float:
-        """Farthest label: the small plan leaves out what it has no room for."""
+        """Farthest label: a small plan leaves out what it has no room for."""
         return LEADER_IN if self.size.is_full or self.size.is_screen else 0.4 * LEADER_IN
 
     @property
