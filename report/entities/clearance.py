@@ -51,7 +51,7 @@ class ClearanceResult(Entity):
     object: Annotated[str, at("clearance.object"), words("To", 1.3), Column("Object")]
     direction: Annotated[Direction, at("clearance.direction"), Column("Direction")]
     """Direction of the clearance from the array; any where none is entered."""
-    neighbor: Annotated[Neighbor, Column("Condition")]
+    neighbor: Annotated[Neighbor, Column("Kind")]
     """Kind of neighbor, which gives the separation factor."""
     governing_array: Annotated[str, words("Array", 0.75)]
     """Array whose displacement governs."""
@@ -112,7 +112,7 @@ class ClearanceResult(Entity):
         """What is on either side."""
         return f"{self.array}–{self.object}"
 
-    @unwritten(words("Condition", 2.2))
+    @unwritten(words("Kind", 2.2))
     def condition(self) -> str:
         """Kind of what is across it, and the direction, if it has one."""
         return self.neighbor.value + self.toward

@@ -24,6 +24,7 @@ from report.entities.shown import (
     length,
     plain,
     printed,
+    required,
     text,
     unwritten,
     words,
@@ -100,14 +101,14 @@ class LinkedResult(Entity):
     ]
     """Design displacement of the array as one rigid block."""
     estimated_m: Annotated[
-        Number, length("Design, with links"), Column("Design with links [in]", 3, _DESIGN)
+        Number, required("Design, with links"), Column("Design with links [in]", 3, _DESIGN)
     ]
     link_force_n: Annotated[Number, Shown(head="Link force", quantity=Quantity.WEIGHT, share=0.9)]
     rigid_is_enough: Annotated[bool, at("is_rigid_enough")]
     """Whether one rigid block is adequate."""
     runs: tuple[LinkedRunResult, ...]
     """All runs."""
-    permitted_m: Annotated[Number, at("design.permitted_m"), length("Design, used")] = printed(
+    permitted_m: Annotated[Number, at("design.permitted_m"), required("Design, used")] = printed(
         math.nan
     )
     rigid_prd_m: Annotated[Number, length("PRD, rigid", 0.8)] = printed(math.nan)

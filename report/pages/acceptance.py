@@ -33,7 +33,7 @@ def acceptance_table(package: PackageData) -> Table:
         (text("Found", share=0.7), _found),
         (text("Limit value", share=0.95), _limit),
         (words("Worst", 1.5), lambda row: row.worst or "—"),
-        (words("Result", 1.05), lambda row: stamp(package.assessment.limit_verdict(row))),
+        (words("Verdict", 1.05), lambda row: stamp(package.assessment.limit_verdict(row))),
     )
     return listed(package.assessment.acceptance.rows, columns, package.fmt, kind="compact")
 

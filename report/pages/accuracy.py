@@ -13,7 +13,7 @@ from report.assessment.project import Assessment
 from report.assessment.sensitivity import Accuracy, Rivals
 from report.document.tables import Column, Table, by_place, listed
 from report.entities.columns import NO_VALUE
-from report.entities.shown import length, text, words
+from report.entities.shown import length, required, text, words
 from report.pages.parts import PackageData
 from report.words.counts import ranged
 from report.words.letters import lettered
@@ -134,7 +134,7 @@ def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
 
 def _design(package: PackageData, head: str, which: Callable[[_Varied], ArrayAssessment]) -> Column:
     return (
-        length(head),
+        required(head),
         lambda row: which(row).design_m,
         lambda row: package.design_mark(which(row)),
     )

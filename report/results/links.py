@@ -66,7 +66,7 @@ class LinkRow(SheetRow, LinkedResult):
     computed_m: Annotated[Number, Column("Computed [in]", 3, "={design.computed_m}")]
     floor_m: Annotated[float, Column("Floor [in]", 3, "={design.floor_m}")]
     tolerance_m: Annotated[Number, Column("Tolerance [in]", 3, _TOLERANCE)]
-    result: Annotated[str, Column("Result", formula=_RESULT)]
+    result: Annotated[str, Column("Verdict", formula=_RESULT)]
     by_roofslip_m: Annotated[Number, Column("With links by Roofslip [in]", 3)]
     difference: Annotated[float, Column("Difference [in]", 4, _DIFFERENCE)] = 0.0
 

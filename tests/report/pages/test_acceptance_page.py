@@ -114,7 +114,7 @@ def test_a_limit_that_is_a_note_is_one_in_each_table():
     rows = printed(package, "limits").table("Other requirements").rows
     assert [row["Verdict"] for row in rows if row["Requirement"] == title] == ["note"]
     shown = printed(package, "motions").table("Limits on the motions").rows
-    assert [row["Result"] for row in shown if row["Limit"] == title] == ["note"]
+    assert [row["Verdict"] for row in shown if row["Limit"] == title] == ["note"]
 
 
 @pytest.mark.parametrize(

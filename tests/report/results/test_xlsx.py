@@ -210,7 +210,7 @@ def test_the_effect_of_links_follows_from_their_runs():
         row = f"Links/{n}"
         linked = cell(values, f"{row}/Design with links").value
         assert linked == pytest.approx(linked_m / 0.0254)
-        assert valued(values, row, "Array", "Result") == [name, result]
+        assert valued(values, row, "Array", "Verdict") == [name, result]
         ratio, used = valued(formulas, row, "Ratio", "Design used")
         assert ratio == f"={of(formulas, f'{row}/Row')}/{of(formulas, f'{row}/Rigid')}"
         assert used == f"={address(formulas, f'Design/{name}/Design [in]')}"
@@ -223,7 +223,7 @@ def test_without_rows_of_linked_blocks_the_workbook_has_no_links_sheets(usual):
 def test_a_row_without_a_value_is_ng_in_the_workbook():
     links = [stand_in.links("A1", "0.40, 0.50", 50)]
     _, _, values = made(scenes.motions(2), links=links)
-    row = valued(values, "Links/1", "Array", "Design with links", "Result")
+    row = valued(values, "Links/1", "Array", "Design with links", "Verdict")
     assert row == ["A1", "none", "NG"]
 
 
@@ -368,7 +368,7 @@ def test_the_workbook_has_no_verdict_where_no_route_is_permitted():
         assert [row[heading] for heading in headings] == ["none"] * 5
     assert third["Verdict"] == "OK"
     assert [row["Verdict"] for row in rows_of(values["Design"], 4)] == ["NG", "NG"]
-    assert rows_of(values["Links"], 4)[0]["Result"] == "NG"
+    assert rows_of(values["Links"], 4)[0]["Verdict"] == "NG"
 
 
 class WiderRow(PeakRow):

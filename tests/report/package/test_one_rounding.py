@@ -1,0 +1,43 @@
+"""A design displacement is one number wherever it stands: rounded up, on every sheet and screen."""
+
+import math
+import re
+
+import pytest
+
+import scenes
+from printed import IDS, printed
+from report.pages.summary import summary
+from report.web.answers import answer
+
+INCH = 0.0254
+# On the sheets of results a value in one direction, which is another one, may be the lower number.
+PAGES = (
+    "cover", "letter", "summary", "plan", "comparison", "clearances", "method", "model",
+    "accuracy",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def example():
+    return scenes.package_data(scenes.shipped("example"))
+
+
+def test_no_page_rounds_the_design_displacement_down(example):
+    item = example.assessment.governing
+    inches = item.design_m / INCH
+    up, down = (f"{to(10 * inches) / 10:.1f}" for to in (math.ceil, math.floor))
+    assert up != down
+    assert round(inches, 1) == float(down)  # rounded to the nearest it would be less
+    assert set(PAGES) <= {"cover", "letter", *IDS}
+    for page in PAGES:
+        words = printed(example, page)
+        assert not re.search(rf"(?<![\d.]){re.escape(down)}(?!\d)", words), page
+    for page in ("cover", "letter", "summary", "comparison", "clearances"):
+        assert up in printed(example, page)
+    said = "\n".join(summary(example.assessment))
+    assert up in said
+    assert f"{down} in" not in said
+    shown = str(answer(example.assessment, is_provisional=False)["arrays"])
+    assert up in shown
+    assert f"{down} in" not in shown
