@@ -39,12 +39,25 @@ def moves(given: Assessment, number: int, gap: ClearanceCheck) -> tuple[Assessme
         return entered(given, changed(data, clearances=tuple(rows))), f"{more} more"
     before, ways = _failed(given), sorted(_ways(data, shapes, row, lack_m), key=lambda way: way[0])
     for length_m, array, (dx, dy) in ways:
-        done = entered(given, _moved(data, shapes, array, (dx * length_m, dy * length_m)))
+        by = (dx * length_m, dy * length_m)
+        # Most are refused by a neighbor in plan: only the others are assessed.
+        if not _has_room(given, array, shifted(shapes[array.id], by)):
+            continue
+        done = entered(given, _moved(data, shapes, array, by))
         if done is not None and done.clearances[number - 1].ok and _failed(done) <= before:
             toward = compass(math.degrees(math.atan2(dy, dx)), data.roof.north_deg)
             length = pair(length_m - _NOISE_M, Quantity.SIZE, data.us_first, no_less)
             return done, f"{array.id} moved {length} {toward}"
     return None, f"{more} more is needed, and no move of an array in plan leaves all else as it is"
+
+
+def _has_room(given: Assessment, array: Array, moved: Shape) -> bool:
+    """Whether no pair of the plan comes nearer than is required, as far as that is known."""
+    near = (pair for pair in given.pairs if pair.involves(array.id))
+    others = ((pair, pair.far if pair.array == array.id else pair.near) for pair in near)
+    return not any(
+        gap_m(moved, other) < min(pair.required_m, pair.gap_m) - _NOISE_M for pair, other in others
+    )
 
 
 def _ways(

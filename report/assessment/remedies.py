@@ -40,6 +40,9 @@ from report.sheet.schema.scene import Clearance
 from report.words.counts import ranged
 from solver.friction_tests import MOST_MU
 
+MOST_GAPS = 12
+"""Clearances for which remedies are searched: those with the largest D/C."""
+
 
 class RemedyKind(StrEnum):
     """Quantity that would have to change."""
@@ -76,7 +79,10 @@ class Remedy:
 
 
 def remedies(assessment: Assessment) -> tuple[Remedy, ...]:
-    """Return what would satisfy each clearance marked NG, and each array without final values."""
+    """Return what would satisfy the clearances marked NG, and each array without final values.
+
+    Of more than `MOST_GAPS` clearances those with the largest D/C.
+    """
     with ThreadPoolExecutor(THREADS) as pool:
         return tuple(one for way in _ways(assessment, pool) for one in way)
 
@@ -98,7 +104,7 @@ def best_remedy(assessment: Assessment, *, may_run: bool = True) -> Sequence[Rem
 
 
 def _ways(
-    given: Assessment, pool: Executor, *, most: int | None = None, may_run: bool = True
+    given: Assessment, pool: Executor, *, most: int = MOST_GAPS, may_run: bool = True
 ) -> Iterator[Sequence[Remedy]]:
     """Yield the remedies that are entered together, those that need runs last.
 

@@ -10,7 +10,7 @@ import stand_in
 from printed import printed
 from report.assessment.causes import outcome
 from report.assessment.entered import changed, entered
-from report.assessment.remedies import RemedyKind, best_remedy, remedies
+from report.assessment.remedies import MOST_GAPS, RemedyKind, best_remedy, remedies
 from report.assessment.trials import with_mu
 from report.assessment.verdict import Verdict
 from report.pages.remedies import best_words
@@ -96,6 +96,20 @@ def test_an_object_without_a_place_in_plan_needs_the_separation_alone():
     (found,) = of(given, RemedyKind.SEPARATION)
     assert found.basis.endswith(") more")
     assert found.outcome.gap.provided_m >= found.outcome.gap.required_m == found.value
+
+
+def test_of_many_clearances_the_worst_have_remedies_and_the_summary_says_so():
+    count = MOST_GAPS + 2
+    units = [
+        stand_in.roof_object(f"U{k}", "fixed object", 100.5 + 0.1 * k, 103, 16 + 4 * k, 18 + 4 * k)
+        for k in range(count)
+    ]
+    gaps = [GAP("A1", f"U{k}", (0.5 + 0.1 * k) * FOOT) for k in range(count)]
+    made = scenes.package(arrays=[ARRAY("A1", 0.5)], objects=units, clearances=gaps)
+    found = of(made.assessment, RemedyKind.SEPARATION)
+    assert [one.clearance for one in found] == list(range(1, MOST_GAPS + 1))
+    said = f"Of {count} clearances that are NG, the {MOST_GAPS} with the largest D/C."
+    assert said in printed(made, "summary")
 
 
 TESTED = [
