@@ -39,7 +39,7 @@ def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outcome:
+class ProjectOutcome:
     """What an input comes to: verdict, governing clearance, and what else makes it NG."""
 
     verdict: Verdict
@@ -52,12 +52,12 @@ class Outcome:
         return "; ".join((self.verdict.value + gap, *self.others))
 
 
-def outcome(done: Assessment) -> Outcome:
+def outcome(done: Assessment) -> ProjectOutcome:
     """Return what an assessment comes to."""
     gaps = [gap for gap in (*done.clearances, *done.missing_gaps) if gap.demand_capacity >= 0.0]
     failed = (item for item in done.arrays if done.array_verdict(item) is Verdict.NG)
     groups = ids_by(failed, lambda item: unshown_cause(done, item))
-    return Outcome(
+    return ProjectOutcome(
         verdict=done.verdict,
         gap=max(gaps, key=lambda gap: gap.demand_capacity, default=None),
         others=(

@@ -15,7 +15,7 @@ from enum import StrEnum
 from functools import partial
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
-from report.assessment.causes import Outcome, outcome
+from report.assessment.causes import ProjectOutcome, outcome
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.entered import changed, entered, refused
 from report.assessment.moves import moves
@@ -70,7 +70,7 @@ class Remedy:
     basis: str  # what was varied and what with it; or why no value would do; a clause
     # of the project with it, and with the friction of the other array of the clearance where that
     # is short, too
-    outcome: Outcome | None
+    outcome: ProjectOutcome | None
 
     @property
     def exists(self) -> bool:

@@ -28,7 +28,7 @@ def test_check_prints_each_warning_with_its_cell_its_name_and_the_reason(tmp_pat
     weight = with_text("[weight A1]", lines)
     assert weight.startswith(at("warning: <Arrays/A1/Weight>: weight is 30 lb"))
     assert weight.endswith("[weight A1] Acknowledged: Frames alone, ballast by others")
-    components = at("warning: <Motions/heading/ID>: number of components of each motion")
+    components = at("note: <Motions/heading/ID>: number of components of each motion")
     assert any(line.startswith(components) for line in lines)
 
 
