@@ -48,7 +48,10 @@ def moves(given: Assessment, number: int, gap: ClearanceCheck) -> tuple[Assessme
             toward = compass(math.degrees(math.atan2(dy, dx)), data.roof.north_deg)
             length = pair(length_m - _NOISE_M, Quantity.SIZE, data.us_first, no_less)
             return done, f"{array.id} moved {length} {toward}"
-    return None, f"{more} more is needed, and no move of an array in plan leaves all else as it is"
+    return None, (
+        f"{more} more is needed, and no move of one array along an axis of the plan gives it and "
+        "leaves all else sufficient"
+    )
 
 
 def _has_room(given: Assessment, array: Array, moved: Shape) -> bool:

@@ -53,8 +53,8 @@ def _would_do(run: OrientedRun) -> str:
     status, scene = run.result.status, run.scene
     if status is Status.SLIDING_AT_END and scene.friction.mu_slow <= math.tan(scene.slope_rad):
         return (
-            "its friction coefficient is not above tan θ of its slope, so that no record is long "
-            "enough: give it more friction, or attach it"
+            "the friction coefficient is not above tan θ of the roof slope, so that no record is "
+            "long enough: provide more friction, or positive attachment"
         )
     return _WHAT_WOULD_DO[status]
 

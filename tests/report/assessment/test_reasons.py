@@ -75,7 +75,9 @@ def test_what_is_not_ng_has_no_reason():
 def test_no_longer_record_is_offered_for_what_slides_on_by_its_weight():
     done = scenes.package(WEAK, **WIDE | SLIPPERY).assessment
     (found,) = done.warnings
-    assert found.would_do.startswith("its friction coefficient is not above tan θ of its slope")
+    assert found.would_do.startswith(
+        "the friction coefficient is not above tan θ of the roof slope"
+    )
     assert "longer record" not in found.would_do
     cut = tuple(
         stand_in.motion(f"C{k}", np.full(100, 8.0), dt_s=0.01, signs=(1,)) for k in range(3)

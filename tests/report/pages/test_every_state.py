@@ -47,7 +47,7 @@ STATES = {
         of((*MOTIONS, LIFTING)),
         "design displacement none, governed by: none",
         "An array without a permitted design displacement is NG",
-        "What would do, each change by itself",
+        "Changes that would do, each by itself",
         "no limit the normal force falls below zero, which no model covers none",
         "Minimum normal force −0.40 m g: uplift occurs.",
         "48 of 48 points have no value: a run there gives no displacement.",
