@@ -61,7 +61,7 @@ class VelocityCheck:
     @property
     def verdict(self) -> Verdict:
         """OK, or OK with conditions."""
-        return Verdict.OK if self.is_satisfied else Verdict.CONDITIONS
+        return Verdict.OK if self.is_satisfied else Verdict.CONDITION
 
 
 def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck | None:

@@ -206,7 +206,7 @@ class PlanNeighbor(ComparedGap):
     @property
     def verdict(self) -> Verdict:
         """Of a pair whose clearance is missing."""
-        return Verdict.NG if self.is_short else Verdict.CONDITIONS
+        return Verdict.NG if self.is_short else Verdict.CONDITION
 
     @property
     def is_short(self) -> bool:

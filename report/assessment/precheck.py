@@ -155,7 +155,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
             text = (
                 f"{array.id}, electrical slack: not given; provide at least the design displacement"
             )
-            yield limit(f"{text}: {Verdict.CONDITIONS.word}", Place("arrays", index, "slack_m"))
+            yield limit(f"{text}: {Verdict.CONDITION}", Place("arrays", index, "slack_m"))
 
 
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
@@ -199,6 +199,6 @@ def _requirements(rows: Iterable[Requirement]) -> Iterator[Finding]:
     for row in (row for row in rows if not row.is_satisfied):
         subject = f"{row.subject}, " if row.subject else ""
         text = f"{subject}{lowered(row.title)}: {row.found}; {row.limit} required ({row.basis}): "
-        text += f"{row.verdict.word}. {row.remedy}"
+        text += f"{row.verdict}. {row.remedy}"
         is_note = row.verdict is Verdict.NOTE
         yield note(row.places[0], text) if is_note else limit(text, *row.places)

@@ -141,7 +141,7 @@ class Assessment:
     @property
     def verdict(self) -> Verdict:
         """Verdict on the project: the worst of its limits, arrays, clearances and rows."""
-        return worst(
+        found = worst(
             [
                 *(self.limit_verdict(check) for check in self.building_checks),
                 *self._verdicts.values(),
@@ -149,6 +149,7 @@ class Assessment:
                 *(row.verdict for row in self.rows),
             ]
         )
+        return Verdict.CONDITIONS if found is Verdict.CONDITION else found
 
     def array_verdict(self, item: ArrayAssessment) -> Verdict:
         """Return the verdict on an array: its values, limits, rows and clearances.

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from enum import StrEnum
 from functools import partial
-from typing import Any
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic.json_schema import SkipJsonSchema
 
 from report.sheet.schema.fields import Place
@@ -21,12 +21,14 @@ class Verdict(StrEnum):
     """Verdict on a project, an array or a clearance.
 
     NONE is of a clearance beside an array without a permitted route, whose own verdict is NG. NOTE
-    is of a requirement on what no design displacement follows from.
+    is of a requirement on what no design displacement follows from. CONDITIONS is of a project,
+    CONDITION of anything in it.
     """
 
     NONE = "none"
     NOTE = "note"
     OK = "OK"
+    CONDITION = "Condition"
     CONDITIONS = "OK with conditions"
     NG = "NG"
 
@@ -35,15 +37,17 @@ class Verdict(StrEnum):
         """Whether it is not NG."""
         return self is not Verdict.NG
 
-    @property
-    def word(self) -> str:
-        """The verdict on anything but the whole project, in one word."""
-        return "Condition" if self is Verdict.CONDITIONS else self.value
 
+def _of_item(read: Verdict) -> Verdict:
+    return Verdict.CONDITION if read is Verdict.CONDITIONS else read
+
+
+ItemVerdict = Annotated[Verdict, AfterValidator(_of_item)]
+"""Verdict in a project; results.json of version 0.2 has the project's word for a condition."""
 
 BY_CONSEQUENCE = {
     Consequence.NG: Verdict.NG,
-    Consequence.CONDITION: Verdict.CONDITIONS,
+    Consequence.CONDITION: Verdict.CONDITION,
     Consequence.NOTE: Verdict.NOTE,
 }
 
@@ -79,7 +83,7 @@ class Requirement(BaseModel):
     """Id of the array or motion that it concerns; empty for the project."""
     remedy: str = ""
     """What the engineer must do where it is not satisfied, as a sentence."""
-    verdict: Verdict = Field(default_factory=_verdict)
+    verdict: ItemVerdict = Field(default_factory=_verdict)
     """Of this requirement alone."""
     # what the verdict of the subject calls it; empty for its title
     cause: SkipJsonSchema[str] = Field(default="", exclude=True)

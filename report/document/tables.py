@@ -97,7 +97,7 @@ def _placed(
 
 def stamp(value: Verdict, text: str = "") -> Markup:
     """Return a verdict, highlighted where it is not OK; that on the project as a text."""
-    return Markup('<b class="{}">{}</b>').format(value.name.lower(), text or value.word)
+    return Markup('<b class="{}">{}</b>').format(value.name.lower(), text or value)
 
 
 def table_of(

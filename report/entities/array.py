@@ -19,7 +19,7 @@ from report.assessment.friction import mu_words
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.runs import nan_is_worst
-from report.assessment.verdict import NOT_GIVEN, Verdict
+from report.assessment.verdict import NOT_GIVEN, ItemVerdict
 from report.entities.cells import Column, Told
 from report.entities.marks import Marked
 from report.entities.requirement import LimitResult
@@ -203,7 +203,7 @@ class ArrayResult(LowVelocityResult):
     )
 
     verdict: Annotated[
-        Verdict,
+        ItemVerdict,
         centered("Verdict", 1.65),
         Column(),
         Told(ChangeKind.VERDICT, "Array {row.id}", of_gone=True),

@@ -83,7 +83,7 @@ def _row(fmt: UnitFormat, item: ArrayResult) -> tuple[str, ...]:
         item.both("design_m", fmt) + refused,
         item.governing_gap,
         item.largest_dc,
-        item.verdict.word + (f": {item.cause}" if item.cause else ""),
+        item.verdict + (f": {item.cause}" if item.cause else ""),
     )
 
 

@@ -12,7 +12,6 @@ from typing import Any, TypeVar
 
 from report.assessment.changes import Change, ChangeKind, Changes
 from report.assessment.project import Assessment
-from report.assessment.verdict import Verdict
 from report.entities.array import ArrayResult
 from report.entities.cells import Told
 from report.entities.columns import UnitFormat
@@ -193,7 +192,7 @@ def _requirements(former: Compared, now: Compared) -> Iterator[Change]:
     """Yield the rows whose verdict changed; a row that is not there any more is satisfied."""
     pairs = _paired(former.requirements, now.requirements, lambda row: (row.subject, row.title))
     for (subject, title, _), pair in pairs.items():
-        shown = (f"{row.found}: {row.verdict.word}" if row else NOT_THERE for row in pair)
+        shown = (f"{row.found}: {row.verdict}" if row else NOT_THERE for row in pair)
         yield from _one(ChangeKind.REQUIREMENT, f"{subject}, {title}".removeprefix(", "), *shown)
 
 
@@ -236,13 +235,8 @@ def _results(pairs: Iterable[_Pair[Entity]], fmt: UnitFormat) -> Iterator[Change
 
 def _texts(old: Entity | None, row: Entity | None, name: str, fmt: UnitFormat) -> Sequence[str]:
     """Return a field before and now; numbers have more digits where they would print alike."""
-    texts = [_text(one, name, fmt) if one else NOT_THERE for one in (old, row)]
+    texts = [one.both(name, fmt) if one else NOT_THERE for one in (old, row)]
     if texts[0] != texts[1]:
         return texts
     unit = name.rpartition("_")[2]
     return [f"{getattr(one, name):.7g} {unit}" for one in (old, row)]
-
-
-def _text(row: Entity, name: str, fmt: UnitFormat) -> str:
-    value = getattr(row, name)
-    return value.word if isinstance(value, Verdict) else row.both(name, fmt)

@@ -99,7 +99,7 @@ def write_design(
     )
     sheet.write_string("A3", "Verdict", pages.head)
     sheet.write_string("C3", "Other", pages.head)
-    sheet.write_string("D3", _beside_arrays(assessment).word)
+    sheet.write_string("D3", _beside_arrays(assessment).value)
     cells = (Cells(DesignRow, TOP + at, is_here=True) for at in range(len(rows)))
     formula = _worst_of(["D3", *(row.verdict for row in cells)])
     sheet.write_formula("B3", formula, pages.head, assessment.verdict.value)
@@ -118,9 +118,10 @@ def _beside_arrays(assessment: Assessment) -> Verdict:
 
 def _worst_of(cells: Sequence[str]) -> str:
     """Return the formula of the verdict on the project, from cells with those on its parts."""
+    met, missed = _quoted(Verdict.OK), _quoted(Verdict.CONDITIONS)
     return (
         f"=IF(OR({_any(cells, Verdict.NG)}),{_quoted(Verdict.NG)},"
-        f'IF(OR({_any(cells, Verdict.CONDITIONS)}),"{Verdict.CONDITIONS}",{_quoted(Verdict.OK)}))'
+        f"IF(OR({_any(cells, Verdict.CONDITION)}),{missed},{met}))"
     )
 
 
@@ -133,10 +134,10 @@ def _verdict(results: Sequence[str]) -> str:
         _any(["{others}", *results], Verdict.NG),
         *([_any(results, Verdict.NONE)] if results else []),
     ]
-    open_ = ["ISTEXT({slack_m})", "ISTEXT({given_n})", _any(["{others}"], Verdict.CONDITIONS)]
+    open_ = ["ISTEXT({slack_m})", "ISTEXT({given_n})", _any(["{others}"], Verdict.CONDITION)]
     return (
         f"=IF(OR({','.join(failed)}),{_quoted(Verdict.NG)},"
-        f"IF(OR({','.join(open_)}),{_quoted(Verdict.CONDITIONS)},{_quoted(Verdict.OK)}))"
+        f"IF(OR({','.join(open_)}),{_quoted(Verdict.CONDITION)},{_quoted(Verdict.OK)}))"
     )
 
 
@@ -145,7 +146,7 @@ def _any(cells: Sequence[str], verdict: Verdict) -> str:
 
 
 def _quoted(verdict: Verdict) -> str:
-    return f'"{verdict.word}"'
+    return f'"{verdict}"'
 
 
 def _row(

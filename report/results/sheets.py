@@ -18,7 +18,6 @@ from xlsxwriter.workbook import Workbook
 from xlsxwriter.worksheet import Worksheet
 
 from report.assessment.overrides import OVERRIDDEN
-from report.assessment.verdict import Verdict
 from report.entities.cells import Column
 from report.entities.columns import NO_VALUE
 from report.entities.shown import Entity, columns_of
@@ -228,7 +227,7 @@ def _value(row: Entity, name: str, column: Column) -> Any:
     value = getattr(row, name)
     if value is None:
         return "not given"
-    return value.word if isinstance(value, Verdict) else column.held(value)
+    return column.held(value)
 
 
 def _finite(value: Any) -> Any:

@@ -120,7 +120,7 @@ def _rows(
         names = _between(gap.array, gap.object, gap.direction.value)
         rows.append(cells(gap, _CLEARANCE, fmt, array=names, verdict=verdict(gap.verdict)))
     rows += [_missing(near, fmt, verdict) for near in missing]
-    return sorted(rows, key=lambda row: not row[-1] or row[-1]["look"] in ("ok", "conditions"))
+    return sorted(rows, key=lambda row: not row[-1] or row[-1]["look"] in ("ok", "condition"))
 
 
 def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:

@@ -17,7 +17,7 @@ ShowVerdict = Callable[[Verdict], Cell | None]
 
 def stamp(verdict: Verdict, text: str = "") -> Cell:
     """Return a verdict and its look; that on the project as a text."""
-    return {"text": text or verdict.word, "look": verdict.name.lower()}
+    return {"text": text or verdict, "look": verdict.name.lower()}
 
 
 def heads(model: type[Entity], names: str, **others: str) -> list[str]:

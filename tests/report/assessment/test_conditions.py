@@ -27,8 +27,8 @@ def row(done, key):
 
 def test_the_worst_verdict_is_ng_and_none_is_ok():
     assert worst([]) is Verdict.OK
-    assert worst([Verdict.OK, Verdict.CONDITIONS]) is Verdict.CONDITIONS
-    assert worst([Verdict.NG, Verdict.CONDITIONS]) is Verdict.NG
+    assert worst([Verdict.OK, Verdict.CONDITION]) is Verdict.CONDITION
+    assert worst([Verdict.NG, Verdict.CONDITION]) is Verdict.NG
 
 
 def without(given, missing):
@@ -76,7 +76,7 @@ def test_without_building_code_and_jurisdiction_there_is_a_condition(given, foun
     data = stand_in.project(site=stand_in.site(**given))
     said = next(item for item in project_rows(data, ()) if item.id == "building_code")
     assert said.found == found
-    assert said.verdict is (Verdict.OK if given == CODE else Verdict.CONDITIONS)
+    assert said.verdict is (Verdict.OK if given == CODE else Verdict.CONDITION)
 
 
 def before_runs(key, *, units="US", **given):
@@ -119,10 +119,10 @@ def test_what_others_do_not_state_is_not_compared(key):
     ("wind_psf", "units", "found", "verdict"),
     [
         (8.8, "US", "8.8 psf (0.42 kPa)", Verdict.OK),
-        (8.6, "US", "8.6 psf (0.41 kPa)", Verdict.CONDITIONS),
-        (9.5, "US", "9.5 psf (0.45 kPa)", Verdict.CONDITIONS),
+        (8.6, "US", "8.6 psf (0.41 kPa)", Verdict.CONDITION),
+        (9.5, "US", "9.5 psf (0.45 kPa)", Verdict.CONDITION),
         (8.8, "SI", "0.42 kPa (8.8 psf)", Verdict.OK),
-        (9.5, "SI", "0.45 kPa (9.5 psf)", Verdict.CONDITIONS),
+        (9.5, "SI", "0.45 kPa (9.5 psf)", Verdict.CONDITION),
     ],
 )
 def test_another_weight_in_the_wind_design_is_a_condition(wind_psf, units, found, verdict):
@@ -206,7 +206,7 @@ def hazard(**changes):
 def test_what_is_open_on_the_hazard_is_a_condition(given, conditions):
     found = hazard(**given)
     assert sorted(id for id, item in found.items() if not item.is_satisfied) == conditions
-    verdicts = {True: Verdict.OK, False: Verdict.CONDITIONS}
+    verdicts = {True: Verdict.OK, False: Verdict.CONDITION}
     assert all(item.verdict is verdicts[item.is_satisfied] for item in found.values())
 
 
@@ -278,7 +278,7 @@ def test_too_little_is_ng_and_no_value_is_a_condition(key, field, needed):
         return done.arrays[0], row(done, key).verdict, done.array_verdict(done.arrays[0])
 
     item, plain, _ = verdicts()
-    assert plain is Verdict.CONDITIONS
+    assert plain is Verdict.CONDITION
     for factor, verdict in ((1.001, Verdict.OK), (0.999, Verdict.NG)):
         _, found, of_array = verdicts(**{field: getattr(item, needed) * factor})
         assert found is verdict
@@ -297,12 +297,12 @@ def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():
     )
     assert done.clearances[0].ok
     assert not done.at_reduced_friction.clearances[0].ok
-    assert row(done, "less_friction").verdict is Verdict.CONDITIONS
+    assert row(done, "less_friction").verdict is Verdict.CONDITION
     assert "5 % less friction" in row(done, "less_friction").remedy
 
 
 @pytest.mark.parametrize("provided", [None, 6.0])
-@pytest.mark.parametrize(("apart_ft", "verdict"), [(2.0, Verdict.NG), (6.0, Verdict.CONDITIONS)])
+@pytest.mark.parametrize(("apart_ft", "verdict"), [(2.0, Verdict.NG), (6.0, Verdict.CONDITION)])
 def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
     provided, apart_ft, verdict
 ):
@@ -317,7 +317,7 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
     if provided == apart_ft:
         assert found is None
         return
-    expected = Verdict.CONDITIONS if provided else verdict
+    expected = Verdict.CONDITION if provided else verdict
     assert found.verdict is expected
     assert (done.array_verdict(done.arrays[0]) is Verdict.NG) is (expected is Verdict.NG)
     if expected is Verdict.NG:
@@ -375,7 +375,7 @@ def test_a_route_that_five_percent_less_friction_closes_is_a_condition(mu, is_cl
     assert (found is not None) is is_closed
     if is_closed:
         assert found.title == "The prescriptive route with 5 % less friction"
-        assert found.verdict is Verdict.CONDITIONS
+        assert found.verdict is Verdict.CONDITION
         assert found.remedy == (
             "With 5 % less friction no route is permitted: confirm the friction coefficient."
         )
@@ -429,7 +429,7 @@ def test_without_ground_motions_or_without_a_target_nothing_is_compared():
 
 
 def test_without_an_outline_of_the_roof_nothing_says_that_edges_were_looked_for():
-    assert row(assessed(), "roof_outline").verdict is Verdict.CONDITIONS
+    assert row(assessed(), "roof_outline").verdict is Verdict.CONDITION
     assert "were not looked for" in row(assessed(), "roof_outline").remedy
     assert row(assessed(roof=inputs.sides(0, 220, 0, 170)), "roof_outline") is None
 
@@ -450,7 +450,7 @@ LATER = ISSUED + dt.timedelta(days=1)
 )  # fmt: skip
 def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
     late = row(assessed(**changes), "dates")
-    assert (late.title, late.verdict) == (f"Date of the {what}", Verdict.CONDITIONS)
+    assert (late.title, late.verdict) == (f"Date of the {what}", Verdict.CONDITION)
     assert (late.found, late.limit) == (str(LATER), f"not later than the package, {ISSUED}")
     issued = {"project": inputs.HEAD | changes.get("project", {}) | {"date": LATER}}
     assert row(assessed(**changes | issued), "dates") is None

@@ -24,7 +24,7 @@ def rows(*x_ft, section=SECTION, units="US", **site):
     return {row.subject: row for row in fire_lane_rows(data)}
 
 
-@pytest.mark.parametrize(("to_ft", "verdict"), [(150.0, Verdict.OK), (150.1, Verdict.CONDITIONS)])
+@pytest.mark.parametrize(("to_ft", "verdict"), [(150.0, Verdict.OK), (150.1, Verdict.CONDITION)])
 def test_fire_lanes_limit_an_array_to_150_feet(to_ft, verdict):
     (row,) = rows((0, to_ft)).values()
     assert row.verdict is verdict
@@ -34,7 +34,7 @@ def test_fire_lanes_limit_an_array_to_150_feet(to_ft, verdict):
 def test_arrays_closer_than_a_lane_are_one_and_each_has_the_condition():
     found = rows((0, 80), (83.9, 163.9), (167.9, 200))
     assert [(row.found, row.verdict) for row in found.values()] == [
-        *[("A1, A2 together: 163.90 ft (49.96 m)", Verdict.CONDITIONS)] * 2,
+        *[("A1, A2 together: 163.90 ft (49.96 m)", Verdict.CONDITION)] * 2,
         ("60.00 ft (18.29 m)", Verdict.OK),
     ]
     assert found["A1"].title.endswith("between fire lanes of 4.00 ft (1.22 m)")
@@ -86,7 +86,7 @@ def test_the_basis_is_the_section_given():
 
 def test_without_a_section_the_row_says_so_and_is_a_condition():
     found = rows((0, 80), (90, 150), (160, 320), section="")
-    assert {row.verdict for row in found.values()} == {Verdict.CONDITIONS}
+    assert {row.verdict for row in found.values()} == {Verdict.CONDITION}
     assert {row.basis for row in found.values()} == {"fire code, section not given†"}
     fits, long = found["A2"], found["A3"]
     assert found["A1"].said == fits.said
@@ -107,7 +107,7 @@ def test_the_campus_is_longer_than_its_arrays():
     done = scenes.shipped("campus")
     found = {row.found: row.verdict for row in done.rows if row.id == "fire_lanes"}
     assert found == {
-        "A1 to A15 together: 84.80 m (278.22 ft)": Verdict.CONDITIONS,
-        "A16 to A30 together: 84.80 m (278.22 ft)": Verdict.CONDITIONS,
+        "A1 to A15 together: 84.80 m (278.22 ft)": Verdict.CONDITION,
+        "A16 to A30 together: 84.80 m (278.22 ft)": Verdict.CONDITION,
     }
     assert all(done.array_verdict(item) is not Verdict.OK for item in done.arrays)

@@ -76,7 +76,7 @@ def test_friction_beyond_the_tests_above_their_smallest_is_a_condition(by_veloci
     ]
     done = one(tests=slower, **LAW)
     row = rows(done)["A1"]
-    assert row.verdict is Verdict.CONDITIONS
+    assert row.verdict is Verdict.CONDITION
     assert "; tested to 1.00 in/s (25.4 mm/s); μ beyond 0.450" in row.found
     assert row.limit == "slower than tested, or μ beyond ≤ 0.400"
     # A coefficient that was not run is not offered: entered, it may be NG.

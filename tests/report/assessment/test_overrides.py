@@ -48,7 +48,7 @@ def assessed(options=None, **values):
 def test_an_override_that_requires_less_is_a_condition(key, less, more):
     (found,) = override_rows(stand_in.project(overrides=overrides(**{key: less})))
     assert (found.is_satisfied, found.consequence) == (False, Consequence.CONDITION)
-    assert found.verdict is Verdict.CONDITIONS
+    assert found.verdict is Verdict.CONDITION
     assert "consent of the authority having jurisdiction" in found.remedy
     assert OVERRIDDEN in found.found
     assert "agreed" in found.found
@@ -72,7 +72,7 @@ def test_a_departure_is_a_condition():
     (found,) = override_rows(stand_in.project(options=scenes.DEPARTURE))
     assert found.title == "Displacement by direction"
     assert "Agreed on 2026-02-10" in found.found
-    assert found.verdict is Verdict.CONDITIONS
+    assert found.verdict is Verdict.CONDITION
 
 
 @pytest.mark.parametrize(("rule_set", "count"), [("SEAOC PV1-2012", 1), ("ASCE 7-16", 0)])

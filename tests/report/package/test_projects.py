@@ -82,7 +82,7 @@ def test_the_example_has_the_conditions_that_its_code_and_friction_tests_leave(e
     conditions = {
         (row["subject"], row["title"])
         for row in example.results["requirements"]
-        if row["verdict"] == "OK with conditions"
+        if row["verdict"] == "Condition"
     }
     beyond = "Friction beyond the velocities tested"
     repeats = "Wet and dry, three runs at each velocity"
@@ -245,7 +245,7 @@ def test_arrays_of_the_campus_that_share_their_runs_share_a_result_sheet():
 
 
 def test_the_warehouse_is_ng_in_the_same_word_everywhere(conditions):
-    verdicts = {"A1": "OK with conditions", "A2": "NG"}
+    verdicts = {"A1": "Condition", "A2": "NG"}
     words = {"A1": "Condition", "A2": "NG"}
     assert conditions.results["verdict"] == "NG"
     assert {a["id"]: a["verdict"] for a in conditions.results["arrays"]} == verdicts

@@ -88,7 +88,7 @@ def test_a_row_is_satisfied_by_what_its_report_and_its_runs_have(
 ):
     one = row(title, friction_tests=REPORT | report, friction_runs=given)
     assert one.is_satisfied is is_satisfied
-    assert one.verdict is (Verdict.OK if is_satisfied else Verdict.CONDITIONS)
+    assert one.verdict is (Verdict.OK if is_satisfied else Verdict.CONDITION)
     assert found in one.found
 
 

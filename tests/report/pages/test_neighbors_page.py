@@ -90,7 +90,7 @@ def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_meas
     package = drawn()
     (row,) = (row for row in package.assessment.rows if row.id == "drawing_distances")
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
-    assert row.verdict is Verdict.CONDITIONS
+    assert row.verdict is Verdict.CONDITION
     made = printed(package, "clearances")
     line = made.line("Distances provided")
     assert line == "Distances provided: drawing, not confirmed No. 1; measured No. 2."

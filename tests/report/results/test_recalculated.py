@@ -99,7 +99,7 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
         )  # fmt: skip
         in_inches = [value / INCH for value in wanted]
         assert compared(book, row, lengths) == pytest.approx(in_inches, rel=1e-9)
-        verdict = after.array_verdict(item).word
+        verdict = after.array_verdict(item)
         headings = ("Number of motions", "Verdict", "Statistic")
         assert compared(book, row, headings) == [found.n_motions, verdict, found.basis.value]
     for number, gap in enumerate(after.clearances, start=1):

@@ -66,6 +66,13 @@ def test_nothing_changed_since_itself(assessment, document):
     assert found.revision == assessment.project.project.revision
 
 
+def test_the_word_of_version_0_2_for_a_condition_is_no_change(assessment, document):
+    count = json.dumps(document).count('"Condition"')
+    assert count
+    text = json.dumps(document).replace('"Condition"', '"OK with conditions"')
+    assert changes(former(json.loads(text)), assessment).items == ()
+
+
 def test_an_input_with_its_results_and_verdicts_is_found(assessment, document):
     # A2 weighs more; A3 has less friction; the clearance of A1 to RTU-1 is 6 in.
     arrays = [

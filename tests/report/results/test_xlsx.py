@@ -337,12 +337,12 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
     assert values.sheetnames[0] == "Design"
     assert cell(values, "Design/Verdict").value == assessment.verdict.value
     for item in assessment.arrays:
-        verdict = assessment.array_verdict(item).word
+        verdict = assessment.array_verdict(item)
         assert cell(values, f"Design/{item.id}/Verdict").value == verdict
     rows = [row[:6] for row in values["Requirements"].iter_rows(min_row=5, values_only=True)]
     for row in assessment.rows:
         item = row.subject or "Project"
-        cells = (item, row.title, row.found, row.limit, row.basis, row.verdict.word)
+        cells = (item, row.title, row.found, row.limit, row.basis, row.verdict)
         assert rows.count(cells) == 1
     limits = [c for item in assessment.arrays for c in item.limits]
     motions = assessment.acceptance.rows

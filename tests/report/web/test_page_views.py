@@ -211,7 +211,7 @@ CLEARANCES = """async (cells) => {
 }"""
 
 
-@pytest.mark.parametrize("verdict", [Verdict.NG, Verdict.CONDITIONS])
+@pytest.mark.parametrize("verdict", [Verdict.NG, Verdict.CONDITION])
 def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(page, verdict):
     cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
     cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]
