@@ -106,7 +106,7 @@ def test_check_says_so_at_the_cell_without_any_run():
 
 def test_the_example_says_that_it_is_ng_by_asce_7_16_with_the_worst_clearance_and_the_slope():
     done = scenes.shipped("example")
-    assert done.verdict is Verdict.CONDITION
+    assert done.verdict is Verdict.CONDITIONS
     assert listed(done.conditions)["rule_set"].remedy.endswith(
         "By ASCE 7-16 13.6.12 with the same motions and S_DS: NG, A1 to RTU-1 65.3 > 48.0 in; A2:"
         " electrical slack provided; A3: roof slope, analysis route and 4 more."
