@@ -79,8 +79,9 @@ def missing_rows(
 ) -> tuple[dict[CellPosition, Value], tuple[str, ...]]:
     """Return the cells of a row for each pair that a package would name as missing, and lines.
 
-    A line for each new row, for each that differs from the plan, and for each pair that still lacks
-    a row; at last their counts. `arrays` are as run, none where nothing is.
+    Rows whose distance is from the drawing are renewed. A line for each row that is new, renewed or
+    differs from the plan, and for each pair that still lacks one; at last their counts. `arrays`
+    are as run, none where nothing is.
 
     Raises
     ------
@@ -92,7 +93,9 @@ def missing_rows(
     pairs = pairs_before_runs(data, sheet.addresses, arrays)
     missing = [near for near in pairs if near.is_missing]
     new = [near for near in missing if _has_row(near)]
-    cells, written = _written(sheet, data, new)
+    table = GrowingTable.of(sheet.book, "clearances")
+    cells, written = _written(table, data, new)
+    newer, renewed = _renewed(table, data, pairs)
     design_m, basis = design_before_runs_m(data), "the prescriptive displacement"
     if larger := _larger_m(arrays, design_m):
         farthest = max(larger, key=larger.__getitem__)
@@ -101,13 +104,15 @@ def missing_rows(
         basis += ", which no design displacement exceeds"
     lines = [
         *written,
+        *renewed,
         *_differing(pairs, us_first),
         *(f"not added: {near.names}, {_size(near.gap_m, us_first)}; correct the plan, or give the "
           "roof edge as an object" for near in missing if not _has_row(near)),
-        f"{numbered(len(new), 'clearance')} added, {len(data.clearances)} kept; reach"
+        f"{numbered(len(new), 'clearance')} added{f', {len(renewed)} renewed' if renewed else ''},"
+        f" {len(data.clearances) - len(renewed)} kept; reach"
         f" {_size(REACH_FACTOR * design_m, us_first)}, twice {basis}",
     ]  # fmt: skip
-    return cells, tuple(lines)
+    return cells | newer, tuple(lines)
 
 
 def without_clearances(sheet: Sheet) -> Sheet:
@@ -156,36 +161,76 @@ def _size(value_m: float, us_first: bool) -> str:
 
 
 def _written(
-    sheet: Sheet, data: ProjectInput, new: Sequence[PlanNeighbor]
+    table: GrowingTable, data: ProjectInput, new: Sequence[PlanNeighbor]
 ) -> tuple[dict[CellPosition, Value], list[str]]:
     """Return the cells of new rows, and a line for each row."""
     cells: dict[CellPosition, Value] = {}
     lines: list[str] = []
-    us_first = data.us_first
-    step_m = US_STEP_M if us_first else SI_STEP_M
-    downslope = {array.id: array.downslope_deg for array in data.arrays}
-    table = GrowingTable.of(sheet.book, "clearances")
     for near in new:
-        row, direction = table.added(), direction_of(near, downslope[near.array])
-        si = table.found.columns["provided_m"].si
-        rounded_m = round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
-        cells |= table.cells(row, {
-            "array": near.array,
-            "object": near.other,
-            "direction": direction.value,
-            # Down once more: 0.1 in is no round number of feet.
-            "provided_m": round_down(rounded_m / si, DIGITS),
-            "source": ClearanceSource.DRAWING.value,
-        })  # fmt: skip
+        row, direction, drawn_m = table.added(), _direction(near, data), _drawn_m(near, data)
+        names: dict[str, Value] = {"array": near.array, "object": near.other}
+        cells |= table.cells(row, names | _from_drawing(table, direction, drawn_m))
         at = table.position(row, "array").address
-        lines.append(f"{at}: {near.names}, {direction}, {_size(rounded_m, us_first)}")
+        lines.append(f"{at}: {near.names}, {direction}, {_size(drawn_m, data.us_first)}")
     return cells, lines
 
 
-def _differing(pairs: Sequence[PlanNeighbor], us_first: bool) -> Iterator[str]:
-    """Yield the rows whose distance is not that of the plan."""
+def _renewed(
+    table: GrowingTable, data: ProjectInput, pairs: Sequence[PlanNeighbor]
+) -> tuple[dict[CellPosition, Value], list[str]]:
+    """Return the cells of rows from the drawing that the plan has otherwise, and a line for each.
+
+    The direction is left where a pair has other rows, whose directions differ.
+    """
+    rows = {table.position(row, "provided_m").address: row for row in table.found.rows}
+    cells: dict[CellPosition, Value] = {}
+    lines: list[str] = []
     for near in pairs:
         for given in near.given:
+            was, drawn_m = given.clearance, _drawn_m(near, data)
+            if was.source is not ClearanceSource.DRAWING:
+                continue
+            turned = near
+            if was.array != near.array:
+                turned = replace(near, array=near.other, near=near.far, far=near.near)
+            is_one = len(near.given) == 1
+            direction = _direction(turned, data) if is_one else was.direction
+            if abs(was.provided_m - drawn_m) > _NOISE_M or direction is not was.direction:
+                cells |= table.cells(rows[given.cell], _from_drawing(table, direction, drawn_m))
+                before, now = (
+                    _size(value_m, data.us_first) for value_m in (was.provided_m, drawn_m)
+                )
+                lines.append(f"{given.cell}: {near.names}: {was.direction}, {before}; now"
+                             f" {direction}, {now}")  # fmt: skip
+    return cells, lines
+
+
+def _direction(near: PlanNeighbor, data: ProjectInput) -> Direction:
+    downslope = {array.id: array.downslope_deg for array in data.arrays}
+    return direction_of(near, downslope[near.array])
+
+
+def _drawn_m(near: PlanNeighbor, data: ProjectInput) -> float:
+    """Return the distance of a pair as it is written [m]: rounded down."""
+    step_m = US_STEP_M if data.us_first else SI_STEP_M
+    return round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
+
+
+def _from_drawing(table: GrowingTable, direction: Direction, drawn_m: float) -> dict[str, Value]:
+    return {
+        "direction": direction.value,
+        # Down once more: 0.1 in is no round number of feet.
+        "provided_m": round_down(drawn_m / table.found.columns["provided_m"].si, DIGITS),
+        "source": ClearanceSource.DRAWING.value,
+    }
+
+
+def _differing(pairs: Sequence[PlanNeighbor], us_first: bool) -> Iterator[str]:
+    """Yield the rows as entered or measured whose distance is not that of the plan."""
+    for near in pairs:
+        for given in near.given:
+            if given.clearance.source is ClearanceSource.DRAWING:
+                continue
             if abs(given.clearance.provided_m - near.gap_m) > US_STEP_M + _NOISE_M:
                 values = (given.clearance.provided_m, near.gap_m)
                 entered, drawn = (_size(value, us_first) for value in values)

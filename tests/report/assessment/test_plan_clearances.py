@@ -195,6 +195,41 @@ def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
     assert path.read_bytes() == again
 
 
+def test_rows_from_the_drawing_are_renewed_and_typed_ones_stay(tmp_path):
+    path = make(tmp_path, **BARE)
+    fill(tmp_path)
+    sheet = read(path)
+    before = {(row.array, row.object): row for row in sheet.project.clearances}
+    assert before["A1", "A2"].provided_m == pytest.approx(120 * INCH)
+    typed = {(row.array, row.object): k for k, row in enumerate(sheet.project.clearances, start=1)}
+    row = typed["A2", "RTU-1"]
+    type_into(path, {"Arrays/A2/x from": 113, f"Clearances/{row}/Distance from": "measured",
+                     f"Clearances/{row}/Provided clearance": 55})  # fmt: skip
+    output = fill(tmp_path)
+    after = {(row.array, row.object): row for row in read(path).project.clearances}
+    assert after["A1", "A2"].provided_m == pytest.approx(156 * INCH)
+    assert after["A2", "RTU-1"].provided_m == pytest.approx(55 * INCH)
+    where = f"<Clearances/{typed['A1', 'A2']}/Provided clearance>"
+    assert at(f"{where}: A1 to A2: across, 120.0 in (3048 mm); now across, 156.0") in output
+    assert "0 clearances added, 1 renewed, 1 kept" in output
+    # Once more there is nothing to do.
+    content = path.read_bytes()
+    assert "0 clearances added, 2 kept" in fill(tmp_path)
+    assert path.read_bytes() == content
+
+
+def test_a_row_from_the_drawing_has_the_direction_of_the_plan_from_either_side(tmp_path):
+    path = make(tmp_path, **BARE)
+    rows = {"Clearances/1/Array": "A2", "Clearances/1/Object": "A1",
+            "Clearances/1/Direction": "any", "Clearances/1/Provided clearance": 1,
+            "Clearances/1/Distance from": "drawing"}  # fmt: skip
+    type_into(path, rows)
+    fill(tmp_path)
+    first = read(path).project.clearances[0]
+    assert (first.array, first.object, first.direction) == ("A2", "A1", Direction.ACROSS)
+    assert first.provided_m == pytest.approx(120 * INCH)
+
+
 def test_only_the_sheet_clearances_changes(tmp_path):
     path = make(tmp_path, **BARE)
     before = parts(path)
