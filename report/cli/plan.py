@@ -78,6 +78,7 @@ def read(
     workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
     """
     from report.drawing.fill import changes
+    from report.drawing.matched import matched
     from report.drawing.plan_read import plan_of
     from report.sheet.reading.read import read_book
     from report.sheet.writing.filled import changing
@@ -86,8 +87,8 @@ def read(
 
     gap_m = gap[0] * LENGTHS[gap[1]]
     with input_errors(project), changing(project) as change:
-        rows = read_book(change.book).draft["layers"]
-        known = (row for row in rows if {"layer", "kind"} <= row.keys())
+        draft = read_book(change.book).draft
+        known = (row for row in draft["layers"] if {"layer", "kind"} <= row.keys())
         named = {row["layer"]: row["kind"] for row in known}
         with input_errors(drawing):
             drawn, unit_m = _read(drawing, units)
@@ -97,7 +98,9 @@ def read(
         if not (found.roof or found.arrays or found.objects):
             unread = list(_unread(found)) or ["the drawing has no closed lines"]
             raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
-        change.fill(changes(change.book, found, layers, replace=replace))
+        with input_errors(drawing):
+            told = matched(found, draft)
+        change.fill(changes(change.book, told, layers, replace=replace))
         try:
             more = _add_clearances(change)
         except InputError as error:
@@ -107,10 +110,11 @@ def read(
             ]
     lines = (
         *turn,
-        *(_line(place, gap_m) for place in (*found.roof, *found.arrays, *found.objects)),
+        *(_line(place, gap_m) for place in (*found.roof, *told.plan.arrays, *told.plan.objects)),
         *_unread(found),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in.",
+        *told.lines(replace=replace),
         *more,
     )
     for text in lines:
@@ -126,7 +130,7 @@ def clearances(project: Path) -> None:
     Arrays, objects and roof edges within reach of an array: twice the prescriptive displacement, or
     the design displacement where the motions can be run and give more. Distances are those of the
     plan, rounded down, and say so in the column Distance from: a condition of the package until
-    they are confirmed. Rows that stand are kept.
+    they are confirmed. Rows whose distance is from the drawing are renewed; all others are kept.
     """
     from report.sheet.writing.filled import changing
 
@@ -200,7 +204,8 @@ def _line(place: DrawnOutline, gap_m: float) -> str:
     wide, tall = (pair(side, Quantity.PLAN, True) for side in sides)
     askew = f" at {angle:.6g}° to the axes" if round(angle, 6) else ""
     source = f" from {place.handle} on {place.layer}" if place.handle else ""
-    note = f" ({place.note})" if place.note else ""
+    note = "; ".join(filter(None, (place.unnamed, place.note)))
+    note = f" ({note})" if note else ""
     count, made = len(place.shape.points), place.kind.value
     if place.sizes:
         sizes = ", ".join(
@@ -241,7 +246,7 @@ def ballast(
     from report.sheet.checking.plan_checks import shapes_of
     from report.sheet.reading.read import read_book
     from report.sheet.writing.filled import changing
-    from report.words.units import LENGTHS, WEIGHTS
+    from report.words.units import LENGTHS, WEIGHTS, Quantity, pair
     from solver.model import InputError
 
     block_n = block_weight[0] * WEIGHTS[block_weight[1]]
@@ -255,9 +260,14 @@ def ballast(
         if not found:
             raise InputError("no block of the map is within an array of the plan")
         weights = {name: load.blocks * block_n for name, load in found.items()}
-        change.fill(ballast_changes(change.book, weights, replace=replace))
+        bare = [name for name in arrays if name not in found] if replace else []
+        filled = ballast_changes(change.book, {**weights, **dict.fromkeys(bare)}, replace=replace)
+        change.fill(filled)
     for name, row in arrays.items():
         text = _balance(row, found[name], weights[name]) if name in found else "no blocks"
+        if name not in found and row.get("ballast_n") is not None:
+            was = pair(row["ballast_n"], Quantity.WEIGHT)
+            text += f"; the {was} given {'are taken out' if replace else 'stay without --replace'}"
         click.echo(plain(f"{name}: {text}"))
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"

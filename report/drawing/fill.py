@@ -9,7 +9,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from report.drawing.plan_read import DrawnOutline, RoofPlan
+from report.drawing.matched import MatchedPlan
+from report.drawing.plan_read import DrawnOutline
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.growing import DIGITS, GrowingTable
 from report.sheet.reading.locate import cell_as_column, find_cell, is_absent
@@ -17,10 +18,16 @@ from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition, found_at
 from report.sheet.schema import SECTION
 from report.sheet.schema.choices import LayerKind
-from report.sheet.schema.scene import DRAWING, ROOF, SIDES
+from report.sheet.schema.scene import DRAWING, DRAWN_MODULES, ROOF, SIDES
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape
 from report.sheet.writing.legacy_notes import MOVE
 from solver.model import InputError
+
+_NAMED: Mapping[str, Sequence[str]] = {
+    "arrays": ("id",), "objects": ("id",), "outlines": ("name",), "links": ("array",),
+    "clearances": ("array", "object"),
+}  # fmt: skip
+"""Tables with the name of an array or an object, and the columns that have it."""
 
 
 @dataclass(slots=True)
@@ -54,12 +61,13 @@ class _Fill:
 
 
 def changes(
-    book: OpenBook, plan: RoofPlan, layers: Mapping[str, LayerKind], *, replace: bool
+    book: OpenBook, told: MatchedPlan, layers: Mapping[str, LayerKind], *, replace: bool
 ) -> dict[CellPosition, Value]:
     """Return the cells to change so that a workbook has the plan, and what its layers are.
 
-    Rows of the same ID get its place, and keep everything else; others are added below. A workbook
-    without the sheet Layers stays without.
+    Rows of the same ID get its place, and keep everything else; others are added below, and those
+    that are to be taken out are emptied wherever they are named. A workbook without the sheet
+    Layers stays without.
 
     Raises
     ------
@@ -68,9 +76,11 @@ def changes(
     """
     outlines = None if is_absent(book, SECTION["outlines"]) else GrowingTable.of(book, "outlines")
     fill = _Fill(book, replace, outlines)
-    _fill_rows(fill, "arrays", plan.arrays)
-    _fill_rows(fill, "objects", plan.objects)
-    for place in plan.roof:
+    _fill_rows(fill, "arrays", told.plan.arrays)
+    _fill_rows(fill, "objects", told.plan.objects)
+    for name in told.gone if replace else ():
+        _take_out(fill, name)
+    for place in told.plan.roof:
         _fill_roof(fill, place)
     _fill_layers(fill, layers)
     if fill.lacking:
@@ -81,13 +91,16 @@ def changes(
 
 
 def ballast_changes(
-    book: OpenBook, weights_n: Mapping[str, float], *, replace: bool
+    book: OpenBook, weights_n: Mapping[str, float | None], *, replace: bool
 ) -> dict[CellPosition, Value]:
-    """Return the cells to change so that arrays have a ballast weight [N]; raises as `changes`."""
+    """Return the cells to change so that arrays have a ballast weight [N]; raises as `changes`.
+
+    None is no weight.
+    """
     fill, table = _Fill(book, replace), GrowingTable.of(book, "arrays")
     for name, weight_n in weights_n.items():
         position = table.position(table.rows("id", name)[0], "ballast_n")
-        weight = table.number("ballast_n", weight_n)
+        weight = None if weight_n is None else table.number("ballast_n", weight_n)
         fill.put(position, weight, f"the ballast weight of {name}")
     return fill.done()
 
@@ -104,6 +117,10 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
             fill.refuse(table.position(row, taken[0]), f"the place of {place.name}")
         _fill_outline(fill, place)
         values: dict[str, Value] = {} if rows else {"id": place.name}
+        if "place_from" in table.found.columns:  # not in earlier workbooks
+            values["place_from"] = DRAWN_MODULES if place.modules else DRAWING
+            if not place.modules and table.cell(row, "place_from").shown == DRAWN_MODULES:
+                values["modules"] = None
         if key == "arrays" and place.modules and "modules" in table.found.columns:
             count = f"the number of modules of {place.name}"
             fill.put(table.position(row, "modules"), place.modules, count)
@@ -116,6 +133,16 @@ def _fill_rows(fill: _Fill, key: str, places: Sequence[DrawnOutline]) -> None:
             if shown is not None or side in taken:
                 values[side] = shown
         fill.cells |= table.cells(row, values)
+
+
+def _take_out(fill: _Fill, name: str) -> None:
+    """Empty the rows of an array or an object that is not drawn any more, and those beside it."""
+    for key, columns in _NAMED.items():
+        if is_absent(fill.book, SECTION[key]):
+            continue
+        table = GrowingTable.of(fill.book, key)
+        for row in {row for column in columns for row in table.rows(column, name)}:
+            fill.cells |= table.cells(row, dict.fromkeys(table.found.columns))
 
 
 def _sides(shape: Shape) -> tuple[float | None, ...]:

@@ -57,6 +57,8 @@ class DrawnOutline:
         Of its line; empty for an edge that is a side of the roof.
     height_m : float
         As written inside of it; NaN if it is not.
+    unnamed : str
+        Whence its name is, if it is not in the drawing; empty if it is.
     note : str
         What was assumed; empty for nothing.
     sizes : tuple of (int, float, float)
@@ -69,6 +71,7 @@ class DrawnOutline:
     handle: str
     layer: str
     height_m: float
+    unnamed: str
     note: str
     sizes: tuple[tuple[int, float, float], ...] = ()
 
@@ -203,13 +206,14 @@ def _named(
     given = set(repeated)
     for (line, kind, shape), words, name in zip(known, inside, written, strict=True):
         notes: list[str] = []
+        unnamed = ""
         if line.sizes and name and repeated[name.casefold()] > 1:
             name = ""  # as of a product
         if kind is LayerKind.ROOF:
             name = "roof"
         elif not name:
-            name = _free_name(kind, counts, given)
-            notes.append("named in reading order" if line.sizes else "no text inside")
+            name = free_name(kind, counts, given)
+            unnamed = "named in reading order" if line.sizes else "no text inside"
         elif name.casefold() in taken:
             detail = f"'{name}' of {taken[name.casefold()]}"
             unread.append(_unread(line, "a second outline of the same name", detail))
@@ -221,12 +225,14 @@ def _named(
             height_m = _height_m(line, words, unit_m, notes, unread)
         places.append(
             DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
-                         height_m=height_m, note="; ".join(notes), sizes=line.sizes)
+                         height_m=height_m, unnamed=unnamed, note="; ".join(notes),
+                         sizes=line.sizes)
         )  # fmt: skip
     return places
 
 
-def _free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> str:
+def free_name(kind: LayerKind, counts: Counter[LayerKind], taken: set[str]) -> str:
+    """Return the next name of a kind that is not taken, in lower case."""
     while True:
         counts[kind] += 1
         name = f"{_STEMS.get(kind, 'EDGE-')}{counts[kind]}"
@@ -294,10 +300,10 @@ def _edges(roof: Shape, objects: Sequence[DrawnOutline]) -> Iterator[DrawnOutlin
     # Without a parapet the separation is the larger one.
     kind = LayerKind.EDGE_WITHOUT_PARAPET
     for edge in bare_sides(Polygon(roof.points), strips, 90.0):
-        name = _free_name(kind, counts, taken)
+        name = free_name(kind, counts, taken)
         yield DrawnOutline(name=name, kind=kind, shape=_strip(*edge.ends), handle="", layer="",
-                           height_m=math.nan,
-                           note=f"{edge.name}, taken as without parapet")  # fmt: skip
+                           height_m=math.nan, unnamed=edge.name,
+                           note="taken as without parapet")  # fmt: skip
 
 
 def _strip(start: Point, end: Point) -> Shape:

@@ -40,6 +40,8 @@ RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]
 OR_OUTLINE = "required, or an outline"
 DRAWING = "drawing"
 """Whence a row comes that a command has taken from a drawing."""
+DRAWN_MODULES = f"{DRAWING}, modules too"
+"""The same with the number of modules."""
 ROOF = "roof"
 """Name of the roof on the sheet Outlines."""
 
@@ -128,6 +130,9 @@ def friction_law(
 
 WEIGHT_PARTS = ("modules", "module_weight_n", "ballast_n")
 """Fields of an array from which its weight is computed."""
+
+
+PlaceFrom = Annotated[Text, Cell("Place from", DRAWING, is_rare=True)]
 
 
 class Array(Placed):
@@ -226,6 +231,9 @@ class Array(Placed):
     ] = None
     """Weight per area, with ballast, in the wind design by others; compared with the weight over
     the plan area."""
+    place_from: PlaceFrom = ""
+    """Drawing: written by roofslip plan read, which takes the row out when the drawing no longer
+    has it; clear it where you change the place. Blank: as entered."""
 
     @classmethod
     def computed(cls, name: str, row: Mapping[str, Any]) -> float | None:
@@ -291,6 +299,8 @@ class RoofObject(Placed):
     y_to_m: Annotated[float | None, _plan("y to")] = None
     i_p: Annotated[ImportanceCell, Cell("Importance factor I_p", 1.0, is_rare=True)] = 1.0
     """Of an object or unlike array; not used for edges."""
+    place_from: PlaceFrom = ""
+    """As of an array."""
 
 
 class Vertex(Frozen):

@@ -105,6 +105,19 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     assert "no block of the map is within an array" in ran(*words, "--replace", exit_code=2)
 
 
+def test_ballast_of_an_array_without_blocks_is_taken_out_with_replace(tmp_path):
+    book = make(tmp_path, arrays=arrays(**PARTS))
+    path = tmp_path / "map.csv"
+    path.write_text("x,y,blocks\n40,30,300\n")  # on A1 alone
+    words = (path, book, "--units", "ft", "--block-weight", 32, "lb")
+    type_into(book, {"Arrays/A1/Ballast weight": None, "Arrays/A1/Weight": None,
+                     "Arrays/A2/Ballast weight": 18000})  # fmt: skip
+    assert "A2: no blocks; the 18000 lb (80.07 kN) given stay without --replace" in ran(*words)
+    assert read(book).draft["arrays"][1]["ballast_n"] == pytest.approx(18000 * LB)
+    assert "A2: no blocks; the 18000 lb (80.07 kN) given are taken out" in ran(*words, "--replace")
+    assert read(book).draft["arrays"][1]["ballast_n"] is None
+
+
 def test_a_workbook_without_the_column_is_refused_with_what_to_do(tmp_path):
     book = make(tmp_path)
     path = tmp_path / "map.csv"

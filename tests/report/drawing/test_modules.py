@@ -109,7 +109,7 @@ def test_modules_become_arrays_with_their_outlines(tmp_path, deg, noise, within)
         assert isinstance(place.shape, Rectangle) or not is_box
         if deg == 0.0:
             assert place.name == name  # in reading order
-            assert place.note == "named in reading order"
+            assert place.unnamed == "named in reading order"
 
 
 def grid(sketch, columns, rows, x=0.0, y=0.0, skip=(), size=(LONG, SHORT), layer="ARRAY"):

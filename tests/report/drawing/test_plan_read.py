@@ -67,7 +67,7 @@ def test_the_sides_of_the_roof_that_have_no_edge_become_edges(tmp_path):
     south = edges[1].shape
     assert isinstance(south, Rectangle)
     assert list(south.points) == in_feet(((0, -1), (240, -1), (240, 0), (0, 0)))
-    assert "south edge of the roof" in edges[1].note
+    assert "south edge of the roof" in edges[1].unnamed
 
 
 def test_the_edges_of_an_oblique_roof_are_strips_outside_of_it(tmp_path):

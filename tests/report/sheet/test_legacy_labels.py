@@ -33,7 +33,7 @@ def test_check_has_one_note_of_what_a_workbook_of_0_1_lacks_and_a_new_one_has_no
     assert done.exit_code == 0
     (line,) = (line for line in done.output.splitlines() if "of version 0.1" in line)
     assert line.startswith("note: ")
-    assert "lacks 16 columns and the sheets Friction tests, Outlines, Layers, " in line
+    assert "lacks 18 columns and the sheets Friction tests, Outlines, Layers, " in line
     assert line.endswith("Run roofslip new FOLDER and copy your cells into the new workbook")
     assert list(what_is_new(open_book(make(tmp_path / "new")))) == []
 

@@ -1,0 +1,207 @@
+"""A revised drawing moves the rows that it moves, and no property goes to another array."""
+
+import re
+
+import pytest
+from click.testing import CliRunner
+
+from inputs import FT
+from report.cli.main import main
+from report.sheet.reading.read import read
+from report.sheet.schema.choices import UnitsFirst
+from sheets import blank, type_into
+from sketch import ROOF_FT, Sketch
+
+SIZE_FT = (80, 40)
+
+
+def box(x, y, size=SIZE_FT):
+    wide, tall = size
+    return ((x, y), (x + wide, y), (x + wide, y + tall), (x, y + tall))
+
+
+def drawn(tmp_path, arrays, objects=(), roof=ROOF_FT):
+    """A drawing of arrays and objects: corner or outline, and a name or none."""
+    sketch = Sketch()
+    sketch.ring("ROOF-OUTLINE", roof)
+    for layer, places in (("ARRAY", arrays), ("OBJECT", objects)):
+        for place, name in places:
+            sketch.ring(layer, place if len(place) > 2 else box(*place), name)
+    return sketch.saved(tmp_path)
+
+
+def plan_read(*words, exit_code=0):
+    done = CliRunner().invoke(main, ["plan", "read", *map(str, words)])
+    assert done.exit_code == exit_code, done.output
+    return done.output
+
+
+def filled(tmp_path, arrays, objects=(), **roof):
+    """A workbook with the plan of a drawing, and a slope for each array."""
+    folder = tmp_path / "project"
+    folder.mkdir()
+    path = blank(folder / "input.xlsx", UnitsFirst.US)
+    plan_read(drawn(tmp_path, arrays, objects, **roof), path)
+    ids = [row["id"] for row in read(path).draft["arrays"]]
+    type_into(path, {f"Arrays/{name}/Slope": 1.0 + k for k, name in enumerate(ids)})
+    return path
+
+
+def revised(tmp_path, path, arrays, objects=(), *, exit_code=0, **roof):
+    drawing = drawn(tmp_path, arrays, objects, **roof)
+    return plan_read(drawing, path, "--replace", exit_code=exit_code)
+
+
+def slopes(path):
+    """The slope of each array by its lower left corner [ft]."""
+    return {
+        (round(row["x_from_m"] / FT), round(row["y_from_m"] / FT)): (row["id"], row["slope_value"])
+        for row in read(path).draft["arrays"]
+    }
+
+
+def test_the_lower_array_moves_to_the_top_and_each_keeps_its_slope(tmp_path):
+    path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
+    assert slopes(path) == {(20, 60): ("A1", 1.0), (20, 10): ("A2", 2.0)}
+    output = revised(tmp_path, path, [((20, 110), ""), ((20, 60), "")])
+    assert slopes(path) == {(20, 60): ("A1", 1.0), (20, 110): ("A2", 2.0)}
+    table = output[output.index("name  from") :].splitlines()
+    assert re.split("  +", table[1]) == [
+        "A2", "x 20.00 to 100.00, y 10.00 to 50.00 ft",
+        "x 20.00 to 100.00, y 110.00 to 150.00 ft",
+    ]  # fmt: skip
+    assert not table[2].startswith("A1")
+
+
+@pytest.mark.parametrize("by_ft", [(5, 0), (0, -8), (30, 12)])
+def test_arrays_that_all_shift_a_little_are_told_by_what_they_have_in_common(tmp_path, by_ft):
+    places = [(20, 60), (20, 10), (130, 60)]
+    path = filled(tmp_path, [(place, "") for place in places])
+    before = slopes(path)
+    dx, dy = by_ft
+    moved = [((x + dx, y + dy), "") for x, y in reversed(places)]
+    revised(tmp_path, path, moved)
+    assert slopes(path) == {(x + dx, y + dy): row for (x, y), row in before.items()}
+
+
+def test_a_name_in_the_drawing_is_that_of_the_row_wherever_it_is(tmp_path):
+    path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
+    revised(tmp_path, path, [((20, 60), "A2"), ((20, 10), "A1")])
+    assert slopes(path) == {(20, 10): ("A1", 1.0), (20, 60): ("A2", 2.0)}
+
+
+def test_an_array_in_its_place_that_the_drawing_calls_otherwise_keeps_its_row(tmp_path):
+    path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
+    output = revised(tmp_path, path, [((20, 60), "PV-7"), ((20, 10), "A2")])
+    assert slopes(path) == {(20, 60): ("A1", 1.0), (20, 10): ("A2", 2.0)}
+    assert "('PV-7' in the drawing)" in output
+
+
+@pytest.mark.parametrize(
+    ("arrays", "candidates"),
+    [
+        # One outline over both, one half of each, one elsewhere of another size.
+        ([(((20, 10), (100, 10), (100, 100), (20, 100)), "")], "may be A1 or A2"),
+        ([((20, 35), "")], "may be A1 or A2"),
+        ([((20, 60), ""), (((130, 10), (160, 10), (160, 40), (130, 40)), "")], "may be A2, or new"),
+    ],
+)
+def test_what_cannot_be_told_stops_with_the_candidates_and_changes_nothing(
+    tmp_path, arrays, candidates
+):
+    path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
+    before = path.read_bytes()
+    output = revised(tmp_path, path, arrays, exit_code=2)
+    assert f"{candidates}: write its name inside of it as a text" in output
+    assert path.read_bytes() == before
+
+
+def test_an_array_split_in_halves_stops(tmp_path):
+    path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
+    halves = [(box(20, 60, (39, 40)), ""), (box(61, 60, (39, 40)), "")]
+    output = revised(tmp_path, path, [*halves, ((20, 10), "")], exit_code=2)
+    assert " and " in output
+    assert "may be A1: write its name" in output
+
+
+def test_a_new_array_has_a_name_that_no_row_had(tmp_path):
+    path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
+    output = revised(tmp_path, path, [((20, 110), ""), ((20, 60), ""), ((20, 10), "")])
+    found = read(path).draft["arrays"]
+    assert [row["id"] for row in found] == ["A1", "A2", "A3"]
+    assert round(found[2]["y_from_m"] / FT) == 110
+    assert "slope_value" not in found[2]
+    assert "A3    new " in output
+
+
+def test_what_the_drawing_no_longer_has_is_taken_out_with_its_clearances(tmp_path):
+    arrays, objects = [((20, 60), "A1"), ((20, 10), "A2")], [((110, 60), "RTU-1")]
+    path = filled(tmp_path, arrays, objects)
+    rows = {"Clearances/1/Array": "A1", "Clearances/1/Object": "A2",
+            "Clearances/2/Array": "A1", "Clearances/2/Object": "RTU-1"}  # fmt: skip
+    type_into(path, rows)
+    output = revised(tmp_path, path, [((20, 60), "A1")])
+    draft = read(path).draft
+    assert [row["id"] for row in draft["arrays"]] == ["A1"]
+    assert not [row for row in draft["objects"] if row["id"] == "RTU-1"]
+    assert [row for row in draft["clearances"] if row] == []
+    for name in ("A2", "RTU-1"):
+        (line,) = (line for line in output.splitlines() if line.startswith(f"{name} "))
+        assert line.endswith("not in the drawing; taken out")
+
+
+def test_what_is_typed_stays_and_is_named(tmp_path):
+    path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
+    type_into(path, {"Arrays/A2/Place from": None})
+    output = revised(tmp_path, path, [((20, 60), "A1")])
+    assert slopes(path)[20, 10] == ("A2", 2.0)
+    assert "not in the drawing; stays as typed" in output
+
+
+def test_a_second_drawing_adds_to_the_first_without_replace(tmp_path):
+    path = filled(tmp_path, [((20, 60), "A1")])
+    sketch = Sketch()
+    sketch.ring("ARRAY", box(20, 10), "A2")
+    output = plan_read(sketch.saved(tmp_path), path)
+    assert [row["id"] for row in read(path).draft["arrays"]] == ["A1", "A2"]
+    assert "A1      x 20.00 to 100.00, y 60.00 to 100.00 ft" in output
+    assert "not in the drawing; stays without --replace" in output
+
+
+def grid(sketch, x, y):
+    for k in range(6):
+        sketch.ring("ARRAY", box(x + 7 * k, y, (6.8, 3.4)))
+
+
+def test_modules_that_are_not_drawn_any_more_are_taken_out(tmp_path):
+    folder = tmp_path / "project"
+    folder.mkdir()
+    path = blank(folder / "input.xlsx", UnitsFirst.US)
+    sketch = Sketch()
+    grid(sketch, 20, 20)
+    plan_read(sketch.saved(tmp_path), path)
+    assert read(path).draft["arrays"][0]["modules"] == 6
+    sketch = Sketch()
+    sketch.ring("ARRAY", box(20, 20, (41.8, 3.4)))
+    output = plan_read(sketch.saved(tmp_path), path, "--replace")
+    assert "A1: 6 modules taken out, as they are not drawn" in output
+    assert read(path).draft["arrays"][0]["modules"] is None
+    # Typed, they stay.
+    type_into(path, {"Arrays/A1/Modules": 30})
+    output = plan_read(sketch.saved(tmp_path), path, "--replace")
+    assert "A1: 30 modules stay as typed" in output
+    assert read(path).draft["arrays"][0]["modules"] == 30
+
+
+def test_a_roof_that_grows_keeps_what_was_typed_of_its_edges(tmp_path):
+    path = filled(tmp_path, [((20, 60), "A1")])
+    ids = [row["id"] for row in read(path).draft["objects"]]
+    assert len(ids) == 4
+    type_into(path, {f"Objects/{ids[1]}/Kind": "edge with parapet",
+                     f"Objects/{ids[1]}/Height": 36})  # fmt: skip
+    before = {row["id"]: row["kind"] for row in read(path).draft["objects"]}
+    larger = ((0, 0), (300, 0), (300, 160), (0, 160))
+    revised(tmp_path, path, [((20, 60), "A1")], roof=larger)
+    after = read(path).draft["objects"]
+    assert {row["id"]: row["kind"] for row in after} == before
+    assert max(row["x_to_m"] for row in after) == pytest.approx(301 * FT, abs=1e-5)
