@@ -55,8 +55,8 @@ class Settings:
     Attributes
     ----------
     matters_m, matters_share : float
-        A component is not modeled if its effect on the PRD and on every excursion is at most the
-        larger of the first [m] and the second as a fraction of the PRD.
+        A component is not modeled if its effect on the PRD, every excursion and the residual is at
+        most the larger of the first [m] and the second as a fraction of the PRD.
     tolerance : float
         Tolerance in two axes and with velocity-dependent friction, relative to the PRD
         (`two_axes.TOLERANCES`).
@@ -79,6 +79,8 @@ class Settings:
 
 DEFAULT = Settings()
 
+_LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solution:
@@ -93,8 +95,8 @@ class Solution:
     next_model : Model
         The first more complete model that was not used; the model itself if there is none.
     next_effect_m : float
-        Largest change of the PRD or of any excursion by the more complete models [m], from runs of
-        them and including their errors; inf if such a run gives no displacement, NaN if the input
+        Largest change of the PRD, an excursion or a residual by the more complete models [m], from
+        runs of them and including their errors; inf if such a run gives no displacement, NaN if the input
         has no data for a more complete model.
     friction_demand : float
         Largest ratio of shear to normal force with no slip. The block slips if this exceeds the
@@ -135,8 +137,8 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     """Solve a scene with the simplest adequate model.
 
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
-    models are compared. Otherwise the simplest model is used whose PRD and excursions agree within
-    `Settings.bound_m` with those of all more complete ones, error bounds included. The more
+    models are compared. Otherwise the simplest model is used whose PRD, excursions and residuals
+    agree within `Settings.bound_m` with those of all more complete ones, error bounds included. The more
     complete models are run for this comparison: the effect of cross-slope shaking accumulates along
     the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction is
     modeled whenever the scene has it. If the normal force falls below zero no model gives a
@@ -204,15 +206,16 @@ def _climbed(scene: Scene, settings: Settings, demand: float) -> Solution:
 
 
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
-    """Return the largest change of the PRD or an excursion by more complete models [m]; inf: none.
+    """Return the largest change of a displacement by more complete models [m]; inf: none.
 
     Excursions are compared as well: two models may give the same PRD by chance on different paths.
+    So are residuals, which cumulative displacement adds up.
     """
     effects = [
         abs(getattr(result, name) - getattr(chosen, name)) + result.error_m
         for result in fuller
         if result is not chosen
-        for name in ("prd_m", "down_m", "up_m", "across_m")
+        for name in _LENGTHS
     ]
     return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
 

@@ -15,7 +15,7 @@ from solver.sliding.row import BlockRow, slide_row
 
 G = 9.80665
 DT = 0.01
-LENGTHS = ("prd_m", "down_m", "up_m", "across_m")
+LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")
 
 
 def scene(ax, ay=(), az=(), *, slope_deg=2.0, mu=0.4):
@@ -23,7 +23,7 @@ def scene(ax, ay=(), az=(), *, slope_deg=2.0, mu=0.4):
 
 
 def off(result, other):
-    """The largest difference of PRD and excursions."""
+    """The largest difference of PRD, excursions and residuals."""
     return max(abs(getattr(result, name) - getattr(other, name)) for name in LENGTHS)
 
 
@@ -40,6 +40,18 @@ def test_a_block_that_friction_holds_is_not_run():
     assert demand < 1.5
     assert (solution.result.prd_m, solution.next_effect_m) == (0.0, 0.0)
     assert two_axes.run(held).prd_m == 0.0
+
+
+def test_a_component_that_changes_the_residual_alone_is_modelled():
+    x = [0, 7, -1, 0, -2, -2, 0, 0, 0, 0, 0]
+    y = [0, -0.12, 0.12, -0.22, 0.82, 0.24, 0, 0, 0, 0, 0]
+    run = block(x, y, (), dt=0.1, slope=math.radians(1.0), friction=0.2)
+    full, along = two_axes.run(run), one_axis.run(run)
+    assert full.residual_m - along.residual_m == pytest.approx(1.2e-3, abs=0.05e-3)
+    assert abs(along.prd_m - full.prd_m) < 0.5e-3
+    solution = solve(run)
+    assert solution.model is Model.TWO_AXES
+    assert solve(run, Settings(forced=Model.ONE_AXIS)).next_effect_m > 1e-3
 
 
 @pytest.mark.parametrize("factor", [0.999, 1.001])
