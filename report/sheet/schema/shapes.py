@@ -91,12 +91,11 @@ def around(shapes: Iterable[Shape]) -> Rectangle:
 def gap_m(a: Shape, b: Shape) -> float:
     """Return the smallest distance of two shapes in plan [m]; negative if they overlap.
 
-    Of rectangles that overlap, minus the shortest move parallel to an axis that separates them; of
-    other shapes, minus the smaller side of the rectangle around their common area.
+    Then it is minus the smaller side of the rectangle around their common area.
     """
     if isinstance(a, Rectangle) and isinstance(b, Rectangle):
-        dx = max(a.x_from_m - b.x_to_m, b.x_from_m - a.x_to_m)
-        dy = max(a.y_from_m - b.y_to_m, b.y_from_m - a.y_to_m)
+        dx = max(a.x_from_m, b.x_from_m) - min(a.x_to_m, b.x_to_m)
+        dy = max(a.y_from_m, b.y_from_m) - min(a.y_to_m, b.y_to_m)
         return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
     one, other = solid(a), solid(b)
     overlap = _depth_m(one.intersection(other))
