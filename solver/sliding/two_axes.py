@@ -51,6 +51,7 @@ _NO_EVENTS, _NO_HISTORY = np.empty((0, 4)), np.empty((4, 0))
 # Step tolerance of the finer run / that of the run, where the difference of the two estimates the
 # error because no bound holds.
 _FINER = 0.03
+_SAFE = 16.0  # error / difference of two runs: of 300,000 random scenes the worst needed 7.2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +72,7 @@ class TwoAxesOutcome:
         Largest speed, along the surface of the roof [m/s].
     error_m : float
         Largest difference of any position from the exact motion under the interpolated record [m]:
-        a bound if friction is monotone (`Friction.is_monotone`), otherwise an estimate: twice the
+        a bound if friction is monotone (`Friction.is_monotone`), otherwise an estimate: 16 times the
         difference between runs at two tolerances, at least rounding error. No estimate sees a stop
         that both runs take and an exact block would not.
     n_stops, n_events, n_steps : int
@@ -172,7 +173,7 @@ def follow(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> TwoAxesOutcome
         return motion
     finer = _run(scene, _FINER * motion.step_tolerance, _NO_EVENTS, _NO_HISTORY)
     changes = np.subtract(finer.places, motion.places)
-    change = 2.0 * float(np.abs(changes).max())
+    change = _SAFE * float(np.abs(changes).max())
     return replace(finer, error_m=max(change, _rounding_m(scene, finer)))
 
 

@@ -8,7 +8,7 @@ import pytest
 from test_two_axes import G, places, readonly, scene, shaking
 
 import plane_oracle
-from solver.model import Friction, coulomb
+from solver.model import Friction, Status, coulomb
 from solver.sliding.two_axes import follow, follow_history
 
 GROWING = Friction(mu_slow=0.2, mu_fast=0.35, rate_s_per_m=20.0, mu_static=0.2)
@@ -174,6 +174,44 @@ def test_a_rough_tolerance_does_not_decide_whether_a_block_stops(seed, rough_m):
     assert abs(theirs.prd - rough_m) > 0.05
     assert abs(outcome.prd_m - theirs.prd) <= outcome.error_m + 1e-9 * theirs.prd
     assert outcome.n_stops == theirs.n_stops
+
+
+def not_monotone(number):
+    """One of many random scenes with a falling law, a higher friction at rest, or both."""
+    rng = np.random.default_rng([5, number])
+    n, dt = rng.integers(10, 120), rng.choice([0.005, 0.01, 0.05, 0.1])
+    peak, kind = rng.choice([3, 6, 10, 15.0]), rng.integers(3)
+    ax, ay = peak * rng.standard_normal((2, n))
+    az = np.clip(0.3 * peak * rng.standard_normal(n), -6, 6)
+    if kind == 1:
+        ax, ay, az = (0.3 * np.cumsum(each) for each in (ax, ay, az))
+        az = np.clip(az, -6, 6)
+    if kind == 2:
+        ax, ay = np.round(ax), np.round(ay)
+    if rng.random() < 0.3:
+        az = ()
+    mu, law = rng.uniform(0.1, 0.7), rng.random()
+    fast, rate, static = mu, 0.0, mu
+    if law < 0.4:
+        fast, rate = mu * rng.uniform(0.5, 0.98), rng.choice([1, 10, 30, 100.0])
+    elif law < 0.7:
+        static = mu * rng.uniform(1.01, 1.6)
+    else:
+        fast, rate = mu * rng.uniform(0.5, 1.5), rng.choice([1, 10, 30.0])
+        static = mu * rng.uniform(1.01, 1.6)
+    friction = Friction(mu_slow=mu, mu_fast=fast, rate_s_per_m=rate, mu_static=static)
+    return scene(ax, ay, dt, friction=friction, az=az, degrees=rng.uniform(0, 6))
+
+
+# The first five exceeded twice the difference of two runs by up to 3.6.
+@pytest.mark.parametrize("number", [41723, 84377, 35694, 97414, 52334, *range(40)])
+def test_an_estimated_error_is_no_less_than_that_to_a_much_finer_run(number):
+    block = not_monotone(number)
+    outcome = follow(block)
+    finer = follow(block, 1e-10)
+    assert finer.step_tolerance < outcome.step_tolerance
+    if outcome.status is Status.OK:
+        assert np.abs(np.subtract(finer.places, outcome.places)).max() <= outcome.error_m
 
 
 @pytest.mark.parametrize("friction", [FALLING, HELD, BOTH])
