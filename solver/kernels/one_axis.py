@@ -254,8 +254,9 @@ def _slide_on(c, ax, az, w, w_max, i, last, dt):
 
 @njit(cache=KEPT, forceinline=True)
 def _note(events, n, t, kind, s):
-    """Write event n and return the number of events."""
+    """Write event n and return the number of events; no rounding puts it before the last one."""
     if events is not None:
+        t = max(t, events[n - 1, 0]) if n else t
         events[n, 0], events[n, 1], events[n, 2] = t, kind, s
     return n + 1
 

@@ -907,8 +907,12 @@ def _net_driving(gx, gy, c, hx, hy, d):
 
 @jit()
 def _note(events, n, t, kind, sx, sy):
-    """Write event n, if there is room, and return the number of events."""
+    """Write event n, if there is room, and return the number of events.
+
+    No rounding puts it before the last one.
+    """
     if n < events.shape[0]:
+        t = max(t, events[n - 1, 0]) if n else t
         events[n, 0], events[n, 1], events[n, 2], events[n, 3] = t, kind, sx, sy
     return n + 1
 

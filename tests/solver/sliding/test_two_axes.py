@@ -12,7 +12,7 @@ import plane_oracle
 from places import RECORDS
 from solver.formats.reader import read_motion_file
 from solver.model import EventKind, Friction, Scene, coulomb
-from solver.sliding import checked, one_axis
+from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.two_axes import follow, follow_history
 
 G = 9.80665
@@ -336,3 +336,19 @@ def test_a_motion_and_gravity_scaled_scale_the_answer(seed, mu, scale):
     outcome = follow(block, 1e-8)
     two = follow(replace(block, scale=scale, g_mps2=scale * G), 1e-8)
     assert places(two) == pytest.approx(scale * places(outcome), abs=2e-8 * scale * outcome.prd_m)
+
+
+# Events went back by a rounding in these scenes, in one axis or in two.
+@pytest.mark.parametrize("number", [362, 732, 1560, 1828, 3826, 5766, 8325, 9753])
+def test_events_never_go_back_where_the_push_rests_exactly_at_the_limit(number):
+    rng = np.random.default_rng([9, number])
+    n, dt = rng.integers(4, 14), rng.choice([0.005, 0.01, 0.02, 0.1])
+    mu, slope = rng.choice([0.1, 0.2, 0.3]), rng.choice([0, 0, 0.02, 0.05])
+    limits = [(sign * mu * math.cos(slope) - math.sin(slope)) * G for sign in (1, -1)]
+    pushes = [*limits, *limits, 0, *(1.5 * x for x in limits), *(3 * x for x in limits)]
+    ax = rng.choice(pushes, n)
+    ay = np.zeros(n) if rng.random() < 0.5 else rng.choice([0, 0, 1e-3, 1.0], n)
+    run = scene(ax, ay, dt, degrees=math.degrees(slope), friction=mu)
+    for solver in (one_axis, two_axes):
+        times = [event.t_s for event in solver.run_history(run).events]
+        assert times == sorted(times)
