@@ -96,7 +96,7 @@ class Request:
 
 def read(source: Path, out: Path | None, since: Path | None) -> Request:
     """Read a workbook and former results, and check that the package can be written."""
-    from report.results.publish import check_apart, output_folder
+    from report.results.publish import check_apart, check_of_workbook, output_folder
     from report.sheet.reading.read import read
     from report.typeset.letters import check_letters
 
@@ -105,6 +105,8 @@ def read(source: Path, out: Path | None, since: Path | None) -> Request:
     check_letters(sheet)
     folder = output_folder(out, sheet.path.parent, "out", OUTPUTS)
     beside = [sheet.path.parent / document.path for document in sheet.documents]
+    if out is None:
+        check_of_workbook(folder, "results.json", sheet.path.name)
     check_apart(OUTPUTS, folder, [sheet.path, *([since] if since else []), *beside])
     return Request(sheet=sheet, folder=folder, former=former, since=content)
 

@@ -10,6 +10,7 @@ import os
 import sys
 import time
 import traceback
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import ExitStack
@@ -31,9 +32,12 @@ from report.cli.terminal import (
     SOURCE,
     Progress,
     no_collections,
+    outputs_of,
     print_json,
+    say_former,
     show_warnings,
     system_problem,
+    workbook_of,
 )
 from report.words.counts import numbered
 
@@ -57,6 +61,8 @@ class BatchOutcome:
         Input errors.
     internal : str
         Traceback of an internal error; empty for none.
+    left : tuple of tuple of Path
+        Outputs, by folder, that are not of this run if they are there.
     """
 
     source: Path
@@ -65,6 +71,7 @@ class BatchOutcome:
     package: str = ""
     problems: tuple[Problem, ...] = ()
     internal: str = ""
+    left: tuple[tuple[Path, ...], ...] = ()
     seconds: float = 0.0
 
     @property
@@ -88,8 +95,8 @@ class BatchOutcome:
 def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: bool) -> None:
     """Write the packages of many projects, each to its own out/, and print one table.
 
-    A project with an error stops no other. The exit code is 2 if any input has an error, and 1
-    after an internal error.
+    Several workbooks of one folder each have a folder out/NAME/. A project with an error stops no
+    other. The exit code is 2 if any input has an error, and 1 after an internal error.
     """
     from report.sheet.checking.grouped import grouped
 
@@ -103,6 +110,8 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
         problems = () if as_json else (each.line for each in grouped(outcome.problems))
         for text in (*problems, *outcome.internal.splitlines()):
             click.echo(f"{outcome.source}: {text}", err=True)
+    for left in dict.fromkeys(left for outcome in outcomes for left in outcome.left):
+        say_former(left)
     sys.exit(exit_code(outcomes, fail_on_ng=fail_on_ng))
 
 
@@ -140,16 +149,21 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
     from report.workers import started_worker
     from solver.model import DefectError
 
-    distinct = list({source.resolve(): source for source in sources}.values())
+    books = [workbook_of(source) for source in sources]
+    # A link stays one: the package lies beside it.
+    places = [book.parent.resolve() / book.name for book in books]
+    distinct = dict(zip(places, sources, strict=True))
+    homes = Counter(workbook.parent for workbook in distinct if workbook.is_file())
+    shared = {source for workbook, source in distinct.items() if homes[workbook.parent] > 1}
     count = min(len(distinct), os.cpu_count() or 1)
-    waiting, outcomes = distinct[::-1], dict[Path, BatchOutcome]()
+    waiting, outcomes = [*distinct.values()][::-1], dict[Path, BatchOutcome]()
     running: dict[Future[BatchOutcome], tuple[Path, Executor]] = {}
     with Progress(len(distinct), quiet=quiet) as progress, ExitStack() as stack:
         idle = [stack.enter_context(started_worker(show_warnings)) for _ in range(count)]
         while waiting or running:
             while waiting and idle:
                 source, worker = waiting.pop(), idle.pop()
-                running[worker.submit(package, source)] = source, worker
+                running[worker.submit(package, source, source in shared)] = source, worker
             done = len(outcomes)
             progress(f"{done} of {len(distinct)} projects done", done)
             for future in wait(running, return_when=FIRST_COMPLETED).done:
@@ -160,19 +174,27 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
                     outcomes[source] = BatchOutcome(source=source, internal=str(error))
                     worker = stack.enter_context(started_worker(show_warnings))
                 idle.append(worker)
-    return [outcomes[source] for source in distinct]
+    return [outcomes[source] for source in distinct.values()]
 
 
-def package(source: Path) -> BatchOutcome:
-    """Make the package of one project; every error is part of the outcome."""
+def package(source: Path, is_shared: bool = False) -> BatchOutcome:
+    """Make the package of one project; every error is part of the outcome.
+
+    Where its folder is that of others as well, to a folder of its own below out/.
+    """
     from report.making import make
+    from report.results.publish import output_folder
     from report.workers import SameProcess
     from solver.model import InputError
 
     started = time.monotonic()
+    workbook = workbook_of(source)
+    out, left = None, (outputs_of(source, None),) if is_shared else ()
     try:
+        if is_shared:
+            out = output_folder(None, workbook.parent, f"out/{workbook.stem}")
         with no_collections(), SameProcess() as worker:
-            assessment, folder, _, _ = make(source, None, None, lambda _: None, worker)
+            assessment, folder, _, _ = make(source, out, None, lambda _: None, worker)
         done = BatchOutcome(
             source=source,
             verdict=assessment.verdict.value,
@@ -185,7 +207,9 @@ def package(source: Path) -> BatchOutcome:
         done = BatchOutcome(source=source, problems=(system_problem(error),))
     except Exception:
         done = BatchOutcome(source=source, internal=traceback.format_exc())
-    return replace(done, seconds=time.monotonic() - started)
+    if not done.verdict:
+        left = (outputs_of(source, out), *left)
+    return replace(done, left=left, seconds=time.monotonic() - started)
 
 
 _COLUMNS = ("project", "verdict", "D/C", "time", "package")

@@ -24,6 +24,7 @@ from report.cli.terminal import (
     document,
     input_errors,
     no_collections,
+    outputs_of,
     plain,
     print_json,
     say,
@@ -109,7 +110,7 @@ def report(
     from report.workers import started_worker
 
     with (
-        input_errors(source, as_json=as_json),
+        input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
         Progress(STEPS, quiet=quiet) as progress,
         no_collections(),
         started_worker() as worker,

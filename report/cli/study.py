@@ -12,7 +12,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.cli.terminal import QUIET, SOURCE, Progress, input_errors, no_collections, plain
+from report.cli.terminal import (
+    QUIET,
+    SOURCE,
+    Progress,
+    input_errors,
+    no_collections,
+    plain,
+    workbook_of,
+)
 
 if TYPE_CHECKING:
     from report.study.plan import StudyPlan
@@ -43,13 +51,18 @@ def study(
     A study that was killed goes on where it was. `roofslip new DIR --study` writes a blank
     workbook.
     """
-    from report.results.publish import check_apart, output_folder
+    from report.results.publish import check_apart, check_of_workbook, output_folder
+    from report.study.exports import EXPORTS
     from report.study.extra import ARROW, extra
     from report.study.files import TABLE
     from report.study.manifest import NAME
     from report.study.run import estimate, planned
 
-    with input_errors(source):
+    folder = out or workbook_of(source).parent / "out/study"
+    outputs = (
+        () if dry_run else [folder / name for name in ("study.pdf", "curves.csv", TABLE, *EXPORTS)]
+    )
+    with input_errors(source, outputs=outputs):
         extra(ARROW)
         plan, beside = planned(source)
         for cell, text in plan.warnings:
@@ -58,6 +71,8 @@ def study(
             _print_estimate(estimate(plan))
             return
         folder = output_folder(out, beside, "out/study", (TABLE, NAME))
+        if out is None:
+            check_of_workbook(folder, NAME, plan.workbook)
         check_apart([TABLE], folder, [source, source / "input.xlsx"])
         with Progress(quiet=quiet) as progress, no_collections():
             results, files = make(plan, folder, scheduler, progress, allow_matched=allow_matched)

@@ -6,6 +6,7 @@ next.
 
 from __future__ import annotations
 
+import datetime as dt
 import gc
 import json
 import os
@@ -110,31 +111,60 @@ def interrupts() -> Iterator[list[int]]:
 
 
 @contextmanager
-def input_errors(source: Path, *, as_json: bool = False) -> Iterator[None]:
+def input_errors(
+    source: Path, *, as_json: bool = False, outputs: Sequence[Path] = ()
+) -> Iterator[None]:
     """Print input errors, one problem per line or as JSON, and exit with code 2.
 
     So with what the system refuses, such as a file without permission or a folder that is gone.
+    Outputs of an earlier run that are there are named.
     """
     try:
         yield
     except BrokenPipeError:
         raise
     except OSError as error:
-        _refuse(source, [system_problem(error)], as_json=as_json)
+        _refuse(source, [system_problem(error)], outputs, as_json=as_json)
     except Exception as error:
         from solver.model import InputError
 
         if not isinstance(error, InputError):
             raise
-        _refuse(source, error.parts, as_json=as_json)
+        _refuse(source, error.parts, outputs, as_json=as_json)
 
 
-def _refuse(source: Path, problems: Sequence[Problem], *, as_json: bool) -> NoReturn:
+def _refuse(
+    source: Path, problems: Sequence[Problem], outputs: Sequence[Path], *, as_json: bool
+) -> NoReturn:
     if as_json:
         print_json(document(source, problems))
     else:
         say_problems(source, problems)
+    say_former(outputs)
     sys.exit(INPUT_ERROR)
+
+
+def workbook_of(source: Path) -> Path:
+    """Return the workbook that a command is given, by itself or by its folder."""
+    return source / "input.xlsx" if source.is_dir() else source
+
+
+def outputs_of(source: Path, out: Path | None) -> tuple[Path, ...]:
+    """Return where the package and the tables of a workbook are written."""
+    from report.making import OUTPUTS
+
+    folder = out or workbook_of(source).parent / "out"
+    return tuple(folder / name for name in OUTPUTS)
+
+
+def say_former(outputs: Sequence[Path]) -> None:
+    """Say which outputs are there from an earlier run, after one that has not replaced them."""
+    there = [path for path in outputs if path.is_file()]
+    if there:
+        last = dt.datetime.fromtimestamp(max(path.stat().st_mtime for path in there))
+        which = f" and {len(there) - 1} more are" if len(there) > 1 else " is"
+        when = f"of an earlier run, {last:%Y-%m-%d %H:%M}, and not replaced"
+        click.echo(plain(f"{there[0]}{which} {when}"), err=True)
 
 
 def document(source: Path, problems: Sequence[Problem] = ()) -> dict[str, Any]:

@@ -28,10 +28,13 @@ from report.cli.terminal import (
     SOURCE,
     input_errors,
     no_collections,
+    outputs_of,
     plain,
     say,
+    say_former,
     say_problems,
     system_problem,
+    workbook_of,
 )
 
 if TYPE_CHECKING:
@@ -63,14 +66,13 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
     with input_errors(source):
         if not source.is_dir():
             settle(source)
-    workbook = source / "input.xlsx" if source.is_dir() else source
-    folder = out or workbook.parent / "out"
+    workbook = workbook_of(source)
     with started_worker() as worker:
-        round_ = Round(workbook, folder, worker)
+        round_ = Round(workbook, out, worker)
         try:
             if once:
                 sys.exit(0 if round_.run() else INPUT_ERROR)
-            found = saves(workbook, folder)
+            found = saves(workbook, round_.folder)
             next(found)  # from here on no save is missed, whatever else is done meanwhile
             round_.run()
             click.echo(f"watching {workbook.parent}; end with Ctrl+C")
@@ -90,13 +92,13 @@ class Round:
     What it computes is kept in both processes, so that the next round repeats only what changed.
     """
 
-    def __init__(self, workbook: Path, folder: Path, worker: Executor) -> None:
-        self._workbook, self._folder, self._worker = workbook, folder, worker
+    def __init__(self, workbook: Path, out: Path | None, worker: Executor) -> None:
+        self._workbook, self._out, self._worker = workbook, out, worker
+        self.folder = out or workbook.parent / "out"
         self._before: Compared | None = None
 
     def run(self) -> bool:
         """Check and report once; return whether a package was written."""
-        from report.making import OUTPUTS
         from report.results.since import former_from
         from solver.model import InputError
 
@@ -106,14 +108,10 @@ class Round:
         except (InputError, OSError) as error:
             problems = [system_problem(error)] if isinstance(error, OSError) else error.parts
             say_problems(self._workbook, problems)
-            if any((self._folder / name).exists() for name in OUTPUTS):
-                click.echo(
-                    f"{plain(self._folder)}: not written again; its files are of an earlier save",
-                    err=True,
-                )
+            say_former(outputs_of(self._workbook, self._out))
             return False
-        self._before = former_from(files["results.json"], self._folder / "results.json")
-        click.echo(f"{self._folder}: written in {time.monotonic() - started:.1f} s")
+        self._before = former_from(files["results.json"], self.folder / "results.json")
+        click.echo(f"{self.folder}: written in {time.monotonic() - started:.1f} s")
         return True
 
     def _made(self) -> Mapping[str, bytes]:
@@ -131,7 +129,7 @@ class Round:
         self._worker.submit(new_generation)
         with no_collections():
             _, _, files, _ = make(
-                self._workbook, self._folder, None, lambda _: None, self._worker, self._print
+                self._workbook, self._out, None, lambda _: None, self._worker, self._print
             )
         return files
 

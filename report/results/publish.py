@@ -14,6 +14,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from pydantic_core import from_json
+
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 
@@ -95,6 +97,24 @@ def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> N
                     f"{path}: is an input of this run, and would be replaced by its {name}; choose"
                     " another folder with --out"
                 )
+
+
+def check_of_workbook(folder: Path, results: str, workbook: str) -> None:
+    """Refuse a folder with the results of another workbook, as a file of these results names it.
+
+    Raises
+    ------
+    InputError
+    """
+    try:
+        there = from_json(_content(folder / results))["workbook"]["name"]
+    except (ValueError, KeyError, TypeError):  # no results, or not as this version writes them
+        return
+    if isinstance(there, str) and there != workbook:
+        raise InputError(
+            f"{folder}: has the results of {there}, not of {workbook}; choose another folder with"
+            " --out, or delete this one if the workbook was renamed"
+        )
 
 
 def output_folder(out: Path | None, home: Path, usual: str, names: Iterable[str] = ()) -> Path:

@@ -70,12 +70,15 @@ class StudyPlan:
 
     Attributes
     ----------
+    workbook : str
+        Name of its file.
     campaign : Campaign
         The first cases are the grid of building, slope, friction and intensity.
     warnings : tuple of (str, str)
         Cell and text of each warning on the workbook.
     """
 
+    workbook: str
     input: StudyInput
     motions: StudyMotions
     campaign: Campaign
@@ -144,6 +147,7 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     hidden = [one for file in motions.files for one in file.unseen]
     found = (*warnings([*sheet.unseen, *hidden]), *sheet.warnings)
     return StudyPlan(
+        workbook=sheet.path.name,
         input=given,
         motions=motions,
         campaign=campaign,

@@ -118,7 +118,7 @@ def run_study(
     out = Path(out)
     folder, campaign = out / RUNS, plan.campaign
     check_places(out, folder)
-    manifest = manifest_of(campaign, plan.about)
+    manifest = manifest_of(campaign, plan.about) | {"workbook": {"name": plan.workbook}}
     check_former(folder, manifest)
     identity, names = str(manifest["identity"]), plan.motions.buildings
     done = done_parts(folder, campaign, identity)

@@ -3,12 +3,14 @@
 import json
 import math
 import os
+import shutil
 from pathlib import Path
 
 import pytest
 
 import report.workers
-from commands import run
+from commands import printed, run
+from packages import unlaid
 from report.cli import batch
 from report.cli.batch import BatchOutcome
 from report.workers import WorkerProcess
@@ -47,7 +49,7 @@ def outcome(**about):
     return BatchOutcome(source=Path("a"), **about)
 
 
-def made_or_killed(source):
+def made_or_killed(source, _):
     if source.name == "killed":
         os._exit(9)
     return BatchOutcome(source=source, verdict="OK")
@@ -103,3 +105,36 @@ def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypa
     done = batch.package(Path("a"))
     assert done.word == "internal error"
     assert "ZeroDivisionError: division by zero" in done.internal
+
+
+def test_workbooks_of_one_folder_are_written_to_folders_of_their_own(tmp_path):
+    book = make(tmp_path)
+    shutil.copy(book, tmp_path / "b.xlsx")
+    with unlaid():
+        printed("report", tmp_path)
+        before = (tmp_path / "out" / "results.json").read_bytes()
+        refused = run("report", tmp_path / "b.xlsx")
+        done = run("batch", tmp_path, tmp_path / "b.xlsx", book)
+        assert (refused.exit_code, done.exit_code) == (2, 0)
+        printed("report", tmp_path / "b.xlsx", "--out", tmp_path / "out" / "input")
+    assert f"{tmp_path / 'out'}: has the results of input.xlsx, not of b.xlsx;" in refused.stderr
+    assert "--out" in refused.stderr
+    assert (tmp_path / "out" / "results.json").read_bytes() == before
+    first = f"{tmp_path / 'out' / 'calc-package.pdf'} and 3 more are of an earlier run, "
+    for told in (refused, done):
+        (line,) = (line for line in told.stderr.splitlines() if line.startswith(first))
+        assert line.endswith(", and not replaced")
+    packages = [line.split()[-1] for line in done.stdout.splitlines()[1:]]
+    assert packages == [str(tmp_path / "out" / n / "calc-package.pdf") for n in ("input", "b")]
+    assert all(Path(package).is_file() for package in packages)
+    b = json.loads((tmp_path / "out" / "b" / "results.json").read_bytes())
+    assert b["workbook"]["name"] == "b.xlsx"
+
+
+def test_a_project_with_an_error_names_the_files_of_its_earlier_run(tmp_path):
+    make(tmp_path)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "plan.dxf").write_text("earlier")
+    (tmp_path / "records" / "x.csv").write_text("abc")
+    told = run("batch", tmp_path).stderr.splitlines()
+    assert told[-1].startswith(f"{tmp_path / 'out' / 'plan.dxf'} is of an earlier run, 2")

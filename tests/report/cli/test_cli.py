@@ -113,7 +113,9 @@ def test_a_failed_run_leaves_the_older_package(tmp_path):
     out.mkdir()
     (out / "calc-package.pdf").write_bytes(b"older")
     (tmp_path / "records" / "x3.csv").write_text("time_s,acceleration_g\n0,abc\n")
-    assert "x3.csv" in refused("report", book)
+    told = refused("report", book)
+    assert "x3.csv" in told
+    assert f"{out / 'calc-package.pdf'} is of an earlier run, " in told
     assert [path.read_bytes() for path in out.iterdir()] == [b"older"]
 
 

@@ -136,13 +136,13 @@ def test_a_workbook_that_shrinks_while_it_is_read_is_read_again(tmp_path, monkey
     assert len(looks) == 2
 
 
-def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(
+def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_run(
     tmp_path, capsys, monkeypatch
 ):
     monkeypatch.setattr("report.cli.watch.SETTLE_S", 0.0)
     path, folder = tmp_path / "input.xlsx", tmp_path / "out"
     path.write_bytes(b"half")
-    round_ = Round(path, folder, SameProcess())
+    round_ = Round(path, None, SameProcess())
     try:
         assert not round_.run()
         first = capsys.readouterr().err
@@ -153,8 +153,9 @@ def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_save(
         clear()
     told = capsys.readouterr().err.splitlines()
     assert told[0] == f"{path}: 1 problem found."
-    assert told[-1] == f"{folder}: not written again; its files are of an earlier save"
-    assert "earlier save" not in first
+    assert told[-1].startswith(f"{folder / 'calc-package.pdf'} is of an earlier run, 2")
+    assert told[-1].endswith(", and not replaced")
+    assert "earlier run" not in first
 
 
 def later(seconds, action):

@@ -17,7 +17,14 @@ from contextlib import contextmanager
 import pytest
 
 from places import ROOT
-from report.results.publish import STAMP, check_apart, output_folder, publish, warn_if_mixed
+from report.results.publish import (
+    STAMP,
+    check_apart,
+    check_of_workbook,
+    output_folder,
+    publish,
+    warn_if_mixed,
+)
 from solver.files import locked
 from solver.model import InputError
 
@@ -299,3 +306,19 @@ def test_an_input_is_not_replaced_by_an_output(tmp_path, way):
     with pytest.raises(InputError, match=r"is an input of this run, and would be replaced by its"):
         check_apart(["results.xlsx"], folder, [path])
     check_apart(["results.xlsx"], tmp_path, [path])
+
+
+@pytest.mark.parametrize(
+    "content", [None, b"", b"[1]", b'{"workbook": "a.xlsx"}', b'{"workbook": {"name": 1}}']
+)
+def test_results_that_name_no_workbook_are_of_none(tmp_path, content):
+    if content is not None:
+        (tmp_path / "results.json").write_bytes(content)
+    check_of_workbook(tmp_path, "results.json", "b.xlsx")
+
+
+def test_results_of_another_workbook_are_not_replaced(tmp_path):
+    (tmp_path / "results.json").write_bytes(b'{"workbook": {"name": "a.xlsx"}}')
+    check_of_workbook(tmp_path, "results.json", "a.xlsx")
+    with pytest.raises(InputError, match=r"the results of a\.xlsx, not of b\.xlsx; .* --out, or"):
+        check_of_workbook(tmp_path, "results.json", "b.xlsx")

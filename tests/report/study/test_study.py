@@ -6,6 +6,7 @@ import io
 import json
 import math
 import re
+import shutil
 import sys
 from statistics import NormalDist
 from types import SimpleNamespace
@@ -587,6 +588,18 @@ def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
     done = command(folder)
     assert done.exit_code == 2
     assert "is a file, not a folder, and is not written to" in done.output
+
+
+def test_a_study_does_not_replace_the_results_of_another_workbook(made, tmp_path):
+    out = shutil.copytree(made[0] / "out", tmp_path / "out")
+    book = (write(tmp_path, small()) / "input.xlsx").rename(tmp_path / "b.xlsx")
+    done = command(book)
+    assert done.exit_code == 2
+    told = done.output.splitlines()
+    assert told[1].startswith(f"  {out / 'study'}: has the results of input.xlsx, not of b.xlsx;")
+    assert told[2].startswith(f"{out / 'study' / 'study.pdf'} and ")
+    study, before = (folder / "study.xlsx" for folder in (out / "study", made[0] / "out" / "study"))
+    assert study.read_bytes() == before.read_bytes()
 
 
 def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
