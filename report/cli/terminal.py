@@ -194,7 +194,7 @@ def say_next(project: Path, has_formulas: bool) -> None:
     """Say what comes after cells of a workbook were filled in."""
     click.echo(f"Next: {command('check', project)}")
     if has_formulas:
-        click.echo("Formulas keep their former values until Excel or LibreOffice saves it.")
+        click.echo("Formulas that refer to it have no value until Excel or LibreOffice saves it.")
 
 
 def system_problem(error: OSError) -> Problem:

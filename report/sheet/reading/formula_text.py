@@ -17,6 +17,7 @@ _BETWEEN = re.compile(r"\]\s*,\s*\[")
 _CELL = re.compile(r"(\$?[A-Z]{1,3}\$?)(\d+)")
 _SHEET = re.compile(r"(?<!')'((?:[^']|'')++)'!")
 _NEWER = "_xlfn."
+_COMPUTED = re.compile(r":|\b(?:INDIRECT|OFFSET)\b", re.IGNORECASE)
 
 
 def canonical(formula: str) -> str:
@@ -45,6 +46,15 @@ def moved(formula: str, rows: int) -> str:
             matches = [(cell, _CELL.fullmatch(cell)) for cell in token.value.split(":")]
             token.value = ":".join(f"{m[1]}{int(m[2]) + rows}" if m else c for c, m in matches)
     return "=" + "".join(token.value for token in tokens)
+
+
+def references(formula: str) -> Sequence[str]:
+    """Return the cells and names that a formula refers to; one is empty where it computes some."""
+    tokens = _tokens(formula)
+    others = "".join(token.value for token in tokens if token.type != Token.OPERAND)
+    if not tokens or _COMPUTED.search(others):
+        return [""]
+    return [token.value for token in tokens if token.subtype == Token.RANGE]
 
 
 def _written(token: Token) -> str:

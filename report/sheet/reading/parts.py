@@ -10,7 +10,7 @@ import io
 import posixpath
 import re
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from xml.parsers import expat
 from xml.sax.saxutils import escape, unescape
@@ -37,6 +37,7 @@ _Cells = Mapping[tuple[int, int], Value]  # by row and column
 _Edit = tuple[int, int, bytes]  # start, end and new bytes
 
 _CALC_CHAIN = "xl/calcChain.xml"
+_VALUE = re.compile(rb"<(?:\w+:)?v\b[^>]*>[^<]+</(?:\w+:)?v>")
 _SPANS = re.compile(rb'\sspans="[^"]*"')
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 
@@ -83,19 +84,23 @@ class _Sheet:
         return next(styles, "")
 
 
-def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:
+def changed(
+    data: bytes, changes: Mapping[CellPosition, Value], stale: Set[CellPosition] = frozenset()
+) -> bytes:
     """Return a workbook with other contents of some cells; formulas are computed when it is opened.
 
     Parameters
     ----------
     changes : mapping of CellPosition to value
         None leaves a cell blank. Each keeps its format.
+    stale : set of CellPosition, optional
+        Formulas that lose their values: LibreOffice would keep them.
     """
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         parts = dict(sheet_parts(archive))
         new: dict[str, bytes] = {}
         had_formula = False
-        for title in dict.fromkeys(position.sheet for position in changes):
+        for title in dict.fromkeys(position.sheet for position in (*changes, *stale)):
             if title not in parts:
                 raise InputError(f"{title}: the sheet is missing")
             cells = {(p.row, p.column): v for p, v in changes.items() if p.sheet == title}
@@ -103,7 +108,8 @@ def changed(data: bytes, changes: Mapping[CellPosition, Value]) -> bytes:
             sheet = _scanned(title, before)
             had_formula |= any(at in sheet.formulas for at in cells)
             had_formula |= any(isinstance(value, Formula) for value in cells.values())
-            new[parts[title]] = _spliced(title, before, sheet, cells)
+            values = [sheet.cells[at.row][at.column] for at in stale if at.sheet == title]
+            new[parts[title]] = _spliced(title, before, sheet, cells, values)
             new |= _longer_tables(archive, parts[title], cells)
         new["xl/workbook.xml"] = _computed_when_opened(archive.read("xl/workbook.xml"))
         left_out = _without_chain(archive, new) if had_formula else frozenset()
@@ -192,14 +198,20 @@ def _tag_end(data: bytes, start: int) -> int:
     return match.end() if match else start
 
 
-def _spliced(title: str, data: bytes, sheet: _Sheet, cells: _Cells) -> bytes:
-    """Return the bytes of a sheet with other contents of cells."""
+def _spliced(
+    title: str, data: bytes, sheet: _Sheet, cells: _Cells, stale: Sequence[_Element]
+) -> bytes:
+    """Return the bytes of a sheet with other contents of cells, and stale ones without values."""
     for row, column in cells:
         if _is_needed_elsewhere(sheet, row, column, cells):
             cell = f"{title}!{get_column_letter(column)}{row}"
             raise InputError(f"{cell}: shares its formula with other cells; clear it first")
     out, at = [], 0
     edits = [*_shown(data, sheet, cells), *_edits(data, sheet, cells)]
+    for lost in stale:
+        if value := _VALUE.search(data, lost.opened, lost.end):
+            tag = re.sub(rb'\st="\w+"', b"", data[lost.start : lost.opened])
+            edits += [(lost.start, lost.opened, tag), (*value.span(), b"")]
     for start, end, content in sorted(edits, key=lambda edit: edit[:2]):
         out += [data[at:start], content]
         at = end

@@ -6,14 +6,18 @@ Read `changing`.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import starmap
 from pathlib import Path
 
+from openpyxl.utils import coordinate_to_tuple
+
 from report.sheet.reading.archive import OpenBook, book_of, located, open_book
+from report.sheet.reading.formula_text import references
 from report.sheet.reading.parts import Formula, Value, changed
-from report.sheet.reading.positions import CellPosition
+from report.sheet.reading.positions import CellPosition, bounds_of
 from report.sheet.writing.live import BROKEN, live_formulas
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
@@ -74,15 +78,48 @@ def changing(source: Path) -> Iterator[WorkbookChange]:
 def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
     """Return a workbook with other contents of cells; those of `changed` may be refused.
 
-    Rows that a table has grown by are given their formulas.
+    Rows that a table has grown by are given their formulas; those that may refer to the cells lose
+    their values.
     """
     if not cells:
         return book
     before = live_formulas(book)
-    book = book_of(book.path, changed(book.data, cells))
+    book = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
     after = live_formulas(book)
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
     grown = {at: Formula(after[at]) for at in after.keys() - before.keys()}
     # An earlier workbook lacks columns that the formulas of today refer to.
     whole = {at: formula for at, formula in grown.items() if BROKEN not in formula}
     return book_of(book.path, changed(book.data, whole)) if whole else book
+
+
+def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
+    """Return the formulas that may refer to cells, also by other formulas."""
+    areas = {
+        CellPosition(title, *coordinate_to_tuple(cell)): [
+            _area(reference, title) for reference in references(scan.formula(cell))
+        ]
+        for title, scan in book.scans.items()
+        for cell in scan.formulas
+    }
+    titles, found = {title.casefold() for title in book.scans}, set(cells)
+
+    def may_refer(title: str, bounds: tuple[int, int, int, int] | None) -> bool:
+        if bounds is None or title not in titles:  # a name, a column of a table, other files
+            return True
+        left, top, right, bottom = bounds
+        return any(
+            title == at.sheet.casefold() and left <= at.column <= right and top <= at.row <= bottom
+            for at in found
+        )
+
+    while more := {at for at in areas if at not in found and any(starmap(may_refer, areas[at]))}:
+        found |= more
+    return found - cells
+
+
+def _area(reference: str, title: str) -> tuple[str, tuple[int, int, int, int] | None]:
+    """Return the sheet of a reference, if its own is another, and its bounds where it has any."""
+    given, _, cells = reference.rpartition("!")
+    named = given.removeprefix("'").removesuffix("'").replace("''", "'")
+    return (named or title).casefold(), bounds_of(cells)

@@ -109,7 +109,7 @@ def test_formulas_and_all_other_parts_stay(tmp_path):
     weight = "Arrays/A1/Weight"
     before = parts(type_into(path, {weight: "=40000+2000"}))
     output = run(drawing(tmp_path), tmp_path, "--replace")
-    assert "Formulas keep their former values until Excel or LibreOffice saves it." in output
+    assert "Formulas that refer to it have no value until Excel or LibreOffice saves it." in output
     after = parts(path)
     assert before.keys() == after.keys()
     different = {name for name in before if before[name] != after[name]}

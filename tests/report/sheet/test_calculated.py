@@ -1,10 +1,15 @@
 """A workbook that was saved before its formulas were calculated is a warning."""
 
 import re
+from xml.sax.saxutils import unescape
 
 import pytest
 
+import commands
 from cells import address
+from report.sheet.reading.archive import open_book
+from report.sheet.reading.positions import CellPosition
+from report.sheet.writing.filled import filled
 from sheets import edit, formula_cells, make, pack, parts, saved_by_libreoffice, told
 
 
@@ -24,6 +29,7 @@ def typed(path):
     return [address(path, f"Arrays/{array}/Friction coefficient") for array in ("A1", "A2")]
 
 
+CALCULATE = "calculate it (F9; in LibreOffice Ctrl+Shift+F9) and save it"
 MANUAL = b'calcId="191029" calcMode="manual" calcCompleted="0"'
 
 
@@ -34,7 +40,7 @@ def test_formulas_that_manual_calculation_left_are_named(saved):
             "calculation",
             first,
             "the workbook was saved before its formulas were calculated (calculation is manual),"
-            f" and {first}, {second} may show former values: calculate it (F9) and save it",
+            f" and {first}, {second} may show former values: {CALCULATE}",
         )
     ]
 
@@ -67,7 +73,7 @@ def test_computed_cells_alone_are_a_warning_in_manual_mode_and_none_in_a_fresh_w
             "calculation",
             "Project",
             "the workbook was saved before its formulas were calculated (calculation is manual),"
-            " and its computed cells may show former values: calculate it (F9) and save it",
+            f" and its computed cells may show former values: {CALCULATE}",
         )
     ]
 
@@ -82,6 +88,63 @@ def test_a_workbook_without_formulas_has_none_that_was_not_calculated(tmp_path):
             cell.value = None
 
     assert told(saying(edit(make(tmp_path), without), MANUAL)) == []
+
+
+FIRST, SECOND = CellPosition("Arrays", 8, 5), CellPosition("Arrays", 9, 5)
+
+
+def valued(path, formulas, at, value):
+    """The values of cells, once a command has written another, in a workbook with such formulas."""
+    files = parts(path)
+    for name in files:
+        for cell, formula in formulas.items():
+            old = rb'(<c r="%b"[^>]*><f[^>]*>)(?:0.4\+0.05|E8)(?=<)' % cell.cell.encode()
+            files[name] = re.sub(old, rb"\g<1>%b" % formula.encode(), files[name])
+    book = filled(open_book(pack(path, files)), {at: value})
+    path.write_bytes(book.data)
+    assert [book.formula("Arrays", cell.cell) for cell in formulas] == [
+        f"={unescape(formula)}" for formula in formulas.values()
+    ]
+    return [book.book["Arrays"][cell.cell].value for cell in formulas]
+
+
+@pytest.mark.parametrize(
+    ("formula", "is_kept"),
+    [
+        ("E8", False),
+        ("SUM($E$7:$E$8)", False),
+        ("'Arrays'!E8+0", False),
+        ("arrays!E8", False),
+        ("SUM(E:E)", False),
+        ('INDIRECT("E"&amp;8)', False),
+        ("OFFSET(E7,1,0)", False),
+        ("SUM(E7:INDEX(C7:C9,2))", False),
+        ("a_name", False),
+        ("SUM(arrays_table[Slope])", False),
+        ("SUM(Arrays:Site!E8)", False),
+        ("0.4+0.05", True),
+        ("C8+D9*0", True),
+        ("Site!E8+0.45", True),
+        ("SUM(E80:E88)+0.45", True),
+    ],
+)
+def test_a_command_takes_the_value_of_a_formula_that_may_refer_to_what_it_wrote(
+    saved, formula, is_kept
+):
+    kept = 0.45 if is_kept else None
+    assert valued(saved, {SECOND: formula}, FIRST, 0.5) == [kept]
+
+
+def test_a_formula_of_a_formula_loses_its_value_and_check_and_report_refuse_alike(saved):
+    assert valued(saved, {FIRST: "C8*0.9", SECOND: "E8"}, CellPosition("Arrays", 8, 3), 0.6) == [
+        None,
+        None,
+    ]
+    check, report = (commands.refused(name, saved) for name in ("check", "report"))
+    assert check == report
+    for cell, formula in ((FIRST, "C8*0.9"), (SECOND, "E8")):
+        assert f"{cell.address}: friction coefficient is a formula with no saved value" in check
+        assert f"(={formula}); open the workbook in Excel or LibreOffice and save it" in check
 
 
 LINK = (
