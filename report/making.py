@@ -7,6 +7,7 @@ what it can meanwhile. Read `make`.
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
@@ -138,8 +139,12 @@ def prepare(request: Request) -> Prepared:
     from report.assessment.cost import cost
     from report.motions.prepare import prepare
     from report.provenance.files import sources
+    from report.results.sources import other_sources
+    from report.sheet.checking.findings import lines
 
     shaking = prepare(request.sheet)
+    for line in lines(other_sources(request.sheet), request.sheet.addresses):
+        warnings.warn(f"{line.cells}: {line.finding.text}", stacklevel=2)
     return Prepared(
         shaking=shaking,
         sources=sources(request.sheet, shaking, request.since),

@@ -44,8 +44,9 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
     """Check the input, and print what is known without a run; write nothing without --repair.
 
     An error stops the work. A warning may be intended: give its name, printed in brackets, and a
-    reason on the sheet Acknowledged. A warning without a name is a limit that is not satisfied, or
-    a formula of the sheet that was typed over. A note needs no answer.
+    reason on the sheet Acknowledged. A warning without a name is a limit that is not satisfied, a
+    formula of the sheet that was typed over, or a source other than that in suite.json. A note
+    needs no answer.
     """
     restored: list[str] = []
     with (
@@ -78,6 +79,7 @@ def checked(
     """
     from report.assessment.precheck import findings, limits_before_runs, missing_clearances
     from report.motions.prepare import prepare
+    from report.results.sources import other_sources
     from report.sheet.checking.findings import in_order
     from report.sheet.reading.read import read
     from report.sheet.writing.legacy_notes import what_is_new
@@ -101,6 +103,7 @@ def checked(
                 *typed_over,
                 *limits_before_runs(sheet.project, shaking),
                 *missing_clearances(sheet),
+                *other_sources(sheet),
                 *findings(sheet, shaking),
                 *_in_future(sheet, dt.date.today()),
             ]

@@ -166,6 +166,7 @@ def suite(
     with input_errors(into or folder), Progress(count + 2) as progress:
         from report.results.motions import add_suite, suite_rows
         from report.results.publish import output_folder, publish
+        from report.results.sources import said_near
         from report.sheet.reading.read import read
         from report.suite.files import generate, suite_table
         from report.suite.inputs import check_folder, read_seeds
@@ -188,9 +189,16 @@ def suite(
         click.echo(line)
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
     if sheet:
-        click.echo(f"{sheet.path}: {numbered(count, 'row')} added to the sheet Motions.")
+        renewed = len(
+            {row["id"] for row in rows} & {row.get("id") for row in sheet.draft["motions"]}
+        )
+        also = f", {renewed} renewed" if renewed else ""
+        added = f"{numbered(count - renewed, 'row')} added to the sheet Motions{also}"
+        click.echo(f"{sheet.path}: {added}.")
         say_next(sheet.path, has_formulas)
         return
+    for line in said_near(folder):
+        click.echo(plain(f"warning: {line}"), err=True)
     click.echo("Next: copy the records into records/ of a project, list them on its sheet Motions,")
     click.echo(f"then run: {called()} check DIR")
 

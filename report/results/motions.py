@@ -11,8 +11,9 @@ from pathlib import Path
 from report.motions.files import BAR
 from report.motions.sets import Sets
 from report.results.publish import STAMP, stamp
-from report.sheet.checking.motion_checks import LABELS
+from report.sheet.checking.motion_checks import GENERATED, LABELS
 from report.sheet.reading.archive import OpenBook
+from report.sheet.reading.cells import Found
 from report.sheet.reading.growing import GrowingTable
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition
@@ -27,20 +28,35 @@ Row = Mapping[str, Value]
 def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Value]:
     """Return the cells of a workbook that further motions fill; rows that stand are kept.
 
+    Of a row that has the same generated records the source is renewed.
+
     Raises
     ------
     InputError
         With each cell that has one of their IDs already, or if they have no room.
     """
     table = GrowingTable.of(book, "motions")
-    ids = [table.cell(number, "id") for row in rows for number in table.rows("id", str(row["id"]))]
+    cells: dict[CellPosition, Value] = {}
+    ids: list[Found] = []
+    for row in rows:
+        there = table.rows("id", str(row["id"]))
+        if any(not _is_former(table, number, row) for number in there):
+            ids += [table.cell(number, "id") for number in there]
+        elif there:
+            cells |= table.cells(there[0], {"source": row["source"]})
+        else:
+            cells |= table.cells(table.added(), row)
     if ids:
         wanted = "remove the row, or leave the motion out"
         raise InputError([Problem(f"has '{c.shown}' already", wanted, c.address) for c in ids])
-    cells: dict[CellPosition, Value] = {}
-    for row in rows:
-        cells |= table.cells(table.added(), row)
     return cells
+
+
+def _is_former(table: GrowingTable, number: int, row: Row) -> bool:
+    """Whether a row of a table is that of the same motion of a suite that was made before."""
+    sources = table.cell(number, "source").shown, str(row["source"])
+    records = all(table.cell(number, name).shown == row[name] for name in LABELS)
+    return records and all(source.startswith(GENERATED) for source in sources)
 
 
 def name_beside(book: OpenBook, path: Path) -> str:

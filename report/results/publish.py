@@ -57,10 +57,10 @@ def stamp(files: Mapping[str, bytes]) -> bytes:
 
 def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
     """Warn of files in a folder that do not agree with its stamp."""
-    lines = _content(folder / STAMP).decode(errors="replace").splitlines()
+    lines = content(folder / STAMP).decode(errors="replace").splitlines()
     listed = {found[2]: found[1] for line in lines if (found := _LINE.fullmatch(line))}
     there = [name for name in names if os.path.lexists(folder / name)]
-    if mixed := [name for name in there if _sha256(_content(folder / name)) != listed.get(name)]:
+    if mixed := [name for name in there if _sha256(content(folder / name)) != listed.get(name)]:
         warnings.warn(
             f"{folder}: not as {STAMP} says: {', '.join(mixed)}; a run was cut off, or files were"
             " changed since",
@@ -68,7 +68,7 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
         )
 
 
-def _content(path: Path) -> bytes:
+def content(path: Path) -> bytes:
     """Return the content of a file; nothing of what is no file or too large."""
     with suppress(OSError):
         found = path.lstat()
@@ -107,7 +107,7 @@ def check_of_workbook(folder: Path, results: str, workbook: str) -> None:
     InputError
     """
     try:
-        there = from_json(_content(folder / results))["workbook"]["name"]
+        there = from_json(content(folder / results))["workbook"]["name"]
     except (ValueError, KeyError, TypeError):  # no results, or not as this version writes them
         return
     if isinstance(there, str) and there != workbook:

@@ -140,6 +140,7 @@ def _document(
     return {
         "roofslip_version": version("roofslip"),
         "seed": seed,
+        "source": targets.source(seed),
         "seed_records": [{"file": name, "sha256": digest} for name, digest in records.items()],
         "dt_s": record.dt_s,
         "duration_s": duration_s,

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from report.motions.sets import VERTICAL
+from report.sheet.checking.motion_checks import GENERATED
 from report.suite.target_table import TargetTable
 from solver.formats import MotionFile, read_motion_file
 from solver.model import InputError
@@ -46,7 +47,7 @@ class SuiteTargets:
     def source(self, seed: int) -> str:
         """Return what the sheet Motions says of motions with these targets."""
         basis = self.lines[0].removeprefix("target: ").partition(": ")[0]
-        return f"Generated, seed {seed}; {basis}"
+        return f"{GENERATED}{seed}; {basis}"
 
     def of(self, component: str) -> Target:
         """Return the target of x, y or z."""

@@ -21,6 +21,9 @@ LABELS = {"record": "horizontal", "transverse": "transverse", "vertical": "verti
 FIELDS = {label: field for field, label in LABELS.items()}
 """The same by component."""
 
+GENERATED = "Generated, seed "
+"""Begins the source of a motion that was generated."""
+
 SHORTEST_S = 1.0
 """Duration [s] below which a motion is refused: no earthquake record is as short."""
 

@@ -1,13 +1,18 @@
 """A suite in a workbook: what its target takes from which cells, its rows, and all or nothing."""
 
 import json
+import warnings
 
 import pytest
+from openpyxl import load_workbook
 
 import commands
 import report.suite.files
 import waves
+from cells import address, cell
+from packages import unlaid
 from report.results.publish import STAMP
+from report.results.sources import other_sources
 from report.sheet.reading.read import read
 from report.suite.inputs import ac156_targets
 from report.suite.site import site_targets
@@ -117,11 +122,77 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
     )
     assert (tmp_path / "records" / "made" / STAMP).is_file()
     assert path.stat().st_mode & 0o777 == 0o640
-    # The second time everything is refused, before any motion is made.
-    after = path.read_bytes()
-    refused = commands.refused(*suite(tmp_path / "records" / "made", "--into", path))
-    assert refused.count("already; remove the row, or leave the motion out") == 1
-    assert path.read_bytes() == after
+
+
+MADE = "Motions/motion-01/Source"
+
+
+def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, quick):
+    path, made = make(tmp_path), tmp_path / "records" / "made"
+    commands.printed(*suite(made, "--into", path))
+    type_into(path, {"Motions/motion-01/Polarity": "as recorded"})
+    told = commands.printed(*suite(made, "--into", path, "--seed", 2), "--count", 2)
+    assert f"{path}: 1 row added to the sheet Motions, 1 renewed." in told
+    *_, first, second = read(path).project.motions
+    assert (first.id, first.polarity, second.id) == ("motion-01", "as recorded", "motion-02")
+    assert first.source == second.source
+    assert first.source.startswith("Generated, seed 2; AC156 with ")
+    for typed in ({MADE: "by hand"}, {"Motions/motion-01/Vertical record": "records/z.csv"}):
+        before = type_into(path, typed).read_bytes()
+        refused = commands.refused(*suite(made, "--into", path), "--count", 2)
+        assert refused.count("already; remove the row, or leave the motion out") == 1
+        assert path.read_bytes() == before
+
+
+def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former(tmp_path, quick):
+    path, made = make(tmp_path), tmp_path / "records" / "made"
+    commands.printed(*suite(made, "--into", path))
+    source = cell(load_workbook(path), MADE).value
+    anew = (*suite(made), "--sds", 1.5, "--code", "pv1")
+    told = commands.run(*anew).stderr
+    said = "Generated, seed 1; AC156 with SEAOC PV1-2012, S_DS 1.5 g, z/h 1"
+    line = (
+        f"warning: {{}}{address(path, MADE)}: source is '{source}', and suite.json beside the"
+        f" records says '{said}'; renew it by motion suite with --into, or correct it\n"
+    )
+    assert told.endswith(line.format(f"{path}: "))
+    # What `check` prints, `report` warns of; the package has no suite.json inside.
+    assert line.format("") in commands.printed("check", path)
+    with unlaid(), warnings.catch_warnings():
+        warnings.simplefilter("always")
+        assert line.format("") in commands.run("report", path).stderr
+    commands.printed(*anew, "--into", path)
+    assert "suite.json" not in commands.printed("check", path)
+    assert "suite.json" not in commands.run(*anew).stderr
+
+
+@pytest.mark.parametrize(
+    ("source", "is_other"),
+    [
+        ("Generated, seed 1; another code", True),
+        ("AC156, S_DS = 1.2 g", True),
+        ("seed 7", True),
+        ("AC156 at z/h 0.50", True),
+        ("AC156 at S_DS 1.566 g", False),
+        ("by the testing laboratory, 2025", False),
+        (None, False),
+    ],
+)
+def test_a_source_that_a_person_typed_is_another_by_its_numbers(tmp_path, quick, source, is_other):
+    path = make(tmp_path)
+    commands.printed(*suite(tmp_path / "made", "--into", path), "--sds", 1.566, "--code", "pv1")
+    found = list(other_sources(read(type_into(path, {MADE: source}))))
+    assert bool(found) == is_other
+
+
+@pytest.mark.parametrize("content", [b"", b"[]", b'{"motions": 1}', b'{"motions": []}'])
+def test_a_suite_json_that_is_of_other_records_or_damaged_says_nothing(tmp_path, quick, content):
+    path, made = make(tmp_path), tmp_path / "made"
+    commands.printed(*suite(made, "--into", path))
+    type_into(path, {MADE: "seed 7"})
+    assert list(other_sources(read(path)))
+    (made / "suite.json").write_bytes(content)
+    assert not list(other_sources(read(path)))
 
 
 @pytest.mark.parametrize("place", ["../other", "link", "a!b", "a|b"])
