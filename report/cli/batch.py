@@ -37,6 +37,7 @@ from report.cli.terminal import (
     say_former,
     show_warnings,
     system_problem,
+    warn_of_others,
     workbook_of,
 )
 from report.words.counts import numbered
@@ -195,6 +196,7 @@ def package(source: Path, is_shared: bool = False) -> BatchOutcome:
             out = output_folder(None, workbook.parent, f"out/{workbook.stem}")
         with no_collections(), SameProcess() as worker:
             assessment, folder, _, _ = make(source, out, None, lambda _: None, worker)
+        warn_of_others(folder / "calc-package.pdf")
         done = BatchOutcome(
             source=source,
             verdict=assessment.verdict.value,

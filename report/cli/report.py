@@ -28,6 +28,7 @@ from report.cli.terminal import (
     plain,
     print_json,
     say,
+    warn_of_others,
 )
 from report.words.command import command
 
@@ -116,6 +117,7 @@ def report(
         started_worker() as worker,
     ):
         made = make(source, out, since, progress, worker)
+    warn_of_others(made[1] / "calc-package.pdf")
     if as_json:
         print_json(_document(*made))
     elif not quiet:

@@ -157,6 +157,14 @@ def outputs_of(source: Path, out: Path | None) -> tuple[Path, ...]:
     return tuple(folder / name for name in OUTPUTS)
 
 
+def warn_of_others(new: Path) -> None:
+    """Warn of packages beside a new one that are of another input."""
+    if others := sorted(path for path in new.parent.glob("*.pdf") if path.name != new.name):
+        from report.proof.package import warn_of_other_input  # takes most of a second
+
+        warn_of_other_input(new, others)
+
+
 def say_former(outputs: Sequence[Path]) -> None:
     """Say which outputs are there from an earlier run, after one that has not replaced them."""
     there = [path for path in outputs if path.is_file()]

@@ -34,6 +34,7 @@ from report.cli.terminal import (
     say_former,
     say_problems,
     system_problem,
+    warn_of_others,
     workbook_of,
 )
 
@@ -110,6 +111,7 @@ class Round:
             say_problems(self._workbook, problems)
             say_former(outputs_of(self._workbook, self._out))
             return False
+        warn_of_others(self.folder / "calc-package.pdf")
         self._before = former_from(files["results.json"], self.folder / "results.json")
         click.echo(f"{self.folder}: written in {time.monotonic() - started:.1f} s")
         return True

@@ -9,7 +9,9 @@ from __future__ import annotations
 import hashlib
 import io
 import re
+import warnings
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, TypeVar
@@ -30,6 +32,7 @@ _END = re.compile(rb"startxref\s+(\d{1,12})\s+%%EOF[\r\n]*")
 # which compression may store as it is, points to a place within that PDF.
 _XREF = re.compile(rb"xref\s|\d{1,10} \d{1,10} obj\b")
 _LONGEST_NAME = 255
+_MOST_OTHERS = 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,6 +95,22 @@ def open_package(path: Path) -> ReadPackage:
         parsed(files[name], name)
     manifest = _manifest(files[MANIFEST])
     return ReadPackage(path=path, data=data, first=first, manifest=manifest, files=files, pdf=pdf)
+
+
+def warn_of_other_input(new: Path, others: Sequence[Path]) -> None:
+    """Warn of packages that were written from another input than a new one, such as signed ones."""
+    for path in others[:_MOST_OTHERS]:
+        with suppress(InputError, OSError, KeyError, TypeError):  # no package, or a damaged one
+            package = open_package(path)
+            if _inputs(package) != _inputs(open_package(new)):
+                revision = package.results["input"]["project"]["revision"]
+                sign = "; sign the new package" if package.data != package.first else ""
+                what = f"of revision {revision!s:.40}, another input: {package.results['verdict']}"
+                warnings.warn(f"{path}: is {what}{sign}", stacklevel=2)
+
+
+def _inputs(package: ReadPackage) -> set[tuple[str, str]]:
+    return {(file.path, file.sha256) for file in package.manifest.files if file.kind != "results"}
 
 
 def reader(data: bytes) -> PdfReader:

@@ -5,6 +5,7 @@ import io
 import json
 import sys
 import threading
+import warnings
 from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, HTTPServer
 
@@ -26,6 +27,7 @@ from pyhanko_certvalidator import ValidationContext
 import packages
 import tampering
 from report.cli.main import main
+from report.cli.terminal import warn_of_others
 from report.proof import signatures
 from report.proof.package import ReadPackage, reader
 from report.proof.sign import signed as signed_by
@@ -335,3 +337,38 @@ def test_the_package_is_not_overwritten_by_the_one_that_is_signed(tmp_path):
 def test_a_file_that_is_no_certificate_is_an_input_error():
     with pytest.raises(InputError, match="not PKCS#12, or another password"):
         signed_by(b"", b"no certificate", PASSWORD)
+
+
+def test_a_signed_package_beside_a_new_one_is_named_where_it_is_of_another_input(
+    sign, job, tmp_path
+):
+    data = (job / "out" / "calc-package.pdf").read_bytes()
+    results = json.loads((job / "out" / "results.json").read_bytes())
+
+    def later(pdf):
+        tampering.set_file(pdf, "input.xlsx", tampering.file_of(pdf, "input.xlsx") + b" ")
+        tampering.relisted(pdf)
+
+    _, content = sign(content=data)
+    new = tmp_path / "calc-package.pdf"
+    for name, held in (
+        ("calc-package-signed.pdf", content),
+        ("copy.pdf", data),
+        ("cut.pdf", content[: len(content) // 2]),
+        ("letter.pdf", b"%PDF-1.7 of another program"),
+    ):
+        (tmp_path / name).write_bytes(held)
+    (tmp_path / "folder.pdf").mkdir()
+    new.write_bytes(data)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warn_of_others(new)
+    new.write_bytes(tampering.rewritten(data, later))
+    with pytest.warns(UserWarning, match="another input") as told:
+        warn_of_others(new)
+    revision, verdict = results["input"]["project"]["revision"], results["verdict"]
+    said = f"is of revision {revision}, another input: {verdict}"
+    assert [str(one.message) for one in told] == [
+        f"{tmp_path / 'calc-package-signed.pdf'}: {said}; sign the new package",
+        f"{tmp_path / 'copy.pdf'}: {said}",
+    ]
