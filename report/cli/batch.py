@@ -154,7 +154,7 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
     # A link stays one: the package lies beside it.
     places = [book.parent.resolve() / book.name for book in books]
     distinct = dict(zip(places, sources, strict=True))
-    homes = Counter(workbook.parent for workbook in distinct if workbook.is_file())
+    homes = Counter(workbook.parent for workbook in distinct if os.path.isfile(workbook))
     shared = {source for workbook, source in distinct.items() if homes[workbook.parent] > 1}
     count = min(len(distinct), os.cpu_count() or 1)
     waiting, outcomes = [*distinct.values()][::-1], dict[Path, BatchOutcome]()

@@ -146,7 +146,8 @@ def _refuse(
 
 def workbook_of(source: Path) -> Path:
     """Return the workbook that a command is given, by itself or by its folder."""
-    return source / "input.xlsx" if source.is_dir() else source
+    # Unlike `Path.is_dir`, it raises nothing where a name is too long.
+    return source / "input.xlsx" if os.path.isdir(source) else source
 
 
 def outputs_of(source: Path, out: Path | None) -> tuple[Path, ...]:
@@ -167,7 +168,7 @@ def warn_of_others(new: Path) -> None:
 
 def say_former(outputs: Sequence[Path]) -> None:
     """Say which outputs are there from an earlier run, after one that has not replaced them."""
-    there = [path for path in outputs if path.is_file()]
+    there = [path for path in outputs if os.path.isfile(path)]
     if there:
         last = dt.datetime.fromtimestamp(max(path.stat().st_mtime for path in there))
         which = f" and {len(there) - 1} more are" if len(there) > 1 else " is"

@@ -17,7 +17,7 @@ _BETWEEN = re.compile(r"\]\s*,\s*\[")
 _CELL = re.compile(r"(\$?[A-Z]{1,3}\$?)(\d+)")
 _SHEET = re.compile(r"(?<!')'((?:[^']|'')++)'!")
 _NEWER = "_xlfn."
-_COMPUTED = re.compile(r":|\b(?:INDIRECT|OFFSET)\b", re.IGNORECASE)
+_COMPUTED = re.compile(r":|\b(?:INDIRECT|OFFSET|TABLE)\b", re.IGNORECASE)
 
 
 def canonical(formula: str) -> str:

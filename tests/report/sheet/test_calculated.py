@@ -118,6 +118,7 @@ def valued(path, formulas, at, value):
         ("SUM(E:E)", False),
         ('INDIRECT("E"&amp;8)', False),
         ("OFFSET(E7,1,0)", False),
+        ("TABLE()", False),
         ("SUM(E7:INDEX(C7:C9,2))", False),
         ("a_name", False),
         ("SUM(arrays_table[Slope])", False),
