@@ -52,10 +52,12 @@ def make(
     progress: Callable[[Step], None],
     worker: Executor,
     on_assessment: Callable[[Assessment], None] = lambda _: None,
+    on_record: Callable[[str], None] | None = None,
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
     """Read a workbook, run its motions, and write the package and the tables.
 
-    `on_assessment` is given the assessment before the package is made, which takes longer.
+    `on_assessment` is given the assessment before the package is made, which takes longer. With
+    `on_record`, the workbook gets what its confirmations cover, and `on_record` a line on that.
     """
     worker.submit(load)  # before the imports below, so that both processes import at once
     from report.assessment.project import assess
@@ -64,6 +66,9 @@ def make(
     progress(Step("reading the workbook"))
     request = read(source, out, since)
     prepared = prepare(request)
+    if on_record and _record(request.sheet, prepared.shaking, on_record):
+        request = read(source, out, since)
+        prepared = prepare(request)
     progress(Step("running the motions", prepared.cost, "the first run compiles the solver"))
     assessment = assess(request.sheet, prepared.shaking)
     on_assessment(assessment)
@@ -150,6 +155,31 @@ def prepare(request: Request) -> Prepared:
         sources=sources(request.sheet, shaking, request.since),
         cost=cost(request.sheet.project, shaking),
     )
+
+
+def _record(sheet: Sheet, shaking: Shaking, tell: Callable[[str], None]) -> bool:
+    """Fill in what confirmations cover beside their dates; return whether the workbook changed."""
+    from report.sheet.checking.covered import to_record
+    from report.sheet.reading.what_if import cells
+    from report.sheet.writing.filled import changing
+    from solver.model import InputError
+
+    found = to_record(sheet.project, shaking.hashes).items()
+    # Earlier workbooks do not have the cells.
+    new = cells(sheet, {place: text for place, text in found if place in sheet.addresses})
+    if not new:
+        return False
+    where = f"{sheet.path}: {', '.join(position.address for position in new)}"
+    try:
+        with changing(sheet.path, keeps_copy=False) as change:
+            if change.book.sha256 != sheet.sha256 or not os.access(sheet.path, os.W_OK):
+                raise InputError("the workbook is read-only, or was saved meanwhile")
+            change.note(new)
+    except (InputError, OSError) as error:
+        tell(f"{where}: what was confirmed is not put on record: {error}")
+        return False
+    tell(f"{where}: what was confirmed is on record")
+    return True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -23,6 +23,10 @@ SCHOOL = run_path(str(HERE.parent / "school" / "make.py"))
 COUNT = 3
 COLUMNS, ROWS = range(5), range(3)  # of each slope, rows from the parapet to the ridge
 LONG_M, DEEP_M, LANE_M, SETBACK_M = 16.0, 7.2, 1.2, 2.4
+COVERED = (  # as `roofslip report` fills it in
+    "2026-11-16: Site 430a45, Arrays e9936d, Friction tests 5c1207, Motions c8ca63,"
+    " Building 065d3c, Options 0ad1f3"
+)
 ROOF_X, ROOF_Y = (0.0, 94.4), (0.0, 60.0)
 
 
@@ -64,7 +68,9 @@ def project() -> ProjectInput:
             ],
             "motions": school.motions[:COUNT],
             # The letter attached to the school is on the school alone.
-            "options": school.options.model_copy(update={"peer_letter": ""}),
+            "options": school.options.model_copy(
+                update={"peer_letter": "", "peer_covered": COVERED}
+            ),
         }
     )
 

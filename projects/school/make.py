@@ -89,6 +89,7 @@ def project() -> ProjectInput:
                 "roof_height_m": 8.5,
                 "hazard_source": "Example values, in place of the ASCE 7 Hazard Tool",
                 "hazard_date": dt.date(2026, 11, 2),
+                "hazard_covered": "2026-11-02: Site 53516c",
                 "force_factor": 1.0,
                 "force_divisor": 1.5,
                 "building_code": "IBC",
@@ -107,6 +108,7 @@ def project() -> ProjectInput:
                 "standard": "ASTM G115-10",
                 "report": "FT-2026-031",
                 "date": dt.date(2026, 6, 12),
+                "tests_covered": "2026-06-12: Friction tests 6aae5b",
                 "membrane": "TPO, 60 mil",
                 "support": "EPDM pad",
             },
@@ -154,6 +156,9 @@ def project() -> ProjectInput:
                 "peer_reviewer": "Reviewer of record",
                 "peer_license": "NM S0000",
                 "peer_date": dt.date(2026, 11, 16),
+                # As `roofslip report` fills it in; so the other two.
+                "peer_covered": "2026-11-16: Site 430a45, Arrays 01b03f, Friction tests 5c1207,"
+                " Motions b442a4, Building 065d3c, Options 0ad1f3",
                 "peer_letter": "peer-review.pdf",
                 "smaller_events": "0.50, 0.50",
             },

@@ -36,7 +36,7 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES, Array
-from report.words.counts import lowered
+from report.words.counts import capitalized, lowered
 from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, number, pair
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
@@ -111,27 +111,39 @@ def _roof_outline(data: ProjectInput) -> Iterator[Requirement]:
 
 
 def _dates(data: ProjectInput) -> Iterator[Requirement]:
-    """Yield what is dated later than the package, which it cannot rest on."""
+    """Yield what is dated later than the package, or was given for other inputs than these."""
     options, tests, issued = data.options, data.friction_tests, data.project.date
+    again = "Have it confirmed for these inputs, and enter the new date"
+    compare = (
+        "Compare these inputs with it, and enter its date if that is new; if they agree, clear"
+    )
     dated = (
         ("peer review", options.peer_date if options.peer_reviewed else None,
-         Place("options", 0, "peer_date")),
-        ("friction report", tests.date, Place("friction_tests", 0, "date")),
-        ("hazard", data.site.hazard_date, Place("site", 0, "hazard_date")),
+         Place("options", 0, "peer_date"), f"{again}: until then the package does not rest on it."),
+        ("friction report", tests.date, Place("friction_tests", 0, "date"),
+         f"{compare} Test report covered."),
+        ("hazard", data.site.hazard_date, Place("site", 0, "hazard_date"),
+         f"{compare} Hazard covered."),
         ("confirmation of the drawing", data.project.drawing_confirmed_date,
-         Place("project", 0, "drawing_confirmed_date")),
+         Place("project", 0, "drawing_confirmed_date"), f"{again}."),
     )  # fmt: skip
-    for what, date, place in dated:
+    for what, date, place, remedy in dated:
+        row = partial(
+            condition, id="dates", basis="plan check", is_satisfied=False, places=(place,)
+        )
         if date and date > issued:
-            yield condition(
-                id="dates",
+            yield row(
                 title=f"Date of the {what}",
                 found=str(date),
                 limit=f"not later than the package, {issued}",
-                basis="plan check",
-                is_satisfied=False,
                 remedy="Correct the date, or date the package later.",
-                places=(place,),
+            )
+        if sheets := data.outdated.get(place.section):
+            yield row(
+                title=capitalized(what),
+                found=f"{date}, given before these inputs changed: {sheets}",
+                limit="confirmation for these inputs",
+                remedy=remedy,
             )
 
 

@@ -20,6 +20,7 @@ from report.assessment.verdict import Requirement, Verdict
 from report.motions.plausible import record_findings
 from report.motions.prepare import Shaking
 from report.motions.targets import targets
+from report.sheet.checking.covered import outdated
 from report.sheet.checking.findings import acknowledged, limit, note
 from report.sheet.checking.grouped import listed
 from report.sheet.checking.plausible import implausible
@@ -111,6 +112,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
 
     What depends on a displacement, such as a clearance, is not among them.
     """
+    data = outdated(data, shaking.hashes)
     rules, us_first = rule_set_of(data), data.us_first
     for check in building_limits(data, rules):
         yield from _limit(check, "site", 0, us_first)

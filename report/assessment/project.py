@@ -50,6 +50,7 @@ from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motio
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets, targets
+from report.sheet.checking.covered import outdated
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.scene import Array
@@ -272,7 +273,7 @@ def assess(
     InputError
         For an override of a provision that the rule set does not have.
     """
-    data = project or sheet.project
+    data = outdated(project or sheet.project, shaking.hashes)
     with ThreadPoolExecutor(THREADS) as pool:
         begin = partial(begin_runs, pool, motions=shaking.motions)
         begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())

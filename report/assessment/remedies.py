@@ -239,6 +239,7 @@ def _review(given: Assessment) -> Iterator[Remedy]:
     review = {
         "peer_reviewed": True,
         "peer_date": data.project.date,
+        "peer_covered": "",
         **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be given"),
     }
     done = entered(given, changed(data, options=data.options.model_copy(update=review)))

@@ -33,6 +33,7 @@ from report.cli.terminal import (
     Progress,
     no_collections,
     outputs_of,
+    plain,
     print_json,
     say_former,
     show_warnings,
@@ -60,6 +61,8 @@ class BatchOutcome:
         Path of the PDF.
     problems : tuple of str
         Input errors.
+    lines : tuple of str
+        What was put on record in the workbook.
     internal : str
         Traceback of an internal error; empty for none.
     left : tuple of tuple of Path
@@ -71,6 +74,7 @@ class BatchOutcome:
     ratios: tuple[float, ...] = ()
     package: str = ""
     problems: tuple[Problem, ...] = ()
+    lines: tuple[str, ...] = ()
     internal: str = ""
     left: tuple[tuple[Path, ...], ...] = ()
     seconds: float = 0.0
@@ -107,6 +111,8 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
     elif not quiet:
         for line in table(outcomes):
             click.echo(colored(line))
+        for line in (line for outcome in outcomes for line in outcome.lines):
+            click.echo(plain(line))
     for outcome in outcomes:
         problems = () if as_json else (each.line for each in grouped(outcome.problems))
         for text in (*problems, *outcome.internal.splitlines()):
@@ -188,14 +194,15 @@ def package(source: Path, is_shared: bool = False) -> BatchOutcome:
     from report.workers import SameProcess
     from solver.model import InputError
 
-    started = time.monotonic()
+    started, lines = time.monotonic(), list[str]()
     workbook = workbook_of(source)
     out, left = None, (outputs_of(source, None),) if is_shared else ()
     try:
         if is_shared:
             out = output_folder(None, workbook.parent, f"out/{workbook.stem}")
         with no_collections(), SameProcess() as worker:
-            assessment, folder, _, _ = make(source, out, None, lambda _: None, worker)
+            made = make(source, out, None, lambda _: None, worker, on_record=lines.append)
+        assessment, folder, *_ = made
         warn_of_others(folder / "calc-package.pdf")
         done = BatchOutcome(
             source=source,
@@ -211,7 +218,7 @@ def package(source: Path, is_shared: bool = False) -> BatchOutcome:
         done = BatchOutcome(source=source, internal=traceback.format_exc())
     if not done.verdict:
         left = (outputs_of(source, out), *left)
-    return replace(done, left=left, seconds=time.monotonic() - started)
+    return replace(done, lines=tuple(lines), left=left, seconds=time.monotonic() - started)
 
 
 _COLUMNS = ("project", "verdict", "D/C", "time", "package")

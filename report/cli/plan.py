@@ -81,7 +81,7 @@ def read(
     from report.drawing.matched import matched
     from report.drawing.plan_read import plan_of
     from report.sheet.reading.read import read_book
-    from report.sheet.writing.filled import changing
+    from report.sheet.writing.filled import changing, withdrawn
     from report.words.units import LENGTHS
     from solver.model import InputError
 
@@ -108,6 +108,7 @@ def read(
                 f"Clearances are not added yet: {error.problems[0]}.",
                 f"Once the workbook has no errors, run: {command('plan clearances', project)}",
             ]
+        more = [*more, *withdrawn(change)]
     lines = (
         *turn,
         *(_line(place, gap_m) for place in (*found.roof, *told.plan.arrays, *told.plan.objects)),
@@ -132,10 +133,10 @@ def clearances(project: Path) -> None:
     plan, rounded down, and say so in the column Distance from: a condition of the package until
     they are confirmed. Rows whose distance is from the drawing are renewed; all others are kept.
     """
-    from report.sheet.writing.filled import changing
+    from report.sheet.writing.filled import changing, withdrawn
 
     with input_errors(project), changing(project) as change:
-        lines = _add_clearances(change)
+        lines = [*_add_clearances(change), *withdrawn(change)]
     for line in lines:
         click.echo(plain(line))
     say_next(project, change.has_formulas)

@@ -106,22 +106,29 @@ def report(
     quiet: bool,
     as_json: bool,
 ) -> None:
-    """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary."""
+    """Write calc-package.pdf, plan.dxf, results.xlsx and results.json, and print a summary.
+
+    Beside the date of each confirmation, the workbook gets what it covered, once: where these
+    inputs change later, the package has a condition.
+    """
     from report.making import STEPS, make
     from report.workers import started_worker
 
+    lines: list[str] = []
     with (
         input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
         Progress(STEPS, quiet=quiet) as progress,
         no_collections(),
         started_worker() as worker,
     ):
-        made = make(source, out, since, progress, worker)
+        made = make(source, out, since, progress, worker, on_record=lines.append)
     warn_of_others(made[1] / "calc-package.pdf")
     if as_json:
         print_json(_document(*made))
     elif not quiet:
         _print(*made)
+        for line in lines:
+            say(line)
     if fail_on_ng and made[0].verdict != "OK":
         sys.exit(NOT_OK)
 

@@ -33,6 +33,11 @@ class Shaking:
     prepared: tuple[PreparedMotion, ...]  # processing and scaling of the records of each motion
     records: tuple[RecordFile, ...]  # every component as read
 
+    @property
+    def hashes(self) -> tuple[str, ...]:
+        """Each component with the hash of its record."""
+        return tuple(f"{row.motion_id} {row.component} {row.sha256}" for row in self.records)
+
 
 _TOO_MUCH = (
     f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together",

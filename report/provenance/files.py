@@ -105,7 +105,7 @@ def fingerprint(sheet: Sheet, shaking: Shaking, program: str = "") -> str:
     lines = [
         program or version("roofslip"),
         sheet.sha256,
-        *(f"{row.motion_id} {row.component} {row.sha256}" for row in shaking.records),
+        *shaking.hashes,
         *(f"{document.label} {document.sha256}" for document in sheet.documents),
     ]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:SHORT]

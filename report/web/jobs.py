@@ -15,11 +15,12 @@ from typing import Any
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment, anticipate, assess
+from report.sheet.checking.covered import outdated
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.parts import changed
 from report.sheet.reading.read import read
 from report.sheet.reading.what_if import cells
-from report.sheet.writing.filled import filled
+from report.sheet.writing.filled import WorkbookChange, withdrawn
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import check, controls, shown
@@ -104,7 +105,8 @@ def answer_at(workbook: Path, job: Json) -> Json:
     given = _given(workbook, _key(workbook, job["values"]))
     if job["moving"]:
         start = replace(_at_rest(workbook, {}), sheet=given.sheet, shaking=given.shaking)
-        found = anticipate(start, given.sheet.project)
+        data = outdated(given.sheet.project, given.shaking.hashes)
+        found = anticipate(start, data)
     else:
         found = _at_rest(workbook, job["values"])
     shows = answer(found, is_provisional=job["moving"], room_px=job["room"])
@@ -124,7 +126,10 @@ def write(workbook: Path, job: Json) -> Json:
 def add_clearances(workbook: Path, job: Json) -> Json:
     """Write the workbook with the clearances that it lacks to another path."""
     added, _ = missing_rows(_open(workbook).sheet, _as_typed(workbook).arrays)
-    Path(job["to"]).write_bytes(filled(open_book(workbook), added).data)
+    change = WorkbookChange(open_book(workbook))
+    change.fill(added)
+    withdrawn(change)
+    Path(job["to"]).write_bytes(change.book.data)
     return {}
 
 

@@ -96,8 +96,8 @@ class Solution:
         The first more complete model that was not used; the model itself if there is none.
     next_effect_m : float
         Largest change of the PRD, an excursion or a residual by the more complete models [m], from
-        runs of them and including their errors; inf if such a run gives no displacement, NaN if the input
-        has no data for a more complete model.
+        runs of them and including their errors; inf if such a run gives no displacement, NaN if the
+        input has no data for a more complete model.
     friction_demand : float
         Largest ratio of shear to normal force with no slip. The block slips if this exceeds the
         friction coefficient. inf if the normal force is zero or negative at a sample.
@@ -138,10 +138,10 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
 
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
     models are compared. Otherwise the simplest model is used whose PRD, excursions and residuals
-    agree within `Settings.bound_m` with those of all more complete ones, error bounds included. The more
-    complete models are run for this comparison: the effect of cross-slope shaking accumulates along
-    the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction is
-    modeled whenever the scene has it. If the normal force falls below zero no model gives a
+    agree within `Settings.bound_m` with those of all more complete ones, error bounds included. The
+    more complete models are run for this comparison: the effect of cross-slope shaking accumulates
+    along the whole path, so no estimate from one axis alone bounds it. Velocity-dependent friction
+    is modeled whenever the scene has it. If the normal force falls below zero no model gives a
     displacement, not even a forced one.
 
     Raises

@@ -72,9 +72,9 @@ class TwoAxesOutcome:
         Largest speed, along the surface of the roof [m/s].
     error_m : float
         Largest difference of any position from the exact motion under the interpolated record [m]:
-        a bound if friction is monotone (`Friction.is_monotone`), otherwise an estimate: 16 times the
-        difference between runs at two tolerances, at least rounding error. No estimate sees a stop
-        that both runs take and an exact block would not.
+        a bound if friction is monotone (`Friction.is_monotone`), otherwise an estimate: 16 times
+        the difference between runs at two tolerances, at least rounding error. No estimate sees a
+        stop that both runs take and an exact block would not.
     n_stops, n_events, n_steps : int
     step_tolerance : float
         Step tolerance of the last attempt.

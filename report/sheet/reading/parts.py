@@ -85,7 +85,11 @@ class _Sheet:
 
 
 def changed(
-    data: bytes, changes: Mapping[CellPosition, Value], stale: Set[CellPosition] = frozenset()
+    data: bytes,
+    changes: Mapping[CellPosition, Value],
+    stale: Set[CellPosition] = frozenset(),
+    *,
+    recalculates: bool = True,
 ) -> bytes:
     """Return a workbook with other contents of some cells; formulas are computed when it is opened.
 
@@ -95,6 +99,8 @@ def changed(
         None leaves a cell blank. Each keeps its format.
     stale : set of CellPosition, optional
         Formulas that lose their values: LibreOffice would keep them.
+    recalculates : bool
+        Not where no formula refers to the cells.
     """
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         parts = dict(sheet_parts(archive))
@@ -111,7 +117,8 @@ def changed(
             values = [sheet.cells[at.row][at.column] for at in stale if at.sheet == title]
             new[parts[title]] = _spliced(title, before, sheet, cells, values)
             new |= _longer_tables(archive, parts[title], cells)
-        new["xl/workbook.xml"] = _computed_when_opened(archive.read("xl/workbook.xml"))
+        if recalculates:
+            new["xl/workbook.xml"] = _computed_when_opened(archive.read("xl/workbook.xml"))
         left_out = _without_chain(archive, new) if had_formula else frozenset()
         out = io.BytesIO()
         with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:

@@ -10,7 +10,7 @@ import datetime as dt
 from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import AfterValidator, model_validator
+from pydantic import AfterValidator, PrivateAttr, model_validator
 
 from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInput
 from report.sheet.schema.choices import (
@@ -88,6 +88,11 @@ class Options(Frozen):
     """State and number. Required with peer review."""
     peer_date: Annotated[dt.date | None, Cell("Date of review", dt.date(2026, 3, 1))] = None
     """Required with peer review."""
+    peer_covered: Annotated[
+        Text, Cell("Review covered", "2026-03-01: Site 3f2a91, Arrays 91bc07")
+    ] = ""
+    """Filled in by roofslip report: the date with a short hash of each sheet that the analysis
+    follows from, records included. Leave blank."""
     peer_letter: Annotated[Text, Cell("Letter of review", "peer-review.pdf")] = ""
     """The reviewer's letter as a PDF in the workbook's folder; the package attaches it. With the
     friction test report, at most 20 MB. Required with peer review."""
@@ -224,6 +229,7 @@ class ProjectInput(Frozen):
     ] = ()
     """Optional: one row for each warning of `roofslip check` that is intended as it is. It is then
     printed with the reason."""
+    _outdated: Mapping[str, str] = PrivateAttr({})
 
     @model_validator(mode="after")
     def _spell_ids_alike(self) -> ProjectInput:
@@ -264,17 +270,30 @@ class ProjectInput(Frozen):
         """Whether US units are printed before SI units."""
         return self.project.units_first.is_us
 
+    def with_outdated(self, sheets: Mapping[str, str]) -> ProjectInput:
+        """Return the same with the sheets that a confirmation does not cover, by its section."""
+        other = self.model_copy()
+        other._outdated = sheets
+        return other
+
+    @property
+    def outdated(self) -> Mapping[str, str]:
+        """By section, in words, the sheets that have changed since its confirmation."""
+        return self._outdated
+
     @property
     def is_peer_reviewed(self) -> bool:
-        """Whether peer review is stated, and not dated later than the package."""
+        """Whether peer review is stated, of these inputs, and not dated later than the package."""
         reviewed = self.options.peer_date or self.project.date
-        return self.options.peer_reviewed and reviewed <= self.project.date
+        is_of_these = "options" not in self.outdated
+        return self.options.peer_reviewed and is_of_these and reviewed <= self.project.date
 
     def basis_of(self, row: Clearance) -> DistanceBasis:
         """Return the basis of the distance of a clearance."""
         if row.source is ClearanceSource.DRAWING:
             confirmed = self.project.drawing_confirmed_date
             is_confirmed = confirmed is not None and confirmed <= self.project.date
+            is_confirmed &= "project" not in self.outdated
             return DistanceBasis.CONFIRMED if is_confirmed else DistanceBasis.DRAWN
         return DistanceBasis.ENTERED if row.source is None else DistanceBasis.MEASURED
 

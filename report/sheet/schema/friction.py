@@ -32,6 +32,10 @@ class FrictionTests(Frozen):
     """Number of the report."""
     date: Annotated[dt.date | None, Cell("Report date", dt.date(2025, 6, 12))] = None
     """Date of the report."""
+    tests_covered: Annotated[
+        Text, Cell("Test report covered", "2025-06-12: Friction tests 3f2a91")
+    ] = ""
+    """Filled in by roofslip report: the date with a short hash of the runs. Leave blank."""
     membrane: Annotated[Text, Cell("Membrane", "TPO, 60 mil")] = ""
     """Roof surface as tested: product and thickness."""
     support: Annotated[Text, Cell("Support material", "EPDM pad")] = ""

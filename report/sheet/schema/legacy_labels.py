@@ -47,6 +47,10 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("options", "plan_paper"),
         ("project", "drawing_confirmed_by drawing_confirmed_date"),
         ("site", "fire_code_section fire_lane_m"),
+        ("project", "drawing_covered"),
+        ("site", "hazard_covered"),
+        ("friction_tests", "tests_covered"),
+        ("options", "peer_covered"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook

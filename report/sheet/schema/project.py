@@ -64,6 +64,10 @@ class Project(Frozen):
         dt.date | None, Cell("Drawing distances confirmed on", dt.date(2026, 3, 5))
     ] = None
     """When they were confirmed; with the name."""
+    drawing_covered: Annotated[
+        Text, Cell("Drawing distances covered", "2026-03-05: Clearances 3f2a91")
+    ] = ""
+    """Filled in by roofslip report: the date with a short hash of these distances. Leave blank."""
 
 
 class Revision(Frozen):
@@ -131,6 +135,8 @@ class Site(Frozen):
     """Tool, or author of the report on a site-specific analysis."""
     hazard_date: Annotated[dt.date | None, Cell("Date of hazard", dt.date(2026, 2, 20))] = None
     """When the values were read, or of the report."""
+    hazard_covered: Annotated[Text, Cell("Hazard covered", "2026-02-20: Site 3f2a91")] = ""
+    """Filled in by roofslip report: the date with a short hash of these values. Leave blank."""
     hazard_report: Annotated[Text, Cell("Report number of hazard", "GE-2026-41")] = ""
     """Of the report on a site-specific analysis."""
     force_factor: Annotated[float | None, Field(gt=0, le=5), Cell("a_p or C_AR", 1.0)] = None

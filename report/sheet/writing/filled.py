@@ -18,6 +18,10 @@ from report.sheet.reading.archive import OpenBook, book_of, located, open_book
 from report.sheet.reading.formula_text import references
 from report.sheet.reading.parts import Formula, Value, changed
 from report.sheet.reading.positions import CellPosition, bounds_of
+from report.sheet.reading.read import Sheet, read_book
+from report.sheet.reading.what_if import cells
+from report.sheet.schema.choices import ClearanceSource
+from report.sheet.schema.fields import DraftRow, Place
 from report.sheet.writing.live import BROKEN, live_formulas
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
@@ -35,10 +39,18 @@ class WorkbookChange:
 
     book: OpenBook
     files: dict[str, bytes] = field(default_factory=dict)
+    before: OpenBook = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.before = self.book
 
     def fill(self, cells: Mapping[CellPosition, Value]) -> None:
         """Change cells; raises as `filled`."""
         self.book = filled(self.book, cells)
+
+    def note(self, cells: Mapping[CellPosition, Value]) -> None:
+        """Change cells that no formula refers to."""
+        self.book = book_of(self.book.path, changed(self.book.data, cells, recalculates=False))
 
     @property
     def has_formulas(self) -> bool:
@@ -47,11 +59,11 @@ class WorkbookChange:
 
 
 @contextmanager
-def changing(source: Path) -> Iterator[WorkbookChange]:
+def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChange]:
     """Give a workbook to change, as it is once no other command changes it; write it at the end.
 
     It and the files beside it are written together, with `NAME.before.xlsx`, the workbook as it
-    was; nothing is written if the work on it fails, or changes nothing.
+    was, unless no copy is kept; nothing is written if the work on it fails, or changes nothing.
 
     Raises
     ------
@@ -68,10 +80,9 @@ def changing(source: Path) -> Iterator[WorkbookChange]:
                     " delete that file if none has"
                 )
         change = WorkbookChange(open_book(path))
-        before = change.book.data
         yield change
-        if change.files or change.book.data != before:
-            copy = {f"{path.stem}{BEFORE}": before}
+        if change.files or change.book.data != change.before.data:
+            copy = {f"{path.stem}{BEFORE}": change.before.data} if keeps_copy else {}
             write_all({**change.files, **copy, path.name: change.book.data}, path.parent)
 
 
@@ -123,3 +134,29 @@ def _area(reference: str, title: str) -> tuple[str, tuple[int, int, int, int] | 
     given, _, cells = reference.rpartition("!")
     named = given.removeprefix("'").removesuffix("'").replace("''", "'")
     return (named or title).casefold(), bounds_of(cells)
+
+
+def withdrawn(change: WorkbookChange) -> list[str]:
+    """Empty who confirmed the distances from the drawing, and when, if they changed; say so."""
+    before = read_book(change.before)
+    stated = {
+        Place("project", 0, field): row[field]
+        for row in before.draft["project"]
+        for field in ("drawing_confirmed_by", "drawing_confirmed_date", "drawing_covered")
+        if row.get(field)
+    }
+    if not stated or _drawn(before) == _drawn(read_book(change.book)):
+        return []
+    emptied = cells(before, dict.fromkeys(stated))
+    change.fill(emptied)
+    where = ", ".join(position.address for position in emptied)
+    by = ", ".join(str(value) for value in [*stated.values()][:2])
+    return [
+        f"{where}: 'Drawing distances confirmed by {by}' is taken out: distances from the drawing"
+        " have changed; confirm them again"
+    ]
+
+
+def _drawn(sheet: Sheet) -> list[DraftRow]:
+    rows = sheet.draft["clearances"]
+    return [row for row in rows if row.get("source") is ClearanceSource.DRAWING]

@@ -1,6 +1,7 @@
 """Requirements other than the numeric limits, and the three verdicts."""
 
 import datetime as dt
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import stand_in
 from report.assessment.conditions import project_rows, rows_before_runs
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.verdict import STAYS, Verdict, worst
+from report.sheet.checking.covered import to_record
 from report.words.units import PRESSURES
 from solver import design_spectrum, spectrum
 from solver.rules.limit import Consequence
@@ -467,6 +469,84 @@ def test_a_review_that_is_dated_later_removes_no_floor_and_confirms_no_distance(
         head = inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": date}
         found = row(assessed(project=head, clearances=[drawn]), "drawing_distances")
         assert found.is_satisfied is is_confirmed
+
+
+RUN = {"surface": "wet", "number": 1, "mu": 0.46, "velocity_mps": INCH}
+
+
+def on_record(**changes):
+    """Sections with what their confirmations cover, as `report` fills it in."""
+    records = stand_in.book(stand_in.project(**changes), scenes.motions()).shaking.hashes
+    for place, text in to_record(stand_in.project(**changes), records).items():
+        changes[place.section] = changes[place.section] | {place.field: text}
+    return changes
+
+
+def outdated_row(title, **changes):
+    rows = [row for row in assessed(**changes).rows if row.title == title]
+    assert len(rows) < 2
+    return next(iter(rows), None)
+
+
+def test_a_review_given_before_an_array_changed_removes_no_floor_and_is_a_condition():
+    reviewed = on_record(options=scenes.REVIEW)
+    assert outdated_row("Peer review", **reviewed) is None
+    assert not any(item.floor_m for item in assessed(**reviewed).arrays)
+    arrays = [stand_in.array("A1", 0.5, mu=0.42), *stand_in.project().model_dump()["arrays"][1:]]
+    found = outdated_row("Peer review", **reviewed, arrays=arrays)
+    assert found.verdict is Verdict.CONDITION
+    assert found.found == "2026-03-01, given before these inputs changed: sheet Arrays"
+    assert found.remedy.startswith("Have it confirmed for these inputs, and enter the new date")
+    after = assessed(**reviewed, arrays=arrays)
+    floors = [item.floor_m for item in assessed(arrays=arrays).arrays]
+    assert [item.floor_m for item in after.arrays] == floors
+    assert all(floor_m > 0.0 for floor_m in floors)
+    reduced = after.at_reduced_friction
+    assert all(item.floor_m > 0.0 for item in reduced.arrays)
+    # Less friction is a variation of the input as it is, which is still reviewed.
+    assert not any(item.floor_m for item in assessed(**reviewed).at_reduced_friction.arrays)
+    again = reviewed["options"] | {"peer_date": dt.date(2026, 3, 2)}
+    assert outdated_row("Peer review", options=again, arrays=arrays) is None
+
+
+def test_another_record_is_not_what_was_reviewed():
+    reviewed = on_record(options=scenes.REVIEW)
+    book = stand_in.book(stand_in.project(**reviewed), scenes.motions())
+    other = (replace(book.records[0], sha256="cd" * 32), *book.records[1:])
+    done = stand_in.assessed(book.having(records=other))
+    (found,) = (row for row in done.rows if row.title == "Peer review")
+    assert found.found.endswith("sheet Motions")
+    assert all(item.floor_m > 0.0 for item in done.arrays)
+
+
+def test_values_that_changed_after_their_document_are_a_condition_until_they_are_compared():
+    site = inputs.SITE | {"hazard_source": "Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
+    tests = {"friction_tests": scenes.TESTS, "friction_runs": [RUN]}
+    given = on_record(site=site, **tests)
+    for title, change, sheet, label, clear in (
+        ("Hazard", {"site": given["site"] | {"s_ds_g": 1.6}}, "Site", "Hazard covered",
+         {"hazard_covered": ""}),
+        ("Friction report", {"friction_runs": [RUN | {"mu": 0.47}]}, "Friction tests",
+         "Test report covered", {"tests_covered": ""}),
+    ):  # fmt: skip
+        assert outdated_row(title, **given) is None
+        found = outdated_row(title, **given | change)
+        assert found.found.endswith(f"given before these inputs changed: sheet {sheet}")
+        assert found.remedy.endswith(f"if they agree, clear {label}.")
+        key = found.places[0].section
+        cleared = given | change | {key: (given | change)[key] | clear}
+        assert outdated_row(title, **cleared) is None
+
+
+def test_a_drawing_distance_that_changed_by_hand_is_not_confirmed_any_more():
+    drawn = stand_in.clearance("A1", "RTU-1", 6.0) | {"source": "drawing"}
+    head = inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": ISSUED}
+    given = on_record(project=head, clearances=[drawn])
+    assert row(assessed(**given), "drawing_distances").is_satisfied
+    changed = given | {"clearances": [drawn | {"provided_m": 5.0}]}
+    assert not row(assessed(**changed), "drawing_distances").is_satisfied
+    found = outdated_row("Confirmation of the drawing", **changed)
+    assert found.found == f"{ISSUED}, given before these inputs changed: sheet Clearances"
 
 
 def test_what_no_cell_takes_stays_for_the_plan_checker():

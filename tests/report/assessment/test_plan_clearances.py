@@ -315,7 +315,7 @@ def test_bare_edges_and_overlaps_are_said_and_not_written(tmp_path):
     )
     output = fill(tmp_path)
     assert "not added: A1 to the west edge of the roof, 60.0 in (1524 mm); correct" in output
-    assert "not added: A1 to IN, −180.0 in (−4572 mm); correct the plan" in output
+    assert "not added: A1 to IN, −120.0 in (−3048 mm); correct the plan" in output
     assert "IN" not in {row.object for row in read(path).project.clearances}
 
 
@@ -359,3 +359,32 @@ def test_check_names_the_pairs_without_a_row_before_any_run(tmp_path):
     assert command == f"roofslip plan clearances {path}"
     fill(tmp_path)
     assert not list(missing_clearances(read(path)))
+
+
+CONFIRMED = {
+    **inputs.project(**SECTIONS).project.model_dump(),
+    "drawing_confirmed_by": "RG",
+    "drawing_confirmed_date": dt.date(2025, 11, 18),
+    "drawing_covered": "2025-11-18: Clearances 3f2a91",
+}
+
+
+def test_a_confirmation_of_distances_is_taken_out_where_a_command_writes_other_ones(tmp_path):
+    path = make(tmp_path, **BARE, project=CONFIRMED)
+    said = at(
+        "<Project/Drawing distances confirmed by>, <Project/Drawing distances confirmed on>,"
+        " <Project/Drawing distances covered>: 'Drawing distances confirmed by RG, 2025-11-18' is"
+        " taken out: distances from the drawing have changed; confirm them again"
+    )
+    assert said in fill(tmp_path).splitlines()
+    issue = read(path).project.project
+    assert (issue.drawing_confirmed_by, issue.drawing_confirmed_date) == ("", None)
+    assert issue.drawing_covered == ""
+
+
+def test_a_confirmation_of_distances_stays_where_a_command_writes_none(tmp_path):
+    fill(make(tmp_path, **BARE).parent)
+    rows = [row.model_dump() for row in read(tmp_path).project.clearances]
+    path = make(tmp_path, clearances=rows, objects=PLACED, project=CONFIRMED)
+    assert "is taken out" not in fill(tmp_path)
+    assert read(path).project.project.drawing_confirmed_by == "RG"

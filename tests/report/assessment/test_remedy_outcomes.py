@@ -155,6 +155,15 @@ def test_peer_review_is_offered_where_it_removes_a_floor_that_governs_and_only_t
     assert not of(made(x=150.0), RemedyKind.REVIEW)  # nothing is NG
 
 
+def test_a_review_of_the_day_of_the_package_that_was_of_other_inputs_is_offered_anew():
+    day = inputs.HEAD["date"]
+    of_others = {"peer_date": day, "peer_covered": f"{day}: Arrays 000000"}
+    given = made(x=102.5, options=PEER | of_others)
+    (found,) = of(given, RemedyKind.REVIEW)
+    (item,) = given.arrays
+    assert (found.given, found.value) == (item.floor_m, item.analysis.value_m)
+
+
 def test_the_best_remedy_is_one_with_which_the_project_is_not_ng():
     given = made(x=102.5)
     (best,) = best_remedy(given)

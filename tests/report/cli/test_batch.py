@@ -101,7 +101,7 @@ def test_json_has_a_schema_version_and_an_entry_for_each_project():
 
 
 def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypatch):
-    monkeypatch.setattr("report.making.make", lambda *_: 1 / 0)
+    monkeypatch.setattr("report.making.make", lambda *_, **__: 1 / 0)
     done = batch.package(Path("a"))
     assert done.word == "internal error"
     assert "ZeroDivisionError: division by zero" in done.internal

@@ -8,7 +8,7 @@ from openpyxl import load_workbook
 
 from architect import ARRAYS, roof_plan
 from cells import cell
-from inputs import FT, NO_SIDES
+from inputs import FT, HEAD, NO_SIDES
 from report.cli.main import main
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource, UnitsFirst
@@ -83,6 +83,14 @@ def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
     assert [item.id for item in data.objects] == ["RTU-1", "OLD", "N", "S", "EDGE-1", "EDGE-2"]
     assert data.objects[3].kind is was.objects[3].kind
     assert same(without_places(data), without_places(was))
+
+
+def test_reading_a_drawing_takes_out_who_confirmed_other_distances(tmp_path):
+    head = HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": "2025-11-18"}
+    path = make(tmp_path, clearances=[], project=head)
+    output = run(drawing(tmp_path), tmp_path, "--replace")
+    assert "'Drawing distances confirmed by RG, 2025-11-18' is taken out" in output
+    assert read(path).project.project.drawing_confirmed_date is None
 
 
 def without_places(data):

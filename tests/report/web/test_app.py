@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
+from inputs import HEAD
 from places import ROOT
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource
@@ -370,7 +371,8 @@ def test_a_process_that_is_killed_is_replaced(client):
 def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(client, tmp_path):
     assert not state_of(client)["project"]["lacks_clearances"]
     folder = tmp_path / "roof"
-    make(folder, clearances=[], objects=SECTIONS["objects"][:1])
+    confirmed = {"drawing_confirmed_by": "RG", "drawing_confirmed_date": "2025-11-18"}
+    make(folder, clearances=[], objects=SECTIONS["objects"][:1], project=HEAD | confirmed)
     before = sent(client, folder_of(folder)).json()
     assert before["project"]["lacks_clearances"]
     after = client.post("/api/clearances", json={"opened": before["opened"]}).json()
@@ -380,6 +382,7 @@ def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(clie
     content = client.post("/api/workbook", json={"values": {}}).content
     (tmp_path / "saved.xlsx").write_bytes(content)
     rows = read(tmp_path / "saved.xlsx").project.clearances
+    assert read(tmp_path / "saved.xlsx").project.project.drawing_confirmed_date is None
     assert {(row.array, row.object, row.source) for row in rows} == {
         ("A1", "A2", ClearanceSource.DRAWING), ("A2", "RTU-1", ClearanceSource.DRAWING),
     }  # fmt: skip

@@ -49,6 +49,17 @@ def at_rest(project, **values):
     return jobs.perform(job)["answer"]
 
 
+@pytest.mark.parametrize("moving", [False, True])
+def test_other_friction_than_was_reviewed_has_the_floor_at_rest_and_while_it_moves(moving):
+    workbook = str(PROJECTS / "school" / "input.xlsx")
+    job = {"do": "assess", "workbook": workbook, "moving": moving, "room": 780}
+    designs = [
+        rows(jobs.perform(job | {"values": values})["answer"]["arrays"])[0]["Design"]["title"]
+        for values in ({}, {"friction": 0.97})
+    ]
+    assert ["floor" in title for title in designs] == [False, True]
+
+
 def offered(project, kind="sliders"):
     return {item["id"]: item for item in controls(start(project))[kind]}
 
@@ -237,11 +248,11 @@ def test_s_ds_that_changes_leaves_the_table_of_its_coefficient_behind():
 
 
 def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_verdict():
-    """Motions of a third of their target move nothing, and do not qualify."""
+    """Motions of a third of their target do not qualify, and no review is of another S_DS."""
     weak = with_values(start("school"), {"intensity": 0.32, "together": "no"})
     done = assess(weak.sheet, weak.shaking)
     found = answer(done, is_provisional=False)
-    title = "0 mm (0.0 in), analysis, not permitted"
+    title = "488 mm (19.2 in), floor, not permitted"
     for array in rows(found["arrays"]):
         assert array["Design"] == {"text": "not permitted", "title": title}
         assert array["Verdict"] == {"text": "NG", "look": "ng"}
@@ -257,4 +268,4 @@ def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_
     assert not {"envelope", "ng-area", "ng-box"} & drawn
     assert found["verdict"]["text"] == "NG"
     design = rows(answer(done, is_provisional=True)["arrays"])[0]["Design"]
-    assert design == {"text": "0 mm", "title": "0 mm (0.0 in), analysis"}
+    assert design == {"text": "488 mm", "title": "488 mm (19.2 in), floor"}

@@ -1,0 +1,110 @@
+"""What each confirmation covered: its date with a short hash of each sheet, in the cell beside it.
+
+Reads no file and writes none. Read `CONFIRMATIONS`, then `to_record` and `outdated`.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence, Set
+
+from report.sheet.schema import SECTION, SECTIONS, ProjectInput
+from report.sheet.schema.choices import ClearanceSource
+from report.sheet.schema.fields import Frozen, Place
+from report.sheet.schema.scene import SIDES, WEIGHT_PARTS
+
+_LETTERS = 6  # of a hash
+_Covers = Mapping[str, Set[str]]
+"""Fields by section."""
+
+
+def _all_but(**left_out: str) -> _Covers:
+    models = {key: SECTION[key].model.model_fields for key in left_out}
+    return {key: models[key].keys() - names.split() for key, names in left_out.items()}
+
+
+# What the design displacements follow from.
+_ANALYSIS = _all_but(
+    site="hazard_source hazard_date hazard_covered hazard_report building_code building_code_year"
+         " jurisdiction fire_code_section fire_lane_m",
+    arrays=" ".join((*SIDES, *WEIGHT_PARTS, "place_from interconnection_n slack_m roof_capacity_pa"
+                     " wind_weight_pa")),
+    friction_tests="tests_covered report_file",
+    friction_runs="", motions="", building="", spectrum="", links="", target="", overrides="",
+)  # fmt: skip
+
+CONFIRMATIONS: Sequence[tuple[str, str, str, _Covers]] = (
+    ("project", "drawing_confirmed_date", "drawing_covered",
+     {"clearances": {"array", "object", "direction", "provided_m"}}),
+    ("site", "hazard_date", "hazard_covered",
+     {"site": {"edition_name", "s_s_g", "s_1_g", "site_class", "f_a", "f_v", "s_ms_g", "s_m1_g",
+               "s_ds_g", "s_d1_g", "hazard", "sdc"}}),
+    ("friction_tests", "date", "tests_covered", _all_but(friction_runs="")),
+    ("options", "peer_date", "peer_covered",
+     {**_ANALYSIS, "options": {"statistic", "directional"}}),
+)  # fmt: skip
+"""Section, fields of the date and of the record, and what is covered."""
+
+COVERED = frozenset(covered for *_, covered, _ in CONFIRMATIONS)
+"""The fields that are no input: `roofslip report` fills them in."""
+
+
+def to_record(data: ProjectInput, records: Sequence[str]) -> Mapping[Place, str]:
+    """Return what confirmations cover whose date is not on record, by cell; records with hashes."""
+    return {
+        place: f"{date}: {', '.join(f'{sheet} {short}' for sheet, short in now.items())}"
+        for place, date, recorded, now in _dated(data, records)
+        if now and not recorded
+    }
+
+
+def outdated(data: ProjectInput, records: Sequence[str]) -> ProjectInput:
+    """Return an input that knows which sheets have changed since a confirmation covered them."""
+    changed = {}
+    for place, _, recorded, now in _dated(data, records):
+        then = dict(part.rpartition(" ")[::2] for part in recorded.split(", "))
+        titles = dict.fromkeys(section.sheet for section in SECTIONS)
+        other = [title for title in titles if then.get(title) != now.get(title)]
+        if recorded and other:
+            changed[place.section] = f"sheet{'s' * (len(other) > 1)} {', '.join(other)}"
+    return data.with_outdated(changed)
+
+
+def _dated(
+    data: ProjectInput, records: Sequence[str]
+) -> Iterator[tuple[Place, dt.date, str, Mapping[str, str]]]:
+    """Yield of each confirmation its cell, date, what is on record of that date, and the hashes."""
+    for section, dated, covered, covers in CONFIRMATIONS:
+        block = getattr(data, section)
+        date = getattr(block, dated)
+        if date and getattr(block, "peer_reviewed", True):
+            of, _, recorded = getattr(block, covered).partition(": ")
+            hashes = _hashes(covers, data, records)
+            yield Place(section, 0, covered), date, recorded if of == str(date) else "", hashes
+
+
+def _hashes(covers: _Covers, data: ProjectInput, records: Sequence[str]) -> Mapping[str, str]:
+    """Return the hash of what is covered, by sheet."""
+    lines: dict[str, list[str]] = {}
+    for key, fields in covers.items():
+        rows = getattr(data, key) if SECTION[key].is_table else [getattr(data, key)]
+        if key == "clearances":
+            rows = [row for row in rows if row.source is ClearanceSource.DRAWING]
+        found = [*filter(None, (_line(row, fields) for row in rows))]
+        found += records if key == "motions" else ()
+        if found:
+            lines.setdefault(SECTION[key].sheet, []).extend([key, *found])
+    return {
+        sheet: hashlib.sha256("\n".join(each).encode()).hexdigest()[:_LETTERS]
+        for sheet, each in lines.items()
+    }
+
+
+def _line(row: Frozen, fields: Set[str]) -> str:
+    """Return a row as text: a number in any unit is the same, and a default is none."""
+    given = row.model_dump(include=set(fields), exclude_defaults=True)
+    return "; ".join(
+        f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
+        for name, value in given.items()
+    )

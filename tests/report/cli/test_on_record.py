@@ -1,0 +1,145 @@
+"""`report` puts on record what a confirmation covers, and says what has changed since."""
+
+import datetime as dt
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import scenes
+from cells import address
+from inputs import SITE
+from places import ROOT
+from report.cli.main import main
+from report.making import make as make_package
+from report.motions.prepare import prepare
+from report.proof.package import open_package
+from report.sheet.checking.covered import outdated, to_record
+from report.sheet.reading.archive import open_book
+from report.sheet.reading.read import read
+from report.workers import SameProcess
+from sheets import at, edit, make, type_into
+
+SHIPPED = sorted(path.parent.name for path in (ROOT / "projects").glob("*/input.xlsx"))
+PLACES = "<Site/Hazard covered>, <Options/Review covered>"
+
+
+def run(*words, exit_code=0):
+    done = CliRunner().invoke(main, [*map(str, words)])
+    assert done.exit_code == exit_code, done.output
+    return done
+
+
+def confirmed(folder: Path, **changes) -> Path:
+    """A project with a hazard and a peer review that have dates."""
+    options = scenes.REVIEW | {"peer_letter": ""}
+    site = SITE | {"hazard_source": "Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
+    return make(folder, **{"site": site, "options": options} | changes)
+
+
+@pytest.mark.parametrize("name", [name for name in SHIPPED if name != "study"])
+def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
+    sheet = read(ROOT / "projects" / name)
+    hashes = prepare(sheet).hashes
+    assert to_record(sheet.project, hashes) == {}
+    assert outdated(sheet.project, hashes).outdated == {}
+
+
+@pytest.mark.parametrize("units", ["US", "SI"])
+def test_the_example_has_on_record_what_its_confirmations_cover(tmp_path, units):
+    run("new", tmp_path, "--example", "--units", units)
+    sheet = read(tmp_path)
+    assert sheet.project.site.hazard_covered
+    hashes = prepare(sheet).hashes
+    assert to_record(sheet.project, hashes) == {}
+    assert outdated(sheet.project, hashes).outdated == {}
+
+
+def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_with_it(tmp_path):
+    path = confirmed(tmp_path)
+    says = open_book(path).calculation
+    done = run("report", path)
+    assert f"{path}: {at(PLACES)}: what was confirmed is on record" in done.stdout.splitlines()
+    sheet = read(path)
+    assert sheet.project.site.hazard_covered.startswith("2026-02-20: Site ")
+    assert sheet.project.options.peer_covered.startswith("2026-03-01: Site ")
+    assert open_book(path).calculation == says
+    files = {file.name for file in tmp_path.iterdir() if not file.name.startswith(".")}
+    assert files == {"input.xlsx", "records", "out"}  # no copy: the former one may still be needed
+    package = open_package(tmp_path / "out" / "calc-package.pdf")
+    (workbook,) = package.manifest.of_kind("workbook")
+    assert workbook.sha256 == sheet.sha256
+    run("verify-package", tmp_path / "out" / "calc-package.pdf")
+
+    # What changes is named, and the record stays until there is a new date.
+    type_into(path, {"Arrays/A1/Friction coefficient": 0.4})
+    before = path.read_bytes()
+    (tmp_path / "records" / "z.csv").write_text("0.1\n" * 200)
+    done = run("report", path)
+    (line,) = (line for line in done.stdout.splitlines() if "given before" in line)
+    said = "peer review: 2026-03-01, given before these inputs changed: sheets Arrays, Motions;"
+    assert line.startswith(f"condition: {said}")
+    assert path.read_bytes() == before
+    assert "on record" not in done.stdout
+
+
+def test_batch_puts_a_confirmation_on_record(tmp_path):
+    path = confirmed(tmp_path)
+    done = run("batch", path)
+    assert f"{path}: {at(PLACES)}: what was confirmed is on record" in done.stdout.splitlines()
+    assert read(path).project.options.peer_covered.startswith("2026-03-01: ")
+
+
+def test_a_workbook_that_is_read_only_stays_as_it_is(tmp_path, monkeypatch):
+    path = confirmed(tmp_path)
+    before, usual = path.read_bytes(), os.access
+    monkeypatch.setattr(os, "access", lambda at, mode: Path(at) != path and usual(at, mode))
+    lines = []
+    with SameProcess() as worker:
+        make_package(path, None, None, lambda _: None, worker, on_record=lines.append)
+    assert path.read_bytes() == before
+    (line,) = lines
+    assert line.endswith("not put on record: the workbook is read-only, or was saved meanwhile")
+
+
+def test_a_workbook_that_is_open_or_of_an_earlier_version_stays_as_it_is(tmp_path):
+    path = confirmed(tmp_path)
+    beside = path.with_name("~$input.xlsx")
+    beside.touch()
+    before = path.read_bytes()
+    done = run("report", path)
+    assert path.read_bytes() == before
+    (line,) = (line for line in done.stdout.splitlines() if "on record" in line)
+    assert line.startswith(f"{path}: {at(PLACES)}: what was confirmed is not put on record: ")
+    assert "a program has the workbook open" in line
+    run("verify-package", tmp_path / "out" / "calc-package.pdf")
+    beside.unlink()
+
+    for label in ("Site/Hazard covered", "Options/Review covered"):
+        sheet, cell = address(before, label).split("!")
+        type_into(path, {f"{sheet}!A{cell[1:]}": None})
+    earlier = _without_names(path)
+    done = run("report", path)
+    assert "on record" not in done.output
+    assert path.read_bytes() == earlier
+
+
+def _without_names(path: Path) -> bytes:
+    """Remove the defined names of the cells, which an earlier workbook lacks."""
+
+    def change(book):
+        for name in ("site_hazard_covered", "options_peer_covered"):
+            del book.defined_names[name]
+
+    return edit(path, change).read_bytes()
+
+
+def test_a_report_of_the_example_changes_no_workbook(tmp_path):
+    folder = tmp_path / "example"
+    shutil.copytree(ROOT / "projects" / "example", folder, ignore=shutil.ignore_patterns("out"))
+    before = (folder / "input.xlsx").read_bytes()
+    done = run("report", folder)
+    assert "on record" not in done.output
+    assert (folder / "input.xlsx").read_bytes() == before

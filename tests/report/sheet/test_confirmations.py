@@ -1,0 +1,161 @@
+"""A confirmation covers the inputs of its day: what changes after it is named, and only that."""
+
+import datetime as dt
+
+import pytest
+
+import inputs
+import scenes
+from inputs import INCH
+from report.sheet.checking.covered import outdated, to_record
+from report.sheet.schema.choices import UnitsFirst
+from report.sheet.schema.fields import Place
+from sheets import SECTIONS as USUAL
+from sheets import make, project, read_workbook
+
+ON = dt.date(2026, 2, 20)
+RECORDS = ("M1 horizontal ab", "M2 horizontal cd")
+RUN = {"surface": "wet", "number": 1, "mu": 0.46, "velocity_mps": 0.0254}
+DRAWN = inputs.clearance("A2", "RTU-1", 60 * INCH) | {"source": "drawing"}
+OTHERS = USUAL["clearances"][:2]
+ARRAYS = USUAL["arrays"]
+GIVEN = {
+    "project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": ON},
+    "site": inputs.SITE | {"hazard_source": "Hazard Tool", "hazard_date": ON},
+    "friction_tests": scenes.TESTS,
+    "friction_runs": [RUN],
+    "clearances": [*OTHERS, DRAWN],
+    "options": scenes.REVIEW,
+}
+
+
+def given(**changes):
+    return project(**GIVEN | changes)
+
+
+def recorded(data, records=RECORDS):
+    """The input as it is once `report` has filled the cells in."""
+    blocks = {
+        place.section: getattr(data, place.section).model_copy(update={place.field: text})
+        for place, text in to_record(data, records).items()
+    }
+    return data.model_copy(update=blocks)
+
+
+def changed(records=RECORDS, **changes):
+    """What is outdated by a change after every confirmation is on record."""
+    now = to_record(given(), RECORDS)
+    blocks = {
+        place.section: GIVEN[place.section] | {place.field: text} | changes.pop(place.section, {})
+        for place, text in now.items()
+    }
+    return dict(outdated(given(**blocks, **changes), records).outdated)
+
+
+def test_each_confirmation_is_put_on_record_with_its_date_and_the_sheets_that_it_covers():
+    found = to_record(given(), RECORDS)
+    sheets = {
+        place.field: (text[:10], [part.rpartition(" ")[0] for part in text[12:].split(", ")])
+        for place, text in found.items()
+    }
+    assert sheets == {
+        "drawing_covered": (str(ON), ["Clearances"]),
+        "hazard_covered": (str(ON), ["Site"]),
+        "tests_covered": ("2025-06-12", ["Friction tests"]),
+        "peer_covered": (
+            "2026-03-01",
+            ["Site", "Arrays", "Friction tests", "Motions", "Options"],
+        ),
+    }
+    assert to_record(recorded(given()), RECORDS) == {}
+    assert outdated(recorded(given()), RECORDS).outdated == {}
+
+
+def test_what_is_not_confirmed_or_covers_nothing_is_not_put_on_record():
+    none = given(
+        project=inputs.HEAD,
+        site=inputs.SITE,
+        friction_runs=[],
+        options=scenes.REVIEW | {"peer_reviewed": False},
+    )
+    assert to_record(none, RECORDS) == {}
+
+
+def of(section, index, **changes):
+    rows = [dict(row) for row in (USUAL | GIVEN)[section]]
+    rows[index] |= changes
+    return {section: rows}
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (of("arrays", 0, mu=0.42), {"options": "sheet Arrays"}),
+        ({"records": (RECORDS[0], "M2 horizontal ef")}, {"options": "sheet Motions"}),
+        (of("motions", 1, scale_value=2.1), {"options": "sheet Motions"}),
+        ({"site": {"s_ds_g": 1.6}}, {"site": "sheet Site", "options": "sheet Site"}),
+        ({"site": {"roof_height_m": 9.0}}, {"options": "sheet Site"}),
+        (
+            of("friction_runs", 0, mu=0.47),
+            {"friction_tests": "sheet Friction tests", "options": "sheet Friction tests"},
+        ),
+        ({"friction_tests": {"report": "FT-2"}}, {"options": "sheet Friction tests"}),
+        (of("clearances", 2, provided_m=96 * INCH), {"project": "sheet Clearances"}),
+        (of("clearances", 0, source="drawing"), {"project": "sheet Clearances"}),
+        ({"building": {"period_s": 0.5}}, {"options": "sheet Building"}),
+        ({"links": [inputs.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
+        ({"options": {"statistic": "mean"}}, {"options": "sheet Options"}),
+        ({"overrides": []}, {"options": "sheet Options"}),
+        (
+            {"site": {"roof_height_m": 9.0}} | of("arrays", 0, mu=0.42),
+            {"options": "sheets Site, Arrays"},
+        ),
+    ],
+)
+def test_an_input_that_changes_after_a_confirmation_is_named(change, said):
+    assert changed(**change) == said
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"project": {"checked_by": "MT", "revision": "1", "units_first": "SI"}},
+        {"site": {"jurisdiction": "City of Los Angeles", "hazard_report": "GE-1"}},
+        {"friction_tests": {"report_file": "report.pdf"}},
+        {"options": {"plan_paper": "Letter", "peer_letter": "letter.pdf"}},
+        of("arrays", 0, slack_m=1.2, interconnection_n=4000.0, x_to_m=ARRAYS[0]["x_to_m"] - 1.0),
+        of("clearances", 0, provided_m=121 * INCH),  # which is not from the drawing
+        {"objects": USUAL["objects"][:2]},
+    ],
+)
+def test_what_no_confirmation_covers_changes_none(change):
+    assert changed(**change) == {}
+
+
+def test_another_date_is_a_new_confirmation():
+    arrays = of("arrays", 0, mu=0.42)
+    assert changed(**arrays, options={"peer_date": dt.date(2026, 3, 2)}) == {}
+    on_record = recorded(given())
+    options = on_record.options.model_copy(update={"peer_date": dt.date(2026, 3, 2)})
+    again = given(options=dict(options), **arrays)
+    (text,) = (v for k, v in to_record(again, RECORDS).items() if k.section == "options")
+    assert text.startswith("2026-03-02: ")
+
+
+@pytest.mark.parametrize("text", ["2026-03-01: ", "2026-03-01: none", "2026-03-01: Nowhere 3f, ,"])
+def test_a_record_that_was_typed_over_covers_nothing(text):
+    found = outdated(given(options=scenes.REVIEW | {"peer_covered": text}), RECORDS).outdated
+    if text.endswith(": "):
+        assert "options" not in found  # blank: the next report fills it in
+    else:
+        assert found["options"].startswith("sheets Site, Arrays")
+
+
+@pytest.mark.parametrize("units", UnitsFirst)
+def test_what_is_covered_does_not_depend_on_the_units_of_the_cells(tmp_path, units):
+    options = scenes.REVIEW | {"peer_letter": ""}
+    book = read_workbook(make(tmp_path, units=units, **GIVEN | {"options": options}))
+    found = to_record(book.input, RECORDS)
+    assert found == to_record(given(), RECORDS)
+    assert all(place in book.sheet.addresses for place in found)
+    assert Place("options", 0, "peer_covered") in found
