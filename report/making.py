@@ -71,6 +71,10 @@ def make(
         prepared = prepare(request)
     progress(Step("running the motions", prepared.cost, "the first run compiles the solver"))
     assessment = assess(request.sheet, prepared.shaking)
+    if request.since:
+        from report.results.compare import with_reissue
+
+        assessment = with_reissue(assessment, request.former[0])
     on_assessment(assessment)
     supported = support(assessment, request, worker)
     progress(Step("writing the pages"))

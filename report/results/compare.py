@@ -8,15 +8,18 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from report.assessment.changes import Change, ChangeKind, Changes
 from report.assessment.project import Assessment
+from report.assessment.verdict import condition
 from report.entities.array import ArrayResult
 from report.entities.cells import Told
 from report.entities.columns import UnitFormat
 from report.entities.results import Compared, compared
 from report.entities.shown import Entity, marks_of
+from report.sheet.checking.covered import COVERED
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Entry, Frozen, Place, SheetSection, YesNo, entries
 
@@ -33,18 +36,14 @@ _Pair = tuple[_Row | None, _Row | None]
 def changes(former: Compared, assessment: Assessment) -> Changes:
     """Return what changed from a former revision to this assessment."""
     now = compared(assessment)
-    us_first = assessment.project.us_first
     arrays = _paired(now.arrays, former.arrays, lambda row: (row.id,)).values()
     gaps = _paired(now.clearances, former.clearances, _gap_key).values()
     items = [
-        *_one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set),
+        *_given(former, now, assessment),
         *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
-        *_inputs(former, assessment, us_first),
-        *_records(former, now),
-        *_documents(former, now),
         *_requirements(former, now),
         *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
-        *_results((*arrays, *gaps), UnitFormat(us_first=us_first)),
+        *_results((*arrays, *gaps), UnitFormat(us_first=assessment.project.us_first)),
     ]
     return Changes(
         revision=former.input.project.revision,
@@ -64,6 +63,33 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
             if gap and any(_differing(gap, old))
         ),
     )
+
+
+def with_reissue(assessment: Assessment, former: Compared) -> Assessment:
+    """Return an assessment with a condition where the same revision had other inputs before."""
+    issue, then = assessment.project.project, former.input.project
+    is_same = issue.revision.casefold() == then.revision.casefold()
+    if not (is_same and any(_given(former, compared(assessment), assessment))):
+        return assessment
+    row = condition(
+        id="revision",
+        title=f"Revision {issue.revision}",
+        found=f"issued with other inputs, {then.date}",
+        limit="another revision for other inputs",
+        basis="plan check",
+        is_satisfied=False,
+        remedy="Raise the revision on the sheet Project, and add its row to Revisions: a seal on "
+        "the former package is not one on this.",
+    )
+    return replace(assessment, rows=(*assessment.rows, row))
+
+
+def _given(former: Compared, now: Compared, assessment: Assessment) -> Iterator[Change]:
+    """Yield what changed of what the results follow from."""
+    yield from _one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set)
+    yield from _inputs(former, assessment, assessment.project.us_first)
+    yield from _records(former, now)
+    yield from _documents(former, now)
 
 
 def _one(kind: ChangeKind, title: str, before: str, now: str, cell: str = "") -> Iterator[Change]:
@@ -119,6 +145,7 @@ def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping
     return {
         entry: addresses.get(Place(section.key, index, entry.name), "")
         for entry in entries(section.model)
+        if entry.name not in COVERED
     }
 
 

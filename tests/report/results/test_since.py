@@ -11,13 +11,15 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import inputs as parts_of
 import scenes
 import stand_in
 from printed import IDS, printed
 from report.assessment.changes import ChangeKind
 from report.assessment.evidence import support
+from report.assessment.verdict import Verdict
 from report.pages.registry import package_data, parts
-from report.results.compare import changes
+from report.results.compare import changes, with_reissue
 from report.results.json import results_json
 from report.results.since import AGAIN, MOST_CHANGES, check_listed, former_from, read_former
 from report.sheet.reading.beside import Document
@@ -95,6 +97,37 @@ def test_an_input_with_its_results_and_verdicts_is_found(assessment, document):
     assert 5 not in found.clearances
     verdicts = {(i.title, i.now) for i in found.items if i.kind is ChangeKind.VERDICT}
     assert ("Clearance A1 to RTU-1", "NG") in verdicts
+
+
+def reissue(done, document):
+    rows = with_reissue(done, former(document)).rows
+    return [row for row in rows if row.id == "revision"]
+
+
+@pytest.mark.parametrize(
+    ("change", "is_said"),
+    [
+        ({}, False),
+        ({"options": {"peer_covered": "2026-03-01: Site 3f2a91"}}, False),  # no input
+        ({"arrays": [stand_in.array("A1", 0.5, mu=0.42)], "clearances": []}, True),
+        ({"site": stand_in.site(s_ds_g=1.5)}, True),
+    ],
+)
+def test_a_revision_that_was_issued_with_other_inputs_is_a_condition(document, change, is_said):
+    done = made(**change)
+    found = reissue(done, document)
+    assert len(found) == is_said
+    for row in found:
+        assert row.verdict is Verdict.CONDITION
+        assert (row.title, row.found) == ("Revision 0", "issued with other inputs, 2026-03-05")
+        assert row.remedy.startswith("Raise the revision on the sheet Project")
+    raised = replace(done, project=made(project=parts_of.HEAD | {"revision": "1"}).project)
+    assert reissue(raised, document) == []
+
+
+def test_a_revision_with_another_record_is_a_condition(assessment, document):
+    document["records"][0]["sha256"] = "00" * 32
+    assert len(reissue(assessment, document)) == 1
 
 
 def test_a_row_that_is_added_or_removed_is_named_once(assessment, document):
