@@ -100,22 +100,28 @@ class Trials:
     def satisfies(self, row: Clearance | None, *, mu: int) -> bool:
         """Whether all runs have final values and satisfy a clearance, if any."""
         # The governing orientations alone refute a value at a quarter of the runs.
-        return self.may_satisfy(row, mu=mu) and self._passes(row, mu, every=True)
+        return self.may_satisfy(row, mu=mu) and not self.failure(row, mu=mu)
 
     def may_satisfy(self, row: Clearance | None, *, mu: int) -> bool:
         """Whether the governing orientation of each motion alone satisfies a clearance."""
-        return self._passes(row, mu, every=False)
+        return not self.failure(row, mu=mu, every=False)
 
     def required_m(self, row: Clearance, *, mu: int) -> float:
         """Return the separation that the array requires with all runs [m]."""
         trial = self._tried(mu, every=True)
         return single_array_check(self.given, self.given.project, trial, row).required_m
 
-    def _passes(self, row: Clearance | None, mu: int, *, every: bool) -> bool:
+    def failure(self, row: Clearance | None, *, mu: int, every: bool = True) -> str:
+        """Return what does not satisfy with all runs, or with the governing ones; else nothing."""
         trial = self._tried(mu, every=every)
-        if not is_final(trial) or (self.array.satisfies_limits and not trial.satisfies_limits):
-            return False
-        return row is None or single_array_check(self.given, self.given.project, trial, row).ok
+        if not is_final(trial):
+            return "no final value"
+        if self.array.satisfies_limits and not trial.satisfies_limits:
+            limits = replace(trial, route=self.array.route).limits  # not those of another route
+            return next(check.title for check in limits if not check.ok)
+        if row and not single_array_check(self.given, self.given.project, trial, row).ok:
+            return "clearance"
+        return ""
 
     def _tried(self, mu: int, *, every: bool) -> ArrayAssessment:
         """Return the array with all runs, or with the governing orientation of each motion only."""

@@ -78,6 +78,7 @@ class Margin:
     # smallest coefficient at which all runs satisfy; NaN if the one given does not
     minimum_mu: float
     required_m: float  # required separation at it, for this array alone [m]
+    limited_by: str  # what is not satisfied with 0.01 less; empty if that is not tried
     lowest_tried: float  # where the search ends
 
     @property
@@ -206,10 +207,10 @@ def _margins(given: Assessment, pool: Executor) -> Iterator[Margin]:
 
 
 def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
-    """Walk down in the governing orientations; accept the first value that all runs confirm."""
+    """Walk down in the governing orientations; from the last value that all runs confirm in all."""
     row, array = gap.clearance, trials.array
     as_given = single_array_check(trials.given, trials.given.project, array, row)
-    least, required, mu = math.nan, math.nan, array.array.mu
+    least, required, limited_by, mu = math.nan, math.nan, "", array.array.mu
     lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
     if as_given.ok and is_final(array):
         least, required = mu, as_given.required_m
@@ -220,14 +221,19 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
             else ()
         )
         confirmed = next((k for k in reversed(held) if trials.satisfies(row, mu=k)), 0)
+        while confirmed > lowest and trials.satisfies(row, mu=confirmed - 1):
+            confirmed -= 1
         if confirmed:
             least, required = confirmed / 100, trials.required_m(row, mu=confirmed)
+        if lowest < (following := confirmed or start + 1):
+            limited_by = trials.failure(row, mu=following - 1)
     return Margin(
         number=number,
         gap=gap,
         array=array,
         minimum_mu=least,
         required_m=required,
+        limited_by=limited_by,
         lowest_tried=lowest / 100,
     )
 

@@ -15,6 +15,7 @@ from report.assessment.uncertainty import TOLERANCE, Margin, ResponseSurface, Un
 from report.document.tables import Column, Table, listed
 from report.entities.shown import length, required, text, words
 from report.pages.parts import PackageData
+from report.words.counts import lowered
 from report.words.letters import power_of_ten
 from report.words.units import number
 from solver.rules.provisions import Neighbor
@@ -85,6 +86,10 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
             return "none"
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
 
+    def limited_by(margin: Margin) -> str:
+        none = "—" if math.isnan(margin.minimum_mu) else "search"
+        return lowered(margin.limited_by) or none
+
     columns = (
         (words("No."), lambda margin: str(margin.number)),
         (words("Friction of"), lambda margin: margin.array.id),
@@ -92,10 +97,11 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         (text("μ", "least", 1.2), least),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (
-            length("Required there", 0.9),
+            required("Required there", 0.9),
             lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
+        (words("Limited by", 1.8), limited_by),
     )
     return listed(margins, columns, package.fmt, kind="compact")
 
