@@ -74,8 +74,22 @@ def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_seve
     row = done.conditions[0]
     assert row.consequence is Consequence.CONDITION
     severe = Requirement(**row.model_dump(exclude={"verdict"}) | {"consequence": Consequence.NG})
-    rows = (row,) * n_conditions + (severe,) * n_severe
+    every = (row,) * n_conditions + (severe,) * n_severe
+    rows = tuple(one.model_copy(update={"title": str(k)}) for k, one in enumerate(every))
     assert printed(replace(done, rows=rows), "letter").line(text)
+
+
+def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_counted():
+    done = scenes.package().assessment
+    (row, *_) = done.conditions
+    rows = tuple(row.model_copy(update={"subject": item.id}) for item in done.arrays)
+    alike = replace(done, rows=rows, clearances=())
+    assert len(alike.conditions) > 1
+    assert "One requirement is open" in printed(alike, "letter")
+    assert "One condition of part 1 is to be met first." in printed(alike, "notes")
+    for key in ("cover", "letter", "summary"):
+        assert "; 1 condition listed in part 1 must be met" in printed(alike, key)
+    assert repr(alike).endswith(", 1 conditions")
 
 
 def test_every_document_is_listed_exactly_where_it_is_cited(html):
