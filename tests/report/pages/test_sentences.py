@@ -103,3 +103,21 @@ def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_s
     (check,) = [c for c in package.assessment.arrays[0].checks if "center" in c.title]
     length_m = 1.524 if "60.0" in words else 1.016
     assert check.limit == pytest.approx(min(0.5 * length_m, 0.9144))
+
+
+@pytest.mark.parametrize("clearances", [[], [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]])
+def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances):
+    package = scenes.package(
+        scenes.motions(7),
+        site=stand_in.site(rule_set="ASCE 7-16", sdc="C"),
+        options=REVIEW,
+        arrays=[stand_in.array("A1", 3.5, mu=0.6)],
+        clearances=clearances,
+    )
+    assert package.assessment.verdict.is_permitted
+    assert any(check.passes_by_exception for _, check in package.checks)
+    gaps = ", and all clearances are satisfied; " if clearances else "; the workbook lists no"
+    for key in ("cover", "letter", "summary"):
+        text = f"All limits are satisfied or, where permitted, exceeded{gaps}"
+        assert text in printed(package, key)
+    assert "every limit is satisfied or, where permitted, exceeded" in printed(package, "basis")
