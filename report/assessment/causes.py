@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from report.assessment.clearances import ClearanceCheck
     from report.assessment.neighbors import ComparedGap
     from report.assessment.project import Assessment
+    from solver.rules.limit import Limit
 
 
 def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
@@ -61,7 +62,7 @@ def outcome(done: Assessment) -> ProjectOutcome:
         verdict=done.verdict,
         gap=max(gaps, key=lambda gap: gap.demand_capacity, default=None),
         others=(
-            *(lowered(limit.title) for limit in done.building_checks if not limit.ok),
+            *(_limit(check) for check in done.building_checks if not check.ok),
             *(f"{ranged(ids)}: {cause}" for cause, ids in groups.items() if cause),
         ),
     )
@@ -79,7 +80,7 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     return [
         # Up to its colon a sentence says what happened, and after it what follows.
         *(s.sentence.split(":")[0] for s in Status if s in statuses and s is not Status.OK),
-        *(lowered(check.title) for check in item.limits if not check.ok),
+        *(_limit(check) for check in item.limits if not check.ok),
         *(["limits on the motions"] if on_motions and not assessment.acceptance.qualifies else []),
         *([] if item.is_model_enough else ["requested model"]),
         *([] if item.tipping.is_ok else ["tipping"]),
@@ -87,6 +88,10 @@ def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
         *(_gap(item, gap) for gap in assessment.gaps_of(item.id) if not gap.ok),
         *of_rows,
     ]
+
+
+def _limit(check: Limit) -> str:
+    return f"{lowered(check.title)}, {'below' if check.is_at_least else 'over'} its limit"
 
 
 def _gap(item: ArrayAssessment, gap: ClearanceCheck) -> str:

@@ -345,6 +345,7 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
         yield condition(
             id="drawing_distances",
             title="Clear distances from the drawing",
+            cause="clear distances from the drawing not confirmed",
             subject=array.id,
             found=state,
             limit="measured, or confirmed by name and date",
@@ -364,6 +365,7 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
+            cause="weight over the roof capacity",
             subject=array.id,
             found=found,
             limit=f"≤ {most}",
@@ -382,6 +384,7 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
         yield condition(
             id="wind_weight",
             title="Weight in wind design",
+            cause="weight differs from the wind design",
             subject=array.id,
             found=found,
             limit=f"= {here}",
@@ -393,9 +396,11 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
 
 
 def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
+    state = NOT_GIVEN if array.interconnection_n is None else "too low"
     return Requirement(
         id="interconnection",
         title="Interconnection strength provided",
+        cause=f"interconnection strength {state}",
         subject=array.id,
         **_provided(array.interconnection_n, required_n, Quantity.WEIGHT, data.us_first),
         basis=data.site.rule_set,
@@ -414,6 +419,7 @@ def _slack(data: ProjectInput, assessed: ArrayAssessment) -> Requirement:
     return Requirement(
         id="electrical_slack",
         title="Electrical slack provided",
+        cause=f"electrical slack {NOT_GIVEN if array.slack_m is None else 'too short'}",
         subject=array.id,
         **_provided(array.slack_m, assessed.permitted_m, Quantity.SIZE, data.us_first),
         basis="design displacement",
@@ -457,6 +463,7 @@ def pathway_rows(
         yield Requirement(
             id="fire_pathway",
             title=f"Fire pathway {row.array} to {row.object} after displacement",
+            cause=f"fire pathway {row.array} to {row.object} too narrow",
             subject=row.array,
             found=NO_DESIGN if math.isnan(left_m) else found,
             limit=f"≥ {least}",
@@ -478,6 +485,7 @@ def less_friction_rows(
         if array.is_permitted and not less.is_permitted:
             yield row(
                 title=f"The {array.route} route with {friction}",
+                cause=f"the {array.route} route not permitted with {friction}",
                 subject=array.id,
                 found="not permitted",
                 limit="permitted",
@@ -487,6 +495,7 @@ def less_friction_rows(
         if gap.verdict.is_permitted and not short.verdict.is_permitted:
             yield row(
                 title=f"Clearance {gap.clearance.array} to {gap.clearance.object} with {friction}",
+                cause=f"clearance to {gap.clearance.object} not satisfied with {friction}",
                 subject=gap.clearance.array,
                 found="not satisfied",
                 limit="satisfied",

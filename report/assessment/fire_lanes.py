@@ -44,6 +44,9 @@ def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
             yield condition(
                 id="fire_lanes",
                 title=f"Largest plan dimension between fire lanes of {lane}",
+                cause="section of the fire code not given"
+                if fits
+                else "too wide between fire lanes",
                 subject=array.id,
                 found=found if section else f"{found}; section {NOT_GIVEN}",
                 limit=f"≤ {limit}",

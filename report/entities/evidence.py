@@ -16,7 +16,17 @@ from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Verdict
 from report.entities.cells import Column
-from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, Shown, at, length, words
+from report.entities.shown import (
+    Entity,
+    Number,
+    OfUnit,
+    RangeOfUnit,
+    Shown,
+    at,
+    length,
+    required,
+    words,
+)
 from report.sheet.schema.building import BuildingInput
 from solver.model import Status
 from solver.rules.provisions import AnalysisValue
@@ -92,7 +102,7 @@ class NeighborResult(Entity):
     gap_m: Annotated[float, length("In plan", 0.8), Column("Distance in plan [in]")]
     """Least distance in plan; negative if they overlap."""
     reach_m: Annotated[
-        Number, length("Twice displ.", 0.8), Column("Twice the design displacement [in]")
+        Number, required("Twice displ.", 0.8), Column("Twice the design displacement [in]")
     ]
     """Distance within which a clearance is needed."""
     is_missing: bool

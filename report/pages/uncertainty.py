@@ -124,8 +124,8 @@ def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
     times = f"{number(factor, 2)} × "
     columns = (
         (words("Array"), lambda item: item.array.id),
-        (length(f"{times}mean sum"), lambda item: factor * item.mean_m),
-        (length(f"{times}largest sum"), lambda item: factor * item.largest_m),
+        (required(f"{times}mean sum"), lambda item: factor * item.mean_m),
+        (required(f"{times}largest sum"), lambda item: factor * item.largest_m),
         (required("Design displacement"), lambda item: item.array.design_m),
     )
     return listed(sums, columns, package.fmt, kind="compact")

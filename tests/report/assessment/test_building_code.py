@@ -4,6 +4,7 @@ import pytest
 
 import scenes
 import stand_in
+from printed import printed
 from report.assessment import project
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.precheck import limits_before_runs
@@ -109,8 +110,17 @@ def test_the_example_says_that_it_is_ng_by_asce_7_16_with_the_worst_clearance_an
     assert done.verdict is Verdict.CONDITIONS
     assert listed(done.conditions)["rule_set"].remedy.endswith(
         "By ASCE 7-16 13.6.12 with the same motions and S_DS: NG, A1 to RTU-1 65.3 > 48.0 in; A2:"
-        " electrical slack provided; A3: roof slope, analysis route and 4 more."
+        " electrical slack too short; A3: roof slope, analysis route, over its limit and 4 more."
     )
+
+
+@pytest.mark.parametrize(("code", "is_beside"), [("2022 CBC", True), ("", False)])
+def test_the_basis_says_that_another_rule_set_is_for_comparison_where_one_is_printed(
+    code, is_beside
+):
+    done = assessed(code) if code else scenes.usual()
+    assert ("By ASCE 7-16 13.6.12" in printed(done, "summary")) is is_beside
+    assert ("for comparison (part 1)" in printed(done, "basis")) is is_beside
 
 
 @pytest.mark.parametrize("changes", [{}, OF_22, {"rule_set": "ASCE 7-16"}])

@@ -99,7 +99,7 @@ def test_report_exits_with_3_only_where_that_is_asked_for(steep, reported):
 def test_each_line_names_array_value_and_limit(lines):
     # An NG that is not of the clearance says what it is of.
     (of_the_array,) = (line for line in lines if line.startswith("A1 "))
-    assert "NG: roof slope, any ballasted system and " in of_the_array
+    assert "NG: roof slope, any ballasted system, over its limit and " in of_the_array
     assert (
         "NG: array A1, roof slope, any ballasted system: 8.00° (14.1 %); at most 4.76° (8.3 %) is"
         " permitted (IBC 1613.3)"
@@ -125,6 +125,6 @@ def test_report_as_json_has_arrays_causes_and_files(steep):
     assert (document["schema_version"], document["verdict"], document["errors"]) == (1, "NG", [])
     first = document["arrays"][0]
     assert (first["id"], first["verdict"]) == ("A1", "NG")
-    assert "roof slope, analysis route" in first["causes"]
+    assert "roof slope, analysis route, over its limit" in first["causes"]
     assert any(name.endswith("calc-package.pdf") for name in document["files"])
     assert {line["level"] for line in document["attention"]} >= {"NG", "warning"}

@@ -36,6 +36,15 @@ def test_a_row_has_the_distance_the_reach_and_the_number_of_the_clearance():
     )
 
 
+def test_twice_a_design_displacement_is_rounded_up():
+    arrays, options = [stand_in.array("A1", 0.5, mu=0.3)], {"peer_reviewed": True}
+    made = scenes.package(arrays=arrays, objects=[NEAR], clearances=[], options=options)
+    (near,) = made.assessment.neighbors
+    assert near.reach_m / 0.0254 % 0.1 < 0.05  # rounded it would print less
+    row = printed(made, "clearances").table(CAPTION).row("RTU-9")
+    assert float(row["Twice displ. [in]"]) > near.reach_m / 0.0254
+
+
 def test_clearances_to_neighbors_farther_away_are_named_and_not_listed():
     made = page(clearances=[stand_in.clearance("A1", "A2", 120 * FOOT)])
     assert made.line("No array, object or roof edge of the plan is within twice the design")

@@ -29,6 +29,18 @@ def test_the_smallest_margin_is_said():
     assert shown[least.array.id]["μ [least]"] == f"{least.minimum_mu:.2f}"
 
 
+def test_a_required_separation_is_rounded_up_and_what_ends_the_search_is_named():
+    package, found, _ = made()
+    margins = tuple(
+        replace(margin, minimum_mu=0.4, required_m=0.1004, limited_by=limited_by)
+        for margin, limited_by in zip(found.margins, ("clearance", "Friction", ""), strict=False)
+    )
+    page = printed(package, "how-sure", uncertainty=replace(found, margins=margins))
+    rows = page.table("Least friction").rows
+    assert {row["Required there [mm]"] for row in rows} == {"101"}
+    assert [row["Limited by"] for row in rows] == ["clearance", "friction", "search"]
+
+
 def test_where_nothing_slides_there_are_no_contours_and_no_ratios():
     still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
     _, _, page = made(still, arrays=[stand_in.array("B1", 0.5, mu=1.0)], objects=[], clearances=[])

@@ -79,3 +79,30 @@ def test_of_one_pair_without_a_row_the_letter_says_so():
     assert (
         "The clearance is not satisfied. The plan shows it without a row in the workbook." in said
     )
+
+
+@pytest.mark.parametrize(
+    ("array", "gap", "cause"),
+    [
+        ({"slack_m": 0.001}, {}, "electrical slack too short"),
+        ({"interconnection_n": 1.0}, {}, "interconnection strength too low"),
+        ({"roof_capacity_pa": 1.0}, {}, "weight over the roof capacity"),
+        ({}, {"pathway_m": 8.9}, "fire pathway A1 to RTU-1 too narrow"),
+        ({"slope_value": 6.9}, {}, "roof slope, any ballasted system, over its limit"),
+    ],
+)
+def test_a_cause_says_what_is_wrong_and_not_what_is_compared(array, gap, cause):
+    given = scenes.package(
+        arrays=[stand_in.array("A1", 0.5) | array],
+        objects=[stand_in.roof_object("RTU-1", "fixed object", 140, 145, 35, 42, height=1.0)],
+        clearances=[stand_in.clearance("A1", "RTU-1", 9.0) | gap],
+    )
+    assert printed(given, "letter").table("Results").column("Verdict") == [f"NG {cause}"]
+
+
+def test_the_cause_of_a_condition_says_what_is_not_given():
+    given = scenes.package(arrays=[stand_in.array("A1", 0.5)], objects=[], clearances=[])
+    item = given.assessment.arrays[0]
+    rows = {row.id: row.cause for row in given.assessment.rows_of(item.id)}
+    assert rows["electrical_slack"] == "electrical slack not given"
+    assert rows["interconnection"] == "interconnection strength not given"
