@@ -127,9 +127,7 @@ class Assessment:
 
     def __repr__(self) -> str:
         counts = f"{len(self.arrays)} arrays, {len(self.clearances)} clearances"
-        return (
-            f"Assessment: {self.verdict.value}; {counts}, {len(self.alike_conditions)} conditions"
-        )
+        return f"Assessment: {self.verdict.value}; {counts}, {len(self.conditions)} conditions"
 
     @property
     def governing(self) -> ArrayAssessment:

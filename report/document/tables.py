@@ -16,7 +16,7 @@ from markupsafe import Markup
 from report.assessment.verdict import Verdict
 from report.entities.columns import TableColumn, UnitFormat
 from report.entities.shown import Entity, Shown, shown_by
-from report.words.counts import grouped_by, ranged
+from report.words.counts import grouped_by, joined, name_order, ranged
 from solver.model import DefectError
 
 PLAIN = UnitFormat(us_first=True, none="—")
@@ -217,7 +217,7 @@ def merged(table: Table, *fields: str) -> Table:
     ----------
     fields : str
         Whose columns have the names, or their headings in a table of no entity; the first column
-        if none is given.
+        if none is given. Names of the others follow those of the first in their order.
     """
     names = [k for k, column in enumerate(table.columns) if (column.field or column.head) in fields]
     names = names if fields else [0]
@@ -229,8 +229,13 @@ def merged(table: Table, *fields: str) -> Table:
 
     for alike in grouped_by(table.rows, others).values():
         cells = list(alike[0].cells)
+        # Those of one name beside each other: of a clearance both arrays.
+        one_by_one = grouped_by(alike, lambda row: str(row.cells[names[0]]))
+        firsts = sorted(one_by_one, key=name_order)
         for k in names if len(alike) > 1 else ():
-            cells[k] = said = ranged(str(row.cells[k]) for row in alike)
+            of_each = [joined([str(row.cells[k]) for row in one_by_one[name]]) for name in firsts]
+            of_all = of_each if len(set(of_each)) > 1 else of_each[:1]
+            cells[k] = said = ranged(firsts) if k == names[0] else ", ".join(of_all)
             room = min(0.1 * len(said), MOST_SHARE)
             columns[k] = replace(columns[k], share=max(columns[k].share, room))
         rows.append(replace(alike[0], cells=tuple(cells)))

@@ -16,18 +16,9 @@ from report.assessment.remedies import Remedy, RemedyKind
 from report.assessment.uncertainty import Uncertainty
 from report.assessment.verdict import Verdict
 from report.entities.cells import Column
-from report.entities.shown import (
-    Entity,
-    Number,
-    OfUnit,
-    RangeOfUnit,
-    Shown,
-    at,
-    length,
-    required,
-    words,
-)
+from report.entities.shown import Entity, Number, OfUnit, RangeOfUnit, Shown, at, length, words
 from report.sheet.schema.building import BuildingInput
+from report.words.units import no_less
 from solver.model import Status
 from solver.rules.provisions import AnalysisValue
 
@@ -102,7 +93,7 @@ class NeighborResult(Entity):
     gap_m: Annotated[float, length("In plan", 0.8), Column("Distance in plan [in]")]
     """Least distance in plan; negative if they overlap."""
     reach_m: Annotated[
-        Number, required("Twice displ.", 0.8), Column("Twice the design displacement [in]")
+        Number, length("Twice displ.", 0.8, no_less), Column("Twice the design displacement [in]")
     ]
     """Distance within which a clearance is needed."""
     is_missing: bool

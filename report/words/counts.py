@@ -59,7 +59,7 @@ def ids_by(items: Iterable[Any], key: Callable[[Any], _Key]) -> Mapping[_Key, li
 def ranged(names: Iterable[str]) -> str:
     """Return names, each once and sorted, three or more that count on as one: `A1 to A6, A9`."""
     runs: list[list[tuple[str, int, str]]] = []
-    for stem, number, name in sorted(set(map(_numbered, names))):
+    for stem, number, name in sorted(set(map(name_order, names))):
         if runs and runs[-1][-1][:2] == (stem, number - 1):
             runs[-1].append((stem, number, name))
         else:
@@ -68,7 +68,7 @@ def ranged(names: Iterable[str]) -> str:
     return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in own)
 
 
-def _numbered(name: str) -> tuple[str, int, str]:
+def name_order(name: str) -> tuple[str, int, str]:
     """Return what is before the number at the end of a name, the number, and the name."""
     stem = name.rstrip("0123456789")
     return stem, int(name[len(stem) :] or -2), name

@@ -29,11 +29,16 @@ def test_rows_that_differ_in_the_name_alone_are_one_where_the_first_is():
     assert cells == [("A1, A3 to A5", "3", "x"), ("A2", "4", "x")]
 
 
-def test_names_of_two_columns_are_listed_each_by_itself():
-    cells, _ = rows_of(
-        [("1", "3", "B"), ("2", "3", "A"), ("3", "3", "B"), ("4", "5", "A")], "Array", "Side"
-    )
-    assert cells == [("1 to 3", "3", "A, B"), ("4", "5", "A")]
+def test_names_of_a_second_column_follow_those_of_the_first():
+    rows = [("10", "3", "A"), ("2", "3", "A"), ("1", "3", "B"), ("3", "3", "B"), ("4", "5", "A")]
+    cells, _ = rows_of(rows, "Array", "Side")
+    assert cells == [("1 to 3, 10", "3", "B, A, B, A"), ("4", "5", "A")]
+
+
+def test_names_that_are_all_the_same_are_said_once_and_two_of_one_name_together():
+    rows = [("1", "3", "A"), ("2", "3", "A"), ("1", "4", "B"), ("1", "4", "A"), ("2", "4", "C")]
+    cells, _ = rows_of(rows, "Array", "Side")
+    assert cells == [("1, 2", "3", "A"), ("1, 2", "4", "B and A, C")]
 
 
 def test_a_row_of_another_style_remains_and_so_does_one_without_a_name():
