@@ -37,7 +37,7 @@ from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES, Array
 from report.words.counts import capitalized, lowered
-from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, number, pair
+from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, no_less, number, pair
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
@@ -360,8 +360,10 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
 def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
     """Yield the weight per plan area beside what the engineers of roof and wind state."""
     here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
+    units = Quantity.PRESSURE, data.us_first
     if capacity_pa is not None:
-        found, most = compared_pairs(here_pa, capacity_pa, Quantity.PRESSURE, data.us_first)
+        is_over = here_pa > capacity_pa * (1.0 + _NOISE)
+        found, most = compared_pairs(here_pa, capacity_pa, *units, up=is_over)
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
@@ -370,15 +372,13 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             found=found,
             limit=f"≤ {most}",
             basis="roof capacity",
-            is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
+            is_satisfied=not is_over,
             consequence=Consequence.NG,
             remedy="Reduce the weight, or have the roof's engineer state a larger capacity.",
             places=_places(data, array, "weight_n", "roof_capacity_pa"),
         )
     if wind_pa is not None:
-        found, here = (
-            pair(value, Quantity.PRESSURE, data.us_first) for value in (wind_pa, here_pa)
-        )
+        found, here = (pair(value, *units) for value in (wind_pa, here_pa))
         unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
         wind, weight = (round(value / unit.si, unit.decimals) for value in (wind_pa, here_pa))
         yield condition(
@@ -457,8 +457,10 @@ def pathway_rows(
         if gap.neighbor is Neighbor.LIKE:
             slides = [gap.design_m]
         left_m = row.provided_m - math.fsum(slides)
-        least, left = compared_pairs(row.pathway_m, left_m, Quantity.SIZE, data.us_first)
-        terms = " − ".join(pair(m, Quantity.SIZE, data.us_first) for m in (row.provided_m, *slides))
+        units = Quantity.SIZE, data.us_first
+        least, left = compared_pairs(row.pathway_m, left_m, *units, up=False)
+        slid = (pair(m, *units, no_less) for m in slides)
+        terms = " − ".join((pair(row.provided_m, *units), *slid))
         found = f"{terms} = {left}{gap.design_mark}"
         yield Requirement(
             id="fire_pathway",

@@ -30,12 +30,13 @@ def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
     at = {array.id: row for row, array in enumerate(data.arrays)}
     groups = [(group, _dimension_m(group)) for group in _undivided(data.arrays, lane_m)]
     largest_m = max((m for _, m in groups if m <= _MOST_M), default=0.0)
-    lane = pair(lane_m, Quantity.PLAN, data.us_first)
+    units = Quantity.PLAN, data.us_first
+    lane = pair(lane_m, *units)
     for group, dimension_m in groups:
         fits = dimension_m <= _MOST_M
         # Of arrays that only lack the section the same is said: they share a condition.
         shown_m = largest_m if fits and not section else dimension_m
-        found, limit = compared_pairs(shown_m, FIRE_LANE_M, Quantity.PLAN, data.us_first)
+        found, limit = compared_pairs(shown_m, FIRE_LANE_M, *units, up=not fits)
         if fits and not section:
             found = f"at most {found}"
         elif len(group) > 1:
@@ -44,9 +45,7 @@ def fire_lane_rows(data: ProjectInput) -> Iterator[Requirement]:
             yield condition(
                 id="fire_lanes",
                 title=f"Largest plan dimension between fire lanes of {lane}",
-                cause="section of the fire code not given"
-                if fits
-                else "too wide between fire lanes",
+                cause="fire code section not given" if fits else "too wide between fire lanes",
                 subject=array.id,
                 found=found if section else f"{found}; section {NOT_GIVEN}",
                 limit=f"≤ {limit}",

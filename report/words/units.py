@@ -158,14 +158,14 @@ def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show 
     return f"{first} ({second})"
 
 
-def beside(required_si: float, provided_si: float) -> Show:
-    """Return how a provided value prints beside a required one, which is rounded up.
+def beside(required_si: float, provided_si: float, *, up: bool = True) -> Show:
+    """Return how a provided value prints beside a required one, which is rounded, usually up.
 
     Rounded, unless that would show the other order: then up where it is enough, and else down.
     """
 
     def show(value_si: float, unit: Unit) -> str:
-        required = round_up(required_si / unit.si, unit.decimals)
+        required = (round_up if up else round)(required_si / unit.si, unit.decimals)
         provided = round(value_si / unit.si, unit.decimals)
         if required_si > provided_si:
             return (no_more if provided >= required else measured)(value_si, unit)
@@ -175,12 +175,13 @@ def beside(required_si: float, provided_si: float) -> Show:
 
 
 def compared_pairs(
-    required_si: float, provided_si: float, quantity: Quantity, us_first: bool
+    required_si: float, provided_si: float, quantity: Quantity, us_first: bool, *, up: bool = True
 ) -> tuple[str, str]:
-    """Return a required value, rounded up, and one provided `beside` it, in both systems."""
-    shows = ((required_si, no_less), (provided_si, beside(required_si, provided_si)))
-    required, provided = (pair(value, quantity, us_first, show) for value, show in shows)
-    return required, provided
+    """Return a required value, rounded up or as entered, and one `beside` it, in both systems."""
+    provided = provided_si, beside(required_si, provided_si, up=up)
+    shows = ((required_si, no_less if up else measured), provided)
+    first, second = (pair(value, quantity, us_first, show) for value, show in shows)
+    return first, second
 
 
 def ratio(value: float) -> str:
