@@ -78,7 +78,7 @@ class Margin:
     # smallest coefficient at which all runs satisfy; NaN if the one given does not
     minimum_mu: float
     required_m: float  # required separation at it, for this array alone [m]
-    limited_by: str  # what is not satisfied with 0.01 less; empty if that is not tried
+    limited_by: str  # what is not satisfied with 0.01 less, or that the search ends there
     lowest_tried: float  # where the search ends
 
     @property
@@ -210,10 +210,10 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
     """Walk down in the governing orientations; from the last value that all runs confirm in all."""
     row, array = gap.clearance, trials.array
     as_given = single_array_check(trials.given, trials.given.project, array, row)
-    least, required, limited_by, mu = math.nan, math.nan, "", array.array.mu
+    least, required, limited_by, mu = math.nan, math.nan, "—", array.array.mu
     lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
     if as_given.ok and is_final(array):
-        least, required = mu, as_given.required_m
+        least, required, limited_by = mu, as_given.required_m, "search"
         start = below(mu)
         held = (
             search(lambda k: trials.may_satisfy(row, mu=k), start, lowest)

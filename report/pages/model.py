@@ -58,12 +58,14 @@ def _limited(demand: float) -> str:
 
 
 def _stability_table(package: PackageData) -> Table:
+    has_vertical = any(motion.has_vertical for motion in package.assessment.shaking.motions)
+    none = "none" if has_vertical else "not checked"
     columns = (
         (words("Array", 0.8), lambda item: item.id),
         (plain("Min. N", unit="m g"), lambda item: item.uplift.n_min_g),
         (
             text("Uplift time", "s", 1.1),
-            lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else "none",
+            lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else none,
         ),
         (text("Demand", "V/N"), lambda item: _limited(item.tipping.demand)),
         (plain("Transmitted", unit="V/N", share=1.1), lambda item: item.tipping.transmitted),

@@ -86,10 +86,6 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
             return "none"
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
 
-    def limited_by(margin: Margin) -> str:
-        none = "—" if math.isnan(margin.minimum_mu) else "search"
-        return lowered(margin.limited_by) or none
-
     columns = (
         (words("No."), lambda margin: str(margin.number)),
         (words("Friction of"), lambda margin: margin.array.id),
@@ -101,7 +97,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
             lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
-        (words("Limited by", 1.8), limited_by),
+        (words("Limited by", 1.8), lambda margin: lowered(margin.limited_by)),
     )
     return listed(margins, columns, package.fmt, kind="compact")
 

@@ -91,7 +91,7 @@ def test_each_array_of_a_clearance_has_its_margin_and_an_unsatisfied_one_has_non
     assert math.isnan(found.margins[0].minimum_mu)
     assert math.isnan(found.margins[1].minimum_mu)
     assert found.margins[2].is_beyond
-    assert [one.limited_by for one in found.margins] == ["", "", ""]
+    assert [one.limited_by for one in found.margins] == ["—", "—", "search"]
     assert found.margins[2].minimum_mu == pytest.approx(0.23)  # half of 0.45, in whole hundredths
 
 

@@ -106,6 +106,25 @@ def test_a_stable_array_has_its_tipping_ratios():
         assert (row[2], row[8]) == ("none", "OK")
 
 
+@pytest.mark.parametrize(
+    ("n_vertical", "uplift_s", "text"),
+    [
+        (0, "not checked", "None of 3 motions have a vertical component: uplift is not checked"),
+        (2, "none", "2 of 3 motions have a vertical component: uplift is not checked for the"),
+        (3, "none", ""),
+    ],
+)
+def test_uplift_is_said_to_be_checked_only_under_motions_with_a_vertical(
+    n_vertical, uplift_s, text
+):
+    found = (*scenes.motions()[:n_vertical], *scenes.level()[n_vertical:])
+    page = printed(scene(found, arrays=[stand_in.array("A1", 0.5)]), "model")
+    assert page.table(CHECKS).row("A1")["Uplift time [s]"] == uplift_s
+    assert ("uplift is not checked" in page) is bool(text)
+    assert text in page
+    assert (": no uplift." in page) is (n_vertical > 0)
+
+
 def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     tall = stand_in.array("A1", 0.5, cg_height_m=0.9, support_spacing_m=0.5)
     package = scene(scenes.motions(3, 6.0), arrays=[tall])

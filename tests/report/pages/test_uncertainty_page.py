@@ -33,7 +33,9 @@ def test_a_required_separation_is_rounded_up_and_what_ends_the_search_is_named()
     package, found, _ = made()
     margins = tuple(
         replace(margin, minimum_mu=0.4, required_m=0.1004, limited_by=limited_by)
-        for margin, limited_by in zip(found.margins, ("clearance", "Friction", ""), strict=False)
+        for margin, limited_by in zip(
+            found.margins, ("clearance", "Friction", "search"), strict=False
+        )
     )
     page = printed(package, "how-sure", uncertainty=replace(found, margins=margins))
     rows = page.table("Least friction").rows

@@ -168,7 +168,11 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
     )
     assert said in json.loads(made["fragility.json"])["BSA.S1"]["Comments"]
     assert said in defusedxml.ElementTree.fromstring(made["fragility.xml"])[0][0].text
-    table = printed.study(found).table("Dispersions")
+    page = printed.study(found)
+    assert "the dispersions β of the fits do not contain how much the spectra" in page
+    assert "contains the record-to-record dispersion that is entered" in page
+    assert "the dispersions β do not contain" in printed.study(with_state(results, MATCHED))
+    table = page.table("Dispersions")
     assert table.title.endswith(
         ". Not included: quality of data (not given), friction (mat A has no tests) and slope (no "
         "tolerance is given)"
