@@ -28,7 +28,7 @@ velocity-dependent friction."""
 @click.command()
 @click.argument("record")
 @click.option("--slope-deg", required=True,
-              type=Number("deg", -90.0, 90.0, is_open=True), help="Roof slope; positive if "
+              type=Number("deg", -45.0, 45.0, is_open=True), help="Roof slope; positive if "
               "positive acceleration points downslope.")  # fmt: skip
 @click.option("--mu", type=Number(low=0.0), required=True, help="Friction coefficient.")
 @click.option("--transverse", metavar="RECORD", help="Second horizontal record, acting "
@@ -63,6 +63,10 @@ def slide(
     """
     if ppa_g is not None and factor is not None:
         raise click.UsageError("give --ppa-g or --factor, not both")
+    from solver.friction_tests import MOST_MU
+
+    if mu > MOST_MU:
+        raise click.BadParameter(f"it is {mu:g}; give 0 to {MOST_MU:g}.", param_hint="'--mu'")
     step_s = math.nan if dt is None else dt
     with input_errors(Path(record)):
         records = _read((record, transverse, vertical), units or "", step_s)
@@ -84,6 +88,7 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
     """Read the horizontal, transverse and vertical records; report the errors of all at once."""
     from solver.formats import read_record
     from solver.model import InputError
+    from solver.records.record import has_gravity
 
     problems: list[str] = []
     records: list[Record | None] = []
@@ -97,7 +102,13 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
             records[-1] = read_record(path, units=units, dt_s=dt_s, channel=channel.strip())
         except InputError as error:
             problems += error.problems
-    problems += _mismatches([record for record in records if record is not None])
+    given = [record for record in records if record is not None]
+    problems += [
+        f"{record.name}: has a mean of about 1 g: gravity is in it; subtract the mean"
+        for record in given
+        if has_gravity(record.a_mps2)
+    ]
+    problems += _mismatches(given)
     if problems:
         raise InputError(problems)
     return records

@@ -25,7 +25,7 @@ from report.words.units import G_MPS2
 from solver.formats import read_motion_file
 from solver.model import InputError
 from solver.records.processing import Processing, process, process_together
-from solver.records.record import Record
+from solver.records.record import Record, has_gravity
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -165,7 +165,13 @@ def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
             f"horizontal record lasts {duration_s:.4g} s as run ({len(horizontal.a_mps2)} samples)"
         )
         yield Finding.error(place, text, f"give a record of {SHORTEST_S:g} s or more")
-    elif not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
+    for field, record in records.items():
+        if has_gravity(record.a_mps2):
+            mean_g = float(record.a_mps2.mean()) / G_MPS2
+            text = f"{LABELS[field]} record has a mean of {mean_g:.3g} g: gravity is in it"
+            wanted = "give it without, or remove the mean by the column Baseline"
+            yield Finding.error(Place("motions", index, field), text, wanted)
+    if not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
         which = "and transverse records are" if "transverse" in records else "record is"
         yield Finding.error(place, f"horizontal {which} all zeros", "give a record of the shaking")
 

@@ -30,6 +30,13 @@ _NOT_ACCELERATIONS = re.compile(
 )
 _ACCELERATION = re.compile(r"(?<![a-z])acc", re.IGNORECASE)
 
+_ABSCISSAS = re.compile(
+    r"(?:freq|frequency|frequencies|periods?|tn)(?![a-z])|.*\bhz\b", re.IGNORECASE
+)
+_SPECTRAL = re.compile(
+    r"(?<![a-z])(?:p?s_?[avd]|p?r?s_?acc|spectr(?:al|um)|pseudo|response)(?![a-z])", re.IGNORECASE
+)
+
 _BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
 _IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
 _WORD = re.compile(r"[^\s\[(]+(?:\s?[\[(][^\])]*[\])])?")
@@ -113,6 +120,15 @@ def settled(headings: list[Heading]) -> list[Heading]:
 def words(line: str, separator: str | None) -> list[str]:
     """Headings in a line: between separators, or words, each with the bracket that follows it."""
     return _WORD.findall(line) if separator is None else line.split(separator)
+
+
+def of_a_spectrum(headings: list[Heading]) -> list[str]:
+    """Return the headings by which a table is a spectrum: no time, or ordinates alone."""
+    first, *others = headings
+    spectral = [each.text for each in others if _SPECTRAL.search(each.name)]
+    if _ABSCISSAS.match(first.text):
+        return [first.text, *spectral]
+    return spectral if spectral and len(spectral) == len(others) else []
 
 
 def remark(line: str, separator: str | None, width: int) -> list[Heading]:

@@ -71,6 +71,11 @@ def read(source: Source) -> MotionFile:
     table = _table(source)
     _check_count(source, table)
     _check_last(source, table)
+    if table.headings and (named := headings.of_a_spectrum(table.headings)):
+        raise InputError(
+            f"{source.at(table.heading_index)}: found {', '.join(map(shown, named))}: this is a"
+            " spectrum, no record; give accelerations by time"
+        )
     timed = _has_times(source, table)
     columns = range(int(timed), table.values.shape[1])
     others = [i for i, one in enumerate(table.headings) if one.kind is Kind.OTHER]

@@ -185,6 +185,11 @@ def _off(values: Floats, decimals: int) -> float:
     return float(np.abs(values - np.round(values, decimals)).max())
 
 
+def has_gravity(a_mps2: Floats) -> bool:
+    """Whether the mean of a component is about 1 g: its instrument measured gravity, too."""
+    return bool(0.8 < abs(float(np.mean(a_mps2))) / UNITS["g"] < 1.2)
+
+
 def read_only(values: ArrayLike) -> Floats:
     """Return the values as a read-only contiguous array of doubles."""
     # numba compiles a second version for writable arrays, so kernels get read-only arrays only.

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
-from solver.records.record import Record, read_only
+from solver.records.record import Record, has_gravity, read_only
 from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
 from solver.sliding import two_axes
 
@@ -65,6 +65,10 @@ def checked_scene(
     run = Scene(ax_mps2=ax, ay_mps2=ay, az_mps2=az, friction=friction, **numbers)
     if faults := overflow(run):
         raise InputError(faults)
+    if az.size and has_gravity(az):
+        raise InputError(
+            f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
+        )
     return run
 
 

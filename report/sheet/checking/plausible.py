@@ -13,7 +13,7 @@ from report.sheet.checking.findings import note, warning
 from report.sheet.checking.site_checks import ROUNDING_OF_COEFFICIENTS
 from report.sheet.checking.usual import spoken, unusual
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Direction
+from report.sheet.schema.choices import Direction, SlopeUnit
 from report.sheet.schema.fields import Finding, Level, Place
 from report.sheet.schema.project import Site
 from report.sheet.schema.scene import Array, Clearance
@@ -29,6 +29,10 @@ LEAST_PRESSURE_PA, MOST_PRESSURE_PA = 1.0 * PRESSURES["psf"], 30.0 * PRESSURES["
 
 SAME_WEIGHT = 0.01
 """Difference of the weight from that of its parts / that of its parts which is rounding."""
+
+MOST_FRACTION = 0.12
+"""Slope [%] below which it is more probably a fraction: roofs with less than 1/8 % are not built.
+"""
 
 MOST_ASKEW_DEG = 60.0
 """Largest angle between the direction of a clearance and the gap of the plan [deg]: a corner may
@@ -63,6 +67,7 @@ def _contradictory(data: ProjectInput) -> Iterator[Finding]:
     yield from _height(data, us_first)
     yield from _site_coefficients(data.site)
     for index, array in enumerate(data.arrays):
+        yield from _slope(index, array)
         yield from _weight(index, array, us_first)
         yield from _friction(index, array)
     yield from _overrides(data)
@@ -139,6 +144,14 @@ def _site_coefficients(site: Site) -> Iterator[Finding]:
             f" {mapped_g:g} g"
         )
         yield note(Place("site", 0, field), text)
+
+
+def _slope(index: int, array: Array) -> Iterator[Finding]:
+    """A slope of 2 % pasted as a number is 0.02."""
+    if array.slope_unit is SlopeUnit.PERCENT and 0.0 < array.slope_value < MOST_FRACTION:
+        value, meant = array.slope_value, 100.0 * array.slope_value
+        text = f"slope is {value:g} percent; {meant:g} %? Correct the slope, or acknowledge it"
+        yield warning(f"slope {array.id}", Place("arrays", index, "slope_value"), text)
 
 
 def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:

@@ -30,6 +30,8 @@ CASES = [
     ("arrays", 0, {"slope_value": 25.0, "mu": 0.46}, "friction A1",
      "friction coefficient is 0.46, not more than the tangent of the slope, 0.466: the array slides"
      " under its own weight; correct one of them"),
+    ("arrays", 0, {"slope_value": 0.02, "slope_unit": "percent"}, "slope A1",
+     "slope is 0.02 percent; 2 %? Correct the slope, or acknowledge it"),
     ("site", None, {"roof_height_m": 37 * FT}, "height z",
      "height of the array z is 37.00 ft (11.28 m), above the structure height h of 36.00 ft (10.97"
      " m); correct one of them"),

@@ -440,6 +440,10 @@ FAULTS = [
      f"{SHORT} 0.01 s as run (2 samples); give a record of 1 s or more"),
     ({"still": "0.1\n-0.1\n" * 50}, STILL,
      f"{SHORT} 0.99 s as run (100 samples); give a record of 1 s or more"),
+    # Most of the weight was gone, or the block was pushed downslope by 1 g.
+    ({"still": "1.1\n0.9\n" * 100}, STILL,
+     "<Motions/M2/Horizontal record>: horizontal record has a mean of 1 g: gravity is in it; give"
+     " it without, or remove the mean by the column Baseline"),
 ]  # fmt: skip
 
 

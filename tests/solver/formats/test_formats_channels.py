@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from refused import refused
+from solver.formats import read_motion_file
 from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
 from solver.formats.motionfile import distinct
 from solver.formats.source import Source
@@ -103,3 +104,36 @@ def test_an_offset_is_told_from_one_hundredth_of_the_peak_on():
     assert offset_notes(np.array([0.1 * G, -0.05 * G])) == (
         "uncorrected: the mean is 0.025 g, 25 % of the peak; it is not removed",
     )
+
+
+def shaken(code, at=(20,), unit="g", peak=0.3):
+    size = {"g": 1.0, "cm/s2": 981.0, "m/s2": 9.81}[unit]
+    values = [f"{peak * size * math.sin(0.3 * k) * math.exp(-0.01 * k):.6f}" for k in range(300)]
+    for index in at:
+        values[index] = code
+    return "\n".join(values) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "unit", "at"),
+    [
+        ("-999", "g", (20,)), ("-999.0", "g", (20, 21, 22)), ("9999", "cm/s2", (0,)),
+        ("-9999.00", "cm/s2", (299,)), ("99999", "cm/s2", (7,)), ("999.99", "m/s2", (7, 90)),
+    ],
+)  # fmt: skip
+def test_a_code_for_missing_data_is_no_sample(tmp_path, code, unit, at):
+    path = tmp_path / "a.txt"
+    path.write_text(shaken(code, at, unit))
+    (problem,) = refused(read_motion_file, path, units=unit, dt_s=0.01)
+    shown = "99999" if code == "999.99" else f"{float(code):g}"  # the file may be of cm/s2
+    assert f"a.txt: sample {at[0] + 1} is {shown} where no other exceeds" in problem
+    assert "code for missing data" in problem
+
+
+@pytest.mark.parametrize(
+    ("code", "unit", "peak"), [("-999", "cm/s2", 0.9), ("9.99", "m/s2", 0.9), ("1.5", "g", 0.3)]
+)
+def test_a_large_sample_that_shaking_may_have_is_one(tmp_path, code, unit, peak):
+    path = tmp_path / "a.txt"
+    path.write_text(shaken(code, unit=unit, peak=peak))
+    assert read_motion_file(path, units=unit, dt_s=0.01).channels

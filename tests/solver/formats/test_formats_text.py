@@ -245,3 +245,36 @@ def test_many_faults_are_cut_short_and_counted(file):
 def test_countless_faults_are_not_counted_to_the_end(file):
     problems = problems_of(file("0.1\n" + "x\n" * 12_000), dt_s=0.1)
     assert problems[10:] == ("... and more than 10000 more",)
+
+
+@pytest.mark.parametrize(
+    ("head", "named"),
+    [
+        ("Frequency (Hz),Sa (g)", "'Frequency (Hz)', 'Sa (g)'"),
+        ("Period (s),PSA (g)", "'Period (s)', 'PSA (g)'"),
+        ("period_s;acc_g", "'period_s'"),
+        ("Freq. [Hz]\tAmplitude", "'Freq. [Hz]'"),
+        ("T (s),Sa (g)", "'Sa (g)'"),
+        ("T,PSA_g,PSV", "'PSA_g', 'PSV'"),
+        ("Tn,spectral acceleration (g)", "'Tn', 'spectral acceleration (g)'"),
+        ("f (Hz),acceleration (g)", "'f (Hz)'"),
+    ],
+)
+def test_a_spectrum_is_no_record(tmp_path, head, named):
+    path = tmp_path / "a.csv"
+    separator = next((mark for mark in ",;\t" if mark in head), ",")
+    width = head.count(separator) + 1
+    rows = [separator.join([f"{0.1 * k:.1f}", *["0.3"] * (width - 1)]) for k in range(1, 40)]
+    path.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+    wanted = f"a.csv:1: found {named}: this is a spectrum, no record; give accelerations by time"
+    assert problems_of(path) == (wanted,)
+
+
+@pytest.mark.parametrize(
+    "head",
+    ["Time (s),EW (g),NS (g)", "t,Sensor 1,Sensor 2", "T (s),SA-X (g),UD (g)", "t_s,a_g,b_g"],
+)
+def test_a_record_is_no_spectrum(tmp_path, head):
+    path = tmp_path / "a.csv"
+    path.write_text(head + "\n0,0.1,0.2\n0.01,0.2,0.3\n0.02,0.1,0.1\n", encoding="utf-8")
+    assert read_motion_file(path, units="g").channels
