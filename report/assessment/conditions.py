@@ -345,7 +345,6 @@ def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Requirement
         yield condition(
             id="drawing_distances",
             title="Clear distances from the drawing",
-            cause="clear distances from the drawing not confirmed",
             subject=array.id,
             found=state,
             limit="measured, or confirmed by name and date",
@@ -487,7 +486,6 @@ def less_friction_rows(
         if array.is_permitted and not less.is_permitted:
             yield row(
                 title=f"The {array.route} route with {friction}",
-                cause=f"the {array.route} route not permitted with {friction}",
                 subject=array.id,
                 found="not permitted",
                 limit="permitted",
@@ -497,7 +495,6 @@ def less_friction_rows(
         if gap.verdict.is_permitted and not short.verdict.is_permitted:
             yield row(
                 title=f"Clearance {gap.clearance.array} to {gap.clearance.object} with {friction}",
-                cause=f"clearance to {gap.clearance.object} not satisfied with {friction}",
                 subject=gap.clearance.array,
                 found="not satisfied",
                 limit="satisfied",

@@ -48,7 +48,7 @@ def _on_file(data: ProjectInput) -> Requirement:
     )
     attached = "; attached" if tests.report_file else ""
     return _row(
-        title="Friction test report on file",
+        title=f"Friction test report {'on file' if tests.report_file else 'stated'}",
         **{**said, "found": said["found"] + attached},
         limit="laboratory, report number, date",
         remedy="Obtain the friction test report and complete the sheet Friction tests.",

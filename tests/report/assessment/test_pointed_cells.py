@@ -78,7 +78,7 @@ CASES = {
     ),
     "date of the friction report": (
         {"friction_tests": TESTS | {"date": None}},
-        "friction test report on file",
+        "friction test report stated",
         [("friction_tests", 0, "date")],
     ),
     "no runs": ({}, "wet and dry, three runs", [("friction_runs", 0, "")]),

@@ -19,7 +19,7 @@ from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
 
 AT = "at 1.00 in/s (25.4 mm/s)"
-ON_FILE = "Friction test report on file"
+ON_FILE = "Friction test report stated"
 STANDARD = "Tested to ASTM G115"
 REPEATS = "Wet and dry, three runs at each velocity"
 VELOCITIES = (0.0025, 0.0254, 0.0508, 0.1016)
@@ -170,3 +170,11 @@ def test_a_weight_from_modules_and_ballast_is_said_with_its_parts():
     assert text.endswith(
         f"and of ballast: A1 {one}; A2 {one} = 42000 lb (186.83 kN) (entered as above)."
     )
+
+
+@pytest.mark.parametrize(("file", "is_on_file"), [("", False), ("ft-118.pdf", True)])
+def test_a_friction_report_is_on_file_only_where_it_is_attached(file, is_on_file):
+    found = row(ON_FILE.replace("stated", "on file") if file else ON_FILE,
+                friction_tests=REPORT | {"report_file": file})  # fmt: skip
+    assert found.is_satisfied
+    assert found.found.endswith("; attached") is is_on_file
