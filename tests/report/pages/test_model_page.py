@@ -109,7 +109,7 @@ def test_a_stable_array_has_its_tipping_ratios():
 @pytest.mark.parametrize(
     ("n_vertical", "uplift_s", "text"),
     [
-        (0, "not checked", "None of 3 motions have a vertical component: uplift is not checked"),
+        (0, "not checked", "No motion has a vertical component: uplift is not checked"),
         (2, "none", "2 of 3 motions have a vertical component: uplift is not checked for the"),
         (3, "none", ""),
     ],
