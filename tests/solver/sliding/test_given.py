@@ -112,7 +112,7 @@ class TestWords:
         both = solver.slide(x, ay_mps2=y, az_mps2=z, **SCENE)
         assert f"{1e3 * both.residual_across_m:+.1f} mm cross-slope at the end" in repr(both)
         assert repr(solver.slide(x, slope_rad=0.0, mu=9.0)) == "SlideResult: no slip"
-        lifted = solver.slide([0.0, 0.0], 0.1, az_mps2=[0.0, -20.0], **SCENE)
+        lifted = solver.slide([0.0] * 4, 0.1, az_mps2=[0.0, 0.0, 0.0, -20.0], **SCENE)
         assert repr(lifted) == f"SlideResult: {Status.UPLIFT.sentence}"
 
     def test_a_solution_is_three_lines(self, components):
