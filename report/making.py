@@ -62,6 +62,7 @@ def make(
     worker.submit(load)  # before the imports below, so that both processes import at once
     from report.assessment.project import assess
     from report.results.publish import publish
+    from solver.kernels.compiler import is_compiled
 
     progress(Step("reading the workbook"))
     request = read(source, out, since)
@@ -69,7 +70,8 @@ def make(
     if on_record and _record(request.sheet, prepared.shaking, on_record):
         request = read(source, out, since)
         prepared = prepare(request)
-    progress(Step("running the motions", prepared.cost, "the first run compiles the solver"))
+    hint = "" if is_compiled() else "the first run compiles the solver"
+    progress(Step("running the motions", prepared.cost, hint))
     assessment = assess(request.sheet, prepared.shaking)
     if request.since:
         from report.results.compare import with_reissue

@@ -60,6 +60,54 @@ exit STATUS
 """
 
 
+def launcher(tmp_path, name="copy", stamp=""):
+    """A copy of the launcher with tools that only note how they are called."""
+    folder = tmp_path / name
+    bin_ = folder / ".venv" / "bin"
+    bin_.mkdir(parents=True)
+    for file in ("roofslip", "pyproject.toml", "requirements.lock"):
+        shutil.copy(ROOT / file, folder)
+    for tool in ("uv", "python"):
+        (bin_ / tool).write_text(NOTING)
+        (bin_ / tool).chmod(0o755)
+    (folder / ".venv" / ".set-up-from").write_text(stamp)
+    return folder
+
+
+NOTING = """#!/bin/sh
+echo "$(basename -- "$0") $*" >>"$(dirname -- "$0")/seen"
+"""
+
+
+def calls_of(folder, program):
+    path = f"{folder / '.venv' / 'bin'}:{os.environ['PATH']}"
+    subprocess.run([program, "check", "x"], env={"PATH": path}, capture_output=True, check=True)
+    return (folder / ".venv" / "bin" / "seen").read_text().splitlines()
+
+
+def test_the_launcher_follows_its_own_link(tmp_path):
+    folder = launcher(tmp_path)
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "one").symlink_to("two")
+    (tmp_path / "bin" / "two").symlink_to("../copy/roofslip")
+    assert calls_of(folder, tmp_path / "bin" / "one")[-1] == (
+        f"python -P {folder}/.venv/bin/roofslip check x"
+    )
+
+
+def test_an_environment_that_was_copied_is_made_anew_where_it_is(tmp_path):
+    folder = launcher(tmp_path)
+    first = calls_of(folder, folder / "roofslip")
+    assert any(call.startswith("uv venv --quiet --clear") for call in first)
+    assert calls_of(folder, folder / "roofslip")[len(first) :] == [
+        f"python -P {folder}/.venv/bin/roofslip check x"
+    ]
+    other = launcher(tmp_path, "other", stamp=(folder / ".venv" / ".set-up-from").read_text())
+    calls = calls_of(other, other / "roofslip")
+    assert any(call.startswith("uv venv --quiet --clear") for call in calls)
+    assert any(call.endswith(f"-e {other}") for call in calls)
+
+
 def test_the_launcher_takes_nothing_from_where_it_is_called(tmp_path):
     """Tools of the set-up take modules and settings of the current folder, and so does a path."""
     here, bin_ = tmp_path / "here", tmp_path / ".venv" / "bin"

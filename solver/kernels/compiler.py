@@ -7,8 +7,11 @@ compiles for itself, half a minute for a report, and nothing else is different.
 from __future__ import annotations
 
 import os
+import pickle
+import pickletools
 import warnings
 from importlib.metadata import version
+from pathlib import Path
 from tempfile import TemporaryFile
 
 from numba import config, njit
@@ -44,6 +47,20 @@ Two axes compile in 0.85 of the time: the entries are compiled again with each c
 """
 
 
+def _is_damaged(path: Path) -> bool:
+    """Whether compiled code is empty or cut, as a stopped process or a full disk may leave it."""
+    with path.open("rb") as file:
+        try:
+            if path.suffix == ".nbc":  # large, and without its end where it is cut
+                file.seek(-1, os.SEEK_END)
+                return file.read() != pickle.STOP
+            for _ in range(2):  # the version of numba, and what was compiled
+                list(pickletools.genops(file))
+        except (OSError, ValueError):
+            return True
+    return False
+
+
 def _nothing() -> None:
     pass
 
@@ -54,6 +71,9 @@ def _is_kept() -> bool:
         return False
     try:
         folder = njit(cache=True)(_nothing).stats.cache_path
+        assert folder is not None  # it raises without one
+        for path in filter(_is_damaged, Path(folder).glob("*.nb[ci]")):
+            path.unlink()
         with TemporaryFile(dir=folder) as file:
             if hasattr(os, "posix_fallocate"):  # of POSIX alone
                 os.posix_fallocate(file.fileno(), 0, ROOM)
@@ -65,6 +85,12 @@ def _is_kept() -> bool:
         return True
     warnings.warn(NOT_KEPT.format(reason=reason), stacklevel=1)
     return False
+
+
+def is_compiled() -> bool:
+    """Whether compiled kernels are kept, so that none or few are to be compiled."""
+    folder = njit(cache=True)(_nothing).stats.cache_path if KEPT else None
+    return folder is not None and any(Path(folder).glob("*.nbi"))
 
 
 KEPT = _is_kept()

@@ -64,6 +64,20 @@ def test_an_edited_kernel_is_compiled_again(copied):
     assert run() == 2.0
 
 
+@pytest.mark.parametrize("kept", [0.0, 0.3, 0.5, 0.999])
+@pytest.mark.parametrize("suffix", ["nbi", "nbc"])
+def test_compiled_code_that_is_empty_or_cut_is_compiled_again(copied, suffix, kept):
+    folder, run = copied
+    assert run() == 1.0
+    files = list(folder.glob(f"__pycache__/*.{suffix}"))
+    assert files
+    for path in files:
+        path.write_bytes(path.read_bytes()[: int(kept * path.stat().st_size)])
+    damaged = {path: path.read_bytes() for path in files}
+    assert (run(), run()) == (1.0, 1.0)
+    assert all(path.read_bytes() != damaged[path] for path in files)
+
+
 def test_an_install_that_cannot_be_written_keeps_its_cache_elsewhere(copied, tmp_path):
     folder, run = copied
     (folder / "__pycache__").write_text(NO_FOLDER)
