@@ -11,12 +11,13 @@ import re
 import stat
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
+from tempfile import TemporaryFile
 
 from pydantic_core import from_json
 
-from solver.files import check_plain, locked, write_all
+from solver.files import add_folder, check_plain, locked, write_all
 from solver.model import InputError
 
 STAMP = "roofslip.sha256"
@@ -139,4 +140,11 @@ def output_folder(out: Path | None, home: Path, usual: str, names: Iterable[str]
         raise InputError(f"{existing}: no permission to write; choose another folder")
     for name in names:
         check_plain(folder / name, folder)
+    try:
+        with ExitStack() as undo:
+            add_folder(folder, undo)
+            TemporaryFile(dir=folder).close()
+    except OSError as error:
+        reason = f"cannot be written ({error.strerror}); choose another folder with --out"
+        raise InputError(f"{folder}: {reason}") from error
     return folder

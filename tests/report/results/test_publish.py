@@ -13,6 +13,7 @@ import sys
 import time
 import warnings
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
@@ -262,6 +263,14 @@ def test_a_usual_folder_is_refused_where_it_is_a_link_and_one_that_is_given_is_n
     (tmp_path / "out" / "b.txt").symlink_to(tmp_path)
     with pytest.raises(InputError, match=r"out/b.txt: is a link"):
         output_folder(tmp_path / "out", tmp_path, "out", ["a.txt", "b.txt"])
+
+
+def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(tmp_path):
+    there = Path("/proc/self/of-roofslip")  # no permission denies it, and no folder can be made
+    with pytest.raises(InputError, match=f"{there}: cannot be written .*another folder with --out"):
+        output_folder(there, tmp_path, "out")
+    assert output_folder(tmp_path / "a" / "b", tmp_path, "out") == tmp_path / "a" / "b"
+    assert not (tmp_path / "a").exists()
 
 
 def test_two_runs_at_once_never_mix_their_sets(tmp_path):
