@@ -3,6 +3,7 @@
 The reader of the stamp here is independent: hashlib, and the format of sha256sum.
 """
 
+import errno
 import hashlib
 import os
 import random
@@ -13,10 +14,10 @@ import sys
 import time
 import warnings
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 
+import report.results.publish
 from places import ROOT
 from report.results.publish import (
     STAMP,
@@ -265,11 +266,16 @@ def test_a_usual_folder_is_refused_where_it_is_a_link_and_one_that_is_given_is_n
         output_folder(tmp_path / "out", tmp_path, "out", ["a.txt", "b.txt"])
 
 
-def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(tmp_path):
-    there = Path("/proc/self/of-roofslip")  # no permission denies it, and no folder can be made
-    with pytest.raises(InputError, match=f"{there}: cannot be written .*another folder with --out"):
-        output_folder(there, tmp_path, "out")
+def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(tmp_path, monkeypatch):
     assert output_folder(tmp_path / "a" / "b", tmp_path, "out") == tmp_path / "a" / "b"
+    assert not (tmp_path / "a").exists()
+
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(report.results.publish, "TemporaryFile", full)
+    with pytest.raises(InputError, match=r"a: cannot be written .*another folder with --out"):
+        output_folder(tmp_path / "a", tmp_path, "out")
     assert not (tmp_path / "a").exists()
 
 
