@@ -79,7 +79,7 @@ def read(
     """
     from report.drawing.fill import changes
     from report.drawing.matched import matched
-    from report.drawing.plan_read import plan_of
+    from report.drawing.plan_read import check_size, plan_of
     from report.sheet.reading.read import read_book
     from report.sheet.writing.filled import changing, withdrawn
     from report.words.units import LENGTHS
@@ -99,6 +99,7 @@ def read(
             unread = list(_unread(found)) or ["the drawing has no closed lines"]
             raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
         with input_errors(drawing):
+            check_size(found, unit_m)
             told = matched(found, draft)
         change.fill(changes(change.book, told, layers, replace=replace))
         try:

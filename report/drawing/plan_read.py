@@ -27,7 +27,8 @@ from report.sheet.schema.shapes import (
     sides,
     solid,
 )
-from report.words.units import Quantity, pair
+from report.words.units import LENGTHS, Quantity, pair
+from solver.model import InputError
 
 LAYERS: Mapping[str, LayerKind] = {layer.title: LayerKind.NOT_READ for layer in Layer} | {
     Layer.OUTLINE.title: LayerKind.ROOF,
@@ -43,6 +44,11 @@ MAX_NAME = 40
 LEAST_AREA_M2 = 1e-3
 ROUNDED_M = 1e-5
 """Sides within this of an axis [m] are parallel to it; vertices within this of a line are on it."""
+
+TWICE_M = 0.005
+"""Largest distance [m] between two outlines that are one drawn twice."""
+ROOF_M, ARRAY_M = (3.0, 3_000.0), (0.9, 1_000.0)
+"""Least and largest length [m] of a roof, and of the largest array."""
 
 _STEMS = {LayerKind.ARRAY: "A", LayerKind.FIXED: "OBJ-", LayerKind.UNLIKE_ARRAY: "PV-"}
 
@@ -134,7 +140,7 @@ def plan_of(
     unread += [_unread(line, reason) for line in others]
     for array, kind in arrays:
         take(array, kind, 1.0)
-    places = _named(known, drawing.texts, unit_m, unread)
+    places = _named(_once(known, unread), drawing.texts, unit_m, unread)
     roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
     for extra in roofs[1:]:
         unread.append(Unread(handle=extra.handle, layer=extra.layer, reason="a second roof"))
@@ -148,6 +154,40 @@ def plan_of(
         objects=tuple(objects),
         unread=tuple(unread),
     )
+
+
+def _once(known: Sequence[Known], unread: list[Unread]) -> list[Known]:
+    """Return places without those that are drawn over an equal one of their kind."""
+    import shapely
+
+    solids = [solid(shape) for *_, shape in known]
+    twins: set[int] = set()
+    near = shapely.STRtree(solids).query(solids, predicate="intersects").T if solids else ()
+    for first, second in near:
+        is_equal = known[first][1] is known[second][1] and first < second
+        if is_equal and solids[first].hausdorff_distance(solids[second]) <= TWICE_M:
+            twins.add(second)
+    unread += [_unread(known[k][0], "drawn twice, counted once") for k in sorted(twins)]
+    return [one for k, one in enumerate(known) if k not in twins]
+
+
+def check_size(plan: RoofPlan, unit_m: float) -> None:
+    """Refuse a roof, or without one arrays, of a size that none has: the unit is another one.
+
+    Raises
+    ------
+    InputError
+        With the units that would do.
+    """
+    places = plan.roof or plan.arrays
+    boxes = [place.shape.bounds for place in places]
+    long_m = max((max(b.x_to_m - b.x_from_m, b.y_to_m - b.y_from_m) for b in boxes), default=0.0)
+    low_m, high_m = ROOF_M if plan.roof else ARRAY_M
+    if places and not low_m <= long_m <= high_m:
+        units = [u for u, m in LENGTHS.items() if low_m <= long_m * m / unit_m <= high_m]
+        what = "the roof is" if plan.roof else "the largest array is"
+        text = f"{what} {pair(long_m, Quantity.PLAN)} long, which none is"
+        raise InputError(f"{text}; give --units with that of the drawing, {' or '.join(units)}")
 
 
 def known_layers(layers: Mapping[str, LayerKind]) -> dict[str, LayerKind]:

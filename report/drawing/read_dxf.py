@@ -163,7 +163,12 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     if geodata and not (north := geodata.dxf.north_direction.vec2).is_null:
         north_deg = north.angle_deg % 360.0
     drawing = RoofDrawing(unit, north_deg=north_deg)
-    reader = _Reader(drawing, unit_m or LENGTHS.get(unit, 1.0))
+    hidden = {
+        layer.dxf.name.casefold(): "frozen" if layer.is_frozen() else "off"
+        for layer in document.layers
+        if layer.is_frozen() or layer.is_off()
+    }
+    reader = _Reader(drawing, unit_m or LENGTHS.get(unit, 1.0), hidden)
     for entity in document.modelspace():
         reader.take(entity, _Block())
     reader.take_joined()
@@ -248,6 +253,7 @@ class _Reader:
 
     drawing: RoofDrawing
     unit_m: float
+    hidden: Mapping[str, str]  # layers that are not shown, and why
     # by their blocks and layers
     opened: dict[tuple[int, str], list[Drawn]] = field(default_factory=lambda: defaultdict(list))
     entities: int = 0
@@ -263,8 +269,14 @@ class _Reader:
         handle = str(entity.dxf.get("handle") or block.handle)
         if kind != "INSERT":
             self.drawing.counts[layer, kind] += 1
+        hidden = self.hidden.get(layer.casefold(), "")
         try:
-            if kind == "INSERT":
+            if entity.dxf.get("invisible", 0):
+                reason = "invisible"
+            # What a block has on layers of its own is shown where that of the block is off.
+            elif hidden and not (kind == "INSERT" and hidden == "off"):
+                reason = f"on a layer that is {hidden}"
+            elif kind == "INSERT":
                 reason = self._take_insert(entity, layer, handle, block.depth + 1)
             elif kind in _TEXTS:
                 reason = self._take_text(entity, layer, kind)
@@ -326,10 +338,16 @@ class _Reader:
 
     def _take_insert(self, insert: Any, layer: str, handle: str, depth: int) -> str:
         """Add what a block shows, or return why it shows nothing."""
-        if insert.block() is None:
-            return f"a block that the drawing does not have: '{_printable(insert.dxf.name)}'"
+        from ezdxf.xclip import XClip
+
+        block_of, shown = insert.block(), f"'{_printable(insert.dxf.name)}'"
+        if block_of is None:
+            return f"a block that the drawing does not have: {shown}"
+        if block_of.block.is_xref or block_of.block.is_xref_overlay:
+            return f"an external reference, to be bound in CAD: {shown}"
+        if insert.dxf.get("zscale", 1.0) == 0.0:
+            insert.dxf.zscale = 1.0  # a plan has no use of it
         if depth > MAX_DEPTH:
-            shown = _printable(insert.dxf.name)
             raise InputError(f"block {shown}: nested more than {MAX_DEPTH} deep; explode it")
         name, heights = _attributes(insert)
         count = _count(insert)
@@ -343,6 +361,8 @@ class _Reader:
                 if entity.dxf.get("layer", "0") == "0":
                     entity.dxf.layer = layer
                 self.take(entity, block)
+        if XClip(insert).is_clipping_enabled:
+            return f"a block that is clipped, of which all is read: {shown}"
         return ""
 
     def _take_text(self, entity: Any, layer: str, kind: str) -> str:
