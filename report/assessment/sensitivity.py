@@ -100,13 +100,15 @@ def rivals(array: ArrayAssessment) -> Rivals:
     """Run the governing motion of an array by every method."""
     motion = array.worst
     scene = _scene(motion)
-    exact = slide(**scene)
+    exact = slide(**scene, units="m/s2")
     peak = exact.prd_m
     return Rivals(
         array=array,
         motion=motion,
         exact=exact,
-        doubled=abs(slide(**_doubled(scene)).prd_m / peak - 1.0) if peak > 0.0 else math.nan,
+        doubled=abs(slide(**_doubled(scene), units="m/s2").prd_m / peak - 1.0)
+        if peak > 0.0
+        else math.nan,
         seconds=_seconds(scene),
         runs=tuple(_runs(scene, peak)) if peak > 0.0 else (),
     )
@@ -127,7 +129,7 @@ def _seconds(scene: dict[str, Any]) -> float:
     times = []
     for _ in range(7):
         started = time.perf_counter()
-        slide(**scene)
+        slide(**scene, units="m/s2")
         times.append(time.perf_counter() - started)
     return min(times)  # disturbances only lengthen a run
 
@@ -173,7 +175,7 @@ def _runs(scene: dict[str, Any], peak_m: float) -> Iterator[MethodRun]:
         for parameters in [default, *(s for s in settings if s != default)]:
             if parameters.get("substeps", 1.0) > MOST_STEPS:
                 continue
-            result = slide(**scene, method=method.name, **parameters)
+            result = slide(**scene, method=method.name, units="m/s2", **parameters)
             has_value = result.status is not Status.DIVERGED
             yield MethodRun(
                 name=method.name,

@@ -149,6 +149,7 @@ def _scene(records: list[Record | None], slope_deg: float, mu: float, scale: flo
         mu=mu,
         ay_mps2=y.a_mps2 if y else None,
         az_mps2=z.a_mps2 if z else None,
+        units="m/s2",
         scale=scale,
     )
 

@@ -7,6 +7,7 @@ Every error is collected before one is raised. Runs nothing: see `solver.sliding
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Mapping
 from numbers import Real
 
@@ -14,12 +15,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
-from solver.records.record import Record, has_gravity, read_only
+from solver.records.record import UNITS, Record, has_gravity, read_only
 from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
 from solver.sliding import two_axes
 
 Given = ArrayLike | Record | Motion
 """Shaking as it is: a row of accelerations with a step beside it, a record, or a whole motion."""
+
+_WEAK = 0.05  # of what slips a block: weaker shaking is more probably in another unit
 
 _LARGEST = 1e120
 """Largest accelerations [m/s2] and distances [m] accepted: their squares are finite."""
@@ -35,14 +38,19 @@ def checked_scene(
     scale: float,
     g_mps2: float,
     method: str | Method = "exact",
+    units: str | None = None,
     /,
     **parameters: float,
 ) -> Scene:
-    """Return the scene with read-only contiguous records, or raise with every error found."""
+    """Return the scene with read-only contiguous records, or raise with every error found.
+
+    Warns of arrays that are far too weak to slip anything, and so may be in g.
+    """
     problems: list[str] = []
     given = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
     records, dt_s, factor = unpacked(given, dt_s, problems)
-    ax, ay, az = checked_records(records, problems)
+    size = unit_size(given, units, problems)
+    ax, ay, az = checked_records(records, problems, size)
     friction = checked_friction("mu", mu, problems)
     numbers = {
         name: checked_number(name, value, wanted, fits, problems)
@@ -69,7 +77,33 @@ def checked_scene(
         raise InputError(
             f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
         )
+    if units is None and not any(isinstance(each, Record | Motion) for each in given.values()):
+        _warn_if_in_g(run)
     return run
+
+
+def unit_size(given: Mapping[str, Given | None], units: str | None, problems: list[str]) -> float:
+    """Return the size of the unit of arrays [m/s2]; records and motions have their own."""
+    if units is None:
+        return 1.0
+    if any(isinstance(each, Record | Motion) for each in given.values()):
+        problems.append("units are given beside a record or a motion, which is in m/s2; omit them")
+    if units not in UNITS:
+        problems.append(f"units is {shown(units)}; give one of {', '.join(UNITS)}")
+    return UNITS.get(units, 1.0)
+
+
+def _warn_if_in_g(run: Scene) -> None:
+    peak = abs(run.scale) * max(
+        float(np.abs(a).max()) for a in (run.ax_mps2, run.ay_mps2) if a.size
+    )
+    least = run.friction.mu_static * math.cos(run.slope_rad) - abs(math.sin(run.slope_rad))
+    if 0.0 < peak < _WEAK * least * run.g_mps2:
+        warnings.warn(
+            f"the accelerations reach {peak:.3g} m/s2, and {least * run.g_mps2:.3g} m/s2 slips:"
+            " give units='g' if they are in g, or units='m/s2'",
+            stacklevel=4,
+        )
 
 
 def method_of(method: str | Method) -> Method:
@@ -180,8 +214,13 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]) -> list[Floats]:
-    """Return read-only records of one shape, the one along the slope first; empty for none."""
+def checked_records(
+    records: Mapping[str, ArrayLike | None], problems: list[str], size: float = 1.0
+) -> list[Floats]:
+    """Return read-only records of one shape, the one along the slope first; empty for none.
+
+    They are multiplied by the size of their unit.
+    """
     checked = {
         name: NO_RECORD
         if values is None and name != "ax_mps2"
@@ -194,7 +233,8 @@ def checked_records(records: Mapping[str, ArrayLike | None], problems: list[str]
         for name, values in records.items()
         if values is not None and checked[name].shape != shape
     ]
-    return list(checked.values())
+    values = list(checked.values())
+    return values if size == 1.0 else [read_only(each * size) for each in values]
 
 
 def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:

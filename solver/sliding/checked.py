@@ -37,6 +37,7 @@ def slide(
     scale: float = 1.0,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
     method: str | Method = "exact",
+    units: str | None = None,
     **parameters: float,
 ) -> SlideResult:
     """Slide a block on a sloped, shaken roof, resisted by friction alone.
@@ -67,6 +68,8 @@ def slide(
         the interpolated record event by event, within rounding error. `paper` is the explicit
         algorithm of Eqs. 1-19 of "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to
         Seismic Motion", horizontal shaking only.
+    units : {"g", "m/s2", "cm/s2", "mm/s2"}, optional
+        Of arrays; m/s2 unless given, with a warning where that is too weak to slip anything.
     **parameters : float
         Parameters of the method: `substeps` per sampling interval; `stiffness_per_m` of a link per
         unit weight of the block [1/m]; `velocity_mps` and relative `tolerance` of the regularized
@@ -91,7 +94,9 @@ def slide(
     SlideResult: PRD 4.9 mm at 0.17 s, +1.6 mm at the end, 2 stops, ok
     """
     components = ax_mps2, ay_mps2, az_mps2
-    run = checked_scene(*components, dt_s, slope_rad, mu, scale, g_mps2, method, **parameters)
+    run = checked_scene(
+        *components, dt_s, slope_rad, mu, scale, g_mps2, method, units, **parameters
+    )
     if _is_followed_in_plane(run):
         return two_axes.run(run, **parameters)
     return one_axis.run(run, method_of(method), **parameters)
@@ -108,6 +113,7 @@ def slide_history(
     scale: float = 1.0,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
     method: str | Method = "exact",
+    units: str | None = None,
     **parameters: float,
 ) -> SlideHistory:
     """Return the motion of a block at the samples of the record, with its events.
@@ -117,7 +123,7 @@ def slide_history(
 
     Parameters
     ----------
-    ax_mps2, dt_s, slope_rad, mu, ay_mps2, az_mps2, scale, g_mps2, method, **parameters
+    ax_mps2, dt_s, slope_rad, mu, ay_mps2, az_mps2, scale, g_mps2, method, units, **parameters
         As in `slide`.
 
     Returns
@@ -143,7 +149,9 @@ def slide_history(
     0.5  0.0016  0.0000
     """
     components = ax_mps2, ay_mps2, az_mps2
-    run = checked_scene(*components, dt_s, slope_rad, mu, scale, g_mps2, method, **parameters)
+    run = checked_scene(
+        *components, dt_s, slope_rad, mu, scale, g_mps2, method, units, **parameters
+    )
     if _is_followed_in_plane(run):
         return two_axes.run_history(run, **parameters)
     return one_axis.run_history(run, method_of(method), **parameters)
@@ -159,12 +167,13 @@ def scene(
     az_mps2: ArrayLike | Record | None = None,
     scale: float = 1.0,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
+    units: str | None = None,
 ) -> Scene:
     """Return one block under one motion, checked, for `solver.solve`.
 
     Parameters
     ----------
-    ax_mps2, dt_s, slope_rad, mu, ay_mps2, az_mps2, scale, g_mps2
+    ax_mps2, dt_s, slope_rad, mu, ay_mps2, az_mps2, scale, g_mps2, units
         As in `slide`.
 
     Returns
@@ -181,7 +190,8 @@ def scene(
     >>> scene([0.0, 4.0, -4.0, 0.0], 0.1, slope_rad=0.0, mu=0.2)
     Scene(1 component of 4 samples at 0.1 s, slope 0 deg, mu 0.2, scale 1)
     """
-    return checked_scene(ax_mps2, ay_mps2, az_mps2, dt_s, slope_rad, mu, scale, g_mps2)
+    components = ax_mps2, ay_mps2, az_mps2
+    return checked_scene(*components, dt_s, slope_rad, mu, scale, g_mps2, "exact", units)
 
 
 def motion(
@@ -194,6 +204,7 @@ def motion(
     source: str = "",
     scale: float = 1.0,
     signs: tuple[int, ...] | None = None,
+    units: str | None = None,
 ) -> Motion:
     """Return a motion of one to three components, for a study or for any run.
 
@@ -212,6 +223,8 @@ def motion(
     signs : tuple of int
         Polarities in which a study runs each horizontal component, from {+1, -1}: by default those
         of a motion that is given, or both.
+    units : {"g", "m/s2", "cm/s2", "mm/s2"}, optional
+        Of arrays; m/s2 unless given.
 
     Returns
     -------
@@ -227,7 +240,7 @@ def motion(
     >>> motion([0.0, 4.0, -4.0, 0.0], z=[0.0, 1.0, -1.0, 0.0], dt_s=0.1, id="pulse", scale=1.5)
     Motion: pulse, x and z, 4 samples of 0.1 s, scale 1.5
     """
-    checked = checked_scene(x, y, z, dt_s, 0.0, 0.0, scale, STANDARD_GRAVITY_MPS2)
+    checked = checked_scene(x, y, z, dt_s, 0.0, 0.0, scale, STANDARD_GRAVITY_MPS2, "exact", units)
     if signs is None:
         signs = x.signs if isinstance(x, Motion) else (1, -1)
     if not signs or not {*signs} <= {1, -1}:
@@ -314,7 +327,7 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
 def _rechecked(scene: Scene) -> Scene:
     ay, az = (a if np.size(a) else None for a in (scene.ay_mps2, scene.az_mps2))
     numbers = scene.dt_s, scene.slope_rad, scene.friction, scene.scale, scene.g_mps2
-    return checked_scene(scene.ax_mps2, ay, az, *numbers)
+    return checked_scene(scene.ax_mps2, ay, az, *numbers, "exact", "m/s2")
 
 
 def _is_followed_in_plane(scene: Scene) -> bool:

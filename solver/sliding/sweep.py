@@ -21,7 +21,14 @@ from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Statu
 from solver.records.frames import dataset
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
-from solver.sliding.arguments import Given, checked_number, checked_records, overflow, unpacked
+from solver.sliding.arguments import (
+    Given,
+    checked_number,
+    checked_records,
+    overflow,
+    unit_size,
+    unpacked,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -93,6 +100,7 @@ def sweep(
     scales: ArrayLike,
     az_mps2: ArrayLike | Record | None = None,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
+    units: str | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Sweep:
     """Run all combinations of slope, friction coefficient and scale of a record.
@@ -102,7 +110,7 @@ def sweep(
 
     Parameters
     ----------
-    ax_mps2, dt_s, az_mps2, g_mps2
+    ax_mps2, dt_s, az_mps2, g_mps2, units
         As in `solver.slide`, in one axis; `solver.study` runs motions of two.
     slopes_rad : array_like, shape (p,)
         Roof slopes [rad], |slope| < pi/2.
@@ -133,10 +141,11 @@ def sweep(
     0.3 1.0    0.0007  0.0030
     """
     problems: list[str] = []
-    records, step_s, factor = unpacked({"ax_mps2": ax_mps2, "az_mps2": az_mps2}, dt_s, problems)
+    given: dict[str, Given | None] = {"ax_mps2": ax_mps2, "az_mps2": az_mps2}
+    records, step_s, factor = unpacked(given, dt_s, problems)
     if records.get("ay_mps2") is not None:
         problems.append("the motion has two horizontal components; give one, or call solver.study")
-    ax, *_, az = checked_records(records, problems)
+    ax, *_, az = checked_records(records, problems, unit_size(given, units, problems))
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
         axis("mus", mus, -math.ulp(0.0), math.inf, problems),

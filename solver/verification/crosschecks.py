@@ -115,8 +115,9 @@ def rivals() -> Iterator[Check]:
         if not is_runnable(method.name):
             continue
         result = slide(
-            ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=method.name, **_fine(method, dt)
-        )
+            ax, dt, slope_rad=0.0, mu=mu, g_mps2=G, method=method.name, units="m/s2",
+            **_fine(method, dt),
+        )  # fmt: skip
         name = f"{method.title}: pulse A = {a:g} g for 0.2 s, mu = {mu:g}, flat roof"
         yield Check("ME-1", PIECEWISE, "PRD", "m", name, expected, result.prd_m, method.ceiling)
 

@@ -56,7 +56,7 @@ def one_axis(kind: str, records: list[tuple[Floats, Floats | None, float]]) -> N
     for (ax, az, dt), (degrees, mu, ppa) in cases:
         scene = {"slope_rad": math.radians(degrees), "mu": mu}
         scale = ppa * G / float(np.abs(ax).max())
-        result = slide(ax, dt, az_mps2=az, scale=scale, **scene)
+        result = slide(ax, dt, az_mps2=az, scale=scale, units="m/s2", **scene)
         exact = oracle.slide(ax, dt, az=az, scale=scale, **scene)
         if math.isnan(result.prd_m) or not exact.prd:
             continue

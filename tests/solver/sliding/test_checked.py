@@ -174,7 +174,7 @@ slopes = st.sampled_from([0.0, math.atan(0.25), 0.1])
 @given(st.one_of(lattice, anything), frictions, slopes, st.sampled_from([0.01, 0.25, 1.0]))
 @example([0.0, 1.5, 0.0, 0.0, 1e-38], 0.25, 0.0, 0.01)
 def test_any_short_record_agrees_with_forty_digits_to_the_allowance(values, mu, slope, dt):
-    result = slide(values, dt, slope_rad=slope, mu=mu, g_mps2=2.0)
+    result = slide(values, dt, slope_rad=slope, mu=mu, g_mps2=2.0, units="m/s2")
     if result.status is not Status.UPLIFT:
         exact = oracle.slide(values, dt, slope_rad=slope, mu=mu, g=2.0)
         # A stop missed or found at a touching point changes nothing but by rounding.
@@ -196,7 +196,7 @@ def test_records_of_every_kind_agree_with_forty_digits():
             "scale": rng.choice([1.0, -1.0, 0.3, -2.0, 0.0]),
         }
         dt = rng.choice([0.005, 0.02, 0.3])
-        history = slide_history(ax, dt, az_mps2=az, **scene)
+        history = slide_history(ax, dt, az_mps2=az, units="m/s2", **scene)
         if history.result.status is not Status.UPLIFT:
             exact = oracle.slide(ax, dt, az=az, **scene)
             assert_agrees(history.result, exact, floor_m=1e-9)
@@ -274,8 +274,8 @@ def test_a_vertical_record_of_zeros_changes_no_bit(scale):
 @settings(max_examples=60)
 @given(anything, frictions, slopes)
 def test_the_mirrored_scene_gives_the_mirrored_motion_to_the_last_bit(values, mu, slope):
-    result = slide(values, 0.1, slope_rad=slope, mu=mu)
-    other = slide([-v for v in values], 0.1, slope_rad=-slope, mu=mu)
+    result = slide(values, 0.1, slope_rad=slope, mu=mu, units="m/s2")
+    other = slide([-v for v in values], 0.1, slope_rad=-slope, mu=mu, units="m/s2")
     assert result.status is other.status
     if result.status is not Status.UPLIFT:
         assert (result.prd_m, result.down_m, result.up_m) == (other.prd_m, other.up_m, other.down_m)

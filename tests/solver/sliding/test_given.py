@@ -172,3 +172,42 @@ def test_without_xarray_it_is_said_what_to_install(components, monkeypatch):
     swept = solver.sweep(components[0], slopes_rad=[0.0], mus=[0.3], scales=[1.0])
     with pytest.raises(ImportError, match="pip install xarray"):
         swept.to_xarray()
+
+
+PULSE_G = [0.0, 0.4, -0.4, 0.0, 0.0, 0.0]
+PULSE = [9.80665 * a for a in PULSE_G]
+
+
+@pytest.mark.parametrize(("units", "size"), [("g", 9.80665), ("cm/s2", 0.01), ("m/s2", 1.0)])
+def test_arrays_are_taken_in_their_units(units, size):
+    given = [a / size for a in PULSE]
+    how = {"slope_rad": 0.01, "mu": 0.2, "az_mps2": [0.1 * a for a in given], "ay_mps2": given}
+    plain = how | {"az_mps2": [0.1 * a for a in PULSE], "ay_mps2": PULSE}
+    found = solver.slide(given, 0.1, units=units, **how)
+    assert found.prd_m == pytest.approx(solver.slide(PULSE, 0.1, **plain).prd_m, rel=1e-12)
+    moved = solver.slide_history(given, 0.1, units=units, **how)
+    assert moved.result.prd_m == found.prd_m
+    assert solver.scene(given, 0.1, units=units, **how).ax_mps2 == pytest.approx(PULSE)
+    assert solver.motion(given, dt_s=0.1, units=units).ax_mps2 == pytest.approx(PULSE)
+    axes = {"slopes_rad": [0.01], "mus": [0.2], "scales": [1.0]}
+    swept = solver.sweep(given, 0.1, units=units, **axes)
+    assert swept.prd_m == pytest.approx(solver.sweep(PULSE, 0.1, **axes).prd_m, rel=1e-12)
+
+
+def test_units_are_of_arrays_alone_and_known():
+    record = solver.record_from_values("r", PULSE_G, units="g", dt_s=0.1)
+    said = "units are given beside a record or a motion, which is in m/s2; omit them"
+    with pytest.raises(solver.InputError, match=said):
+        solver.slide(record, slope_rad=0.0, mu=0.2, units="g")
+    with pytest.raises(solver.InputError, match=r"units is 'ft/s2'; give one of g, m/s2, cm/s2"):
+        solver.slide(PULSE, 0.1, slope_rad=0.0, mu=0.2, units="ft/s2")
+
+
+def test_shaking_that_is_far_too_weak_to_slip_anything_is_asked_about():
+    weak = [0.2 * a for a in PULSE_G]  # 0.08 where 3.9 m/s2 slips
+    with pytest.warns(UserWarning, match=r"reach 0.08 m/s2, and 3.92 m/s2 slips: give units='g'"):
+        solver.slide(weak, 0.1, slope_rad=0.0, mu=0.4)
+    # Said to be so, or of a record, it is not; nor is shaking that may slip something.
+    solver.slide(weak, 0.1, slope_rad=0.0, mu=0.4, units="m/s2")
+    solver.slide(weak, 0.1, slope_rad=0.0, mu=0.1)
+    solver.slide(solver.record_from_values("r", weak, units="m/s2", dt_s=0.1), slope_rad=0, mu=0.4)
