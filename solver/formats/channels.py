@@ -150,7 +150,7 @@ def _missing(a_mps2: Floats) -> tuple[int, str, float] | None:
     if not most < min(UNITS["g"], size[at] / _SPIKE):
         return None
     values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
-    codes = [value for value in values if re.fullmatch(r"-?999+(\.9+)?", value)]
+    codes = [value for value in values if re.fullmatch(r"-?(999+(\.9+)?|99\.99+|999\.25)", value)]
     return (at, min(codes, key=len), most / UNITS["g"]) if codes else None
 
 

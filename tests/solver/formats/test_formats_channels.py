@@ -119,6 +119,7 @@ def shaken(code, at=(20,), unit="g", peak=0.3):
     [
         ("-999", "g", (20,)), ("-999.0", "g", (20, 21, 22)), ("9999", "cm/s2", (0,)),
         ("-9999.00", "cm/s2", (299,)), ("99999", "cm/s2", (7,)), ("999.99", "m/s2", (7, 90)),
+        ("-99.99", "g", (7,)), ("-999.25", "g", (7,)),
     ],
 )  # fmt: skip
 def test_a_code_for_missing_data_is_no_sample(tmp_path, code, unit, at):
