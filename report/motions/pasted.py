@@ -14,7 +14,7 @@ import numpy as np
 from report.sheet.reading.archive import OpenBook
 from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import MAX_COLUMNS, CellPosition, cells_below, found_at
-from solver.formats.headings import Heading, Kind, parse
+from solver.formats.headings import Heading, Kind, is_spectral, parse
 from solver.formats.source import Source
 from solver.formats.times import Sampled, sampled
 from solver.model import Floats, InputError, Problem
@@ -86,10 +86,10 @@ def _said(book: OpenBook, position: CellPosition) -> Heading:
 
 def _check_units(book: OpenBook, heading: CellPosition, units: str) -> None:
     said = _said(book, heading)
-    if said.kind in (Kind.TIME, Kind.OTHER):
+    if said.kind in (Kind.TIME, Kind.OTHER) or is_spectral(said):
         raise InputError(
-            f"{heading.address} is '{said.text}', which is no acceleration; give the column of an"
-            " acceleration"
+            f"{heading.address} is '{said.text}', which is no acceleration by time; give the"
+            " column of one"
         )
     if said.kind is Kind.ACCELERATION and not math.isclose(unit_size(said.unit), unit_size(units)):
         raise InputError(

@@ -15,7 +15,7 @@ import numpy as np
 from solver.formats.motionfile import MotionFile, distinct
 from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
-from solver.records.record import UNITS, Record, read_only, shown
+from solver.records.record import UNITS, Record, check_gaps, read_only, shown
 
 MAX_CHANNELS = 1000
 
@@ -33,8 +33,6 @@ _OFFSET = 0.01
 # A length may count the step after the last sample, and may be rounded.
 _LENGTH_STEPS = 2.0
 _LENGTH_WITHIN = 0.005
-
-_SPIKE = 3.0  # a code for missing data / the largest sample: shaking rises over several samples
 
 # COSMOS and CSMIP: start time; RENADIC: trigger time; K-NET and KiK-net: record time.
 _START = re.compile(
@@ -128,30 +126,13 @@ def _check_size(source: Source, channel: Channel) -> None:
             f"{source.name}: the values reach {peak_g:.3g} g; give a record of at most {MOST_G:g}"
             " g, or its units"
         )
-    if code := _missing(channel.a_mps2):
-        raise InputError(
-            f"{source.name}: sample {code[0] + 1:,} is {code[1]} where no other exceeds"
-            f" {code[2]:.3g} g: it is a code for missing data; give a record without gaps"
-        )
+    check_gaps(source.name, channel.a_mps2)
     low, high = STEPS_S
     if not low <= channel.dt_s <= high:
         raise InputError(
             f"{source.name}: the time step is {channel.dt_s:.3g} s; give a record with steps of"
             f" {low:g} to {high:g} s"
         )
-
-
-def _missing(a_mps2: Floats) -> tuple[int, str, float] | None:
-    """Return index and value of a sample that is all nines, and the largest of the others [g]."""
-    size = np.abs(a_mps2)
-    at = int(size.argmax())
-    others = size[np.abs(size - size[at]) > 1e-9 * size[at]]
-    most = float(others.max(initial=0.0))
-    if not most < min(UNITS["g"], size[at] / _SPIKE):
-        return None
-    values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
-    codes = [value for value in values if re.fullmatch(r"-?(999+(\.9+)?|99\.99+|999\.25)", value)]
-    return (at, min(codes, key=len), most / UNITS["g"]) if codes else None
 
 
 def check_number(source: Source, channels: int) -> None:

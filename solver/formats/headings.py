@@ -122,10 +122,15 @@ def words(line: str, separator: str | None) -> list[str]:
     return _WORD.findall(line) if separator is None else line.split(separator)
 
 
+def is_spectral(heading: Heading) -> bool:
+    """Whether a column has ordinates of a spectrum."""
+    return bool(_SPECTRAL.search(heading.name))
+
+
 def of_a_spectrum(headings: list[Heading]) -> list[str]:
     """Return the headings by which a table is a spectrum: no time, or ordinates alone."""
     first, *others = headings
-    spectral = [each.text for each in others if _SPECTRAL.search(each.name)]
+    spectral = [each.text for each in others if is_spectral(each)]
     if _ABSCISSAS.match(first.text):
         return [first.text, *spectral]
     return spectral if spectral and len(spectral) == len(others) else []

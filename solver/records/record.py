@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +18,9 @@ from numpy.typing import ArrayLike
 
 from solver.files import write_whole
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
+
+_SPIKE = 3.0  # a code for missing data / the largest sample: shaking rises over several samples
+_NINES = re.compile(r"-?(?:999+(?:\.9+)?|99\.99+|999\.25)")
 
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 """Acceleration units and their value in m/s2."""
@@ -106,6 +110,7 @@ def record_from_values(
     ]
     raise_any(problems)
     a = np.asarray(values, dtype=np.float64) * UNITS[units]
+    check_gaps(name, a)
     return Record(name=name, dt_s=float(dt_s), a_mps2=read_only(a))
 
 
@@ -183,6 +188,27 @@ def _decimals(values: Floats, minimum: int, within: float) -> int:
 
 def _off(values: Floats, decimals: int) -> float:
     return float(np.abs(values - np.round(values, decimals)).max())
+
+
+def check_gaps(name: str, a_mps2: Floats) -> None:
+    """Refuse a record with a code for missing data: nines far above all other samples.
+
+    Raises
+    ------
+    InputError
+    """
+    size = np.abs(a_mps2)
+    at = int(size.argmax())
+    others = size[np.abs(size - size[at]) > 1e-9 * size[at]]
+    most = float(others.max(initial=0.0))
+    if not most < min(UNITS["g"], size[at] / _SPIKE):
+        return
+    values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
+    if codes := list(filter(_NINES.fullmatch, values)):
+        raise InputError(
+            f"{name}: sample {at + 1:,} is {min(codes, key=len)} where no other exceeds"
+            f" {most / UNITS['g']:.3g} g: it is a code for missing data; give a record without gaps"
+        )
 
 
 def has_gravity(a_mps2: Floats) -> bool:

@@ -100,8 +100,13 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
         (pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
          ["Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of them"]),
         (pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
-         ["Pasted!B3 is 'North [km/s2]', which is no acceleration; give the column of an"
-          " acceleration"]),
+         ["Pasted!B3 is 'North [km/s2]', which is no acceleration by time; give the column of"
+          " one"]),
+        (pasted([0.1, 0.2], header="PSA [g]", name="Pasted!PSA [g]"),
+         ["Pasted!B3 is 'PSA [g]', which is no acceleration by time; give the column of one"]),
+        (pasted([0.1, -999, 0.2]),
+         ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g: it is a code for missing"
+          " data; give a record without gaps"]),
         (timed([0.0, 0.02, 0.04, 0.06]),
          ["Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s; correct one of"
           " them"]),
