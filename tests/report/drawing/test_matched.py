@@ -1,16 +1,24 @@
 """A revised drawing moves the rows that it moves, and no property goes to another array."""
 
+import math
 import re
 
 import pytest
 from click.testing import CliRunner
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from inputs import FT
 from report.cli.main import main
+from report.drawing.matched import matched
+from report.drawing.plan_read import DrawnOutline, RoofPlan
 from report.sheet.reading.read import read
-from report.sheet.schema.choices import UnitsFirst
+from report.sheet.schema.choices import LayerKind, UnitsFirst
+from report.sheet.schema.scene import SIDES
+from report.sheet.schema.shapes import Rectangle
 from sheets import blank, type_into
 from sketch import ROOF_FT, Sketch
+from solver.model import InputError
 
 SIZE_FT = (80, 40)
 
@@ -205,3 +213,66 @@ def test_a_roof_that_grows_keeps_what_was_typed_of_its_edges(tmp_path):
     after = read(path).draft["objects"]
     assert {row["id"]: row["kind"] for row in after} == before
     assert max(row["x_to_m"] for row in after) == pytest.approx(301 * FT, abs=1e-5)
+
+
+def drawn_at(places):
+    return [
+        DrawnOutline(
+            name=f"A{k}", kind=LayerKind.ARRAY, shape=Rectangle(x, x + wide, y, y + tall),
+            handle=str(k), layer="ARRAY", height_m=math.nan, unnamed="no text inside", note="",
+        )
+        for k, (x, y, wide, tall) in enumerate(places, start=1)
+    ]  # fmt: skip
+
+
+def rows_at(places):
+    return [
+        {"id": f"A{k}", "place_from": "drawing"}
+        | dict(zip(SIDES, (x, x + wide, y, y + tall), strict=True))
+        for k, (x, y, wide, tall) in enumerate(places, start=1)
+    ]
+
+
+_CELLS = st.lists(
+    st.tuples(st.integers(0, 5), st.integers(0, 4)), min_size=2, max_size=8, unique=True
+)
+
+
+@settings(max_examples=150)
+@given(data=st.data(), cells=_CELLS, moves=st.integers(0, 3))
+def test_what_stays_or_moves_by_less_than_half_its_size_is_never_taken_for_another(
+    data, cells, moves
+):
+    sizes = [data.draw(st.sampled_from([(16.0, 8.0), (14.0, 9.0)])) for _ in cells]
+    places = [(20.0 * x, 12.0 * y, *size) for (x, y), size in zip(cells, sizes, strict=True)]
+    after = dict(enumerate(places))
+    free = [(x, y) for x in range(6) for y in range(5) if (x, y) not in cells]
+    moved = set()
+    for _ in range(moves):
+        k = data.draw(st.sampled_from(range(len(places))))
+        if data.draw(st.booleans()):
+            x, y, wide, tall = places[k]
+            after[k] = (
+                x + data.draw(st.floats(-3, 3)),
+                y + data.draw(st.floats(-3, 3)),
+                wide,
+                tall,
+            )
+        elif free:
+            x, y = free.pop(data.draw(st.integers(0, len(free) - 1)))
+            after[k] = (20.0 * x, 12.0 * y, *places[k][2:])
+            moved.add(k)
+    order = data.draw(st.permutations(range(len(places))))
+    plan = RoofPlan(
+        roof=(), arrays=tuple(drawn_at([after[k] for k in order])), objects=(), unread=()
+    )
+    draft = {"arrays": rows_at(places), "objects": [], "outlines": [], "project": [], "roof": []}
+    try:
+        told = matched(plan, draft)
+    except InputError:
+        assert len(moved) > 1  # one that moved is told from all that stayed
+        return
+    named = {place.name: place.shape for place in told.plan.arrays}
+    for k, (x, y, wide, tall) in after.items():
+        if k not in moved or len(moved) == 1:
+            assert named[f"A{k + 1}"] == Rectangle(x, x + wide, y, y + tall)
