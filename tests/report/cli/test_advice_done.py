@@ -60,6 +60,14 @@ PROJECTS = {
             "Clearances/2/Provided clearance": 100,
         },
     ),
+    "thirty arrays": (
+        "campus",
+        {
+            "Arrays/A3/Electrical slack": 0.05,
+            "Arrays/A24/Electrical slack": 0.31,
+            "Arrays/A7/Interconnection strength": 1,
+        },
+    ),
 }
 
 
