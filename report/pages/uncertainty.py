@@ -88,7 +88,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
 
     columns = (
         (words("No."), lambda margin: str(margin.number)),
-        (words("Friction of"), lambda margin: margin.array.id),
+        (words("Friction of", 1.4), lambda margin: margin.array.id),
         (text("μ", "given", 1.2), lambda margin: mu_words(margin.array.array.friction)),
         (text("μ", "least", 1.2), least),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
@@ -97,7 +97,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
             lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
-        (words("Limited by", 1.8), lambda margin: lowered(margin.limited_by)),
+        (words("Limited by", 1.4), lambda margin: lowered(margin.limited_by)),
     )
     return listed(margins, columns, package.fmt, kind="compact")
 
