@@ -11,11 +11,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from report.drawing.plan_read import DrawnOutline, RoofPlan, free_name
+from report.sheet.checking.grouped import listed
 from report.sheet.checking.plan_checks import shapes_of, us_first
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.fields import Draft, DraftRow
 from report.sheet.schema.scene import DRAWING, DRAWN_MODULES
-from report.sheet.schema.shapes import Shape, mean, solid
+from report.sheet.schema.shapes import Shape, gap_m, mean, solid
 from report.words.formats import aligned
 from report.words.units import Quantity, Unit
 from solver.model import InputError
@@ -25,6 +26,8 @@ _LEAST_SHARE = 0.05
 _RENAMED_SHARE = 0.9  # the same, of an outline that the drawing calls by a name of its own
 _PLAIN = 2.0  # a row is told from another by this times its share, or its part of the distance
 _SAME_M = 0.05  # sizes that differ by less are the same
+MOST_TOLD = 20
+"""Most outlines of a kind that cannot be told and are named."""
 _STILL_M = 1e-3  # what has moved by less has not
 _ARRAY, _OBJECT, _EDGE = "array", "object", "edge"
 
@@ -149,6 +152,8 @@ def _is_drawn(row: DraftRow) -> bool:
 
 def _common(place: DrawnOutline, row: Shape) -> float:
     """Return the share that an outline has in common with a row; 0 if too small to be it."""
+    if gap_m(place.shape.bounds, row.bounds) >= 0.0:
+        return 0.0
     one, other = solid(place.shape), solid(row)
     share: float = one.intersection(other).area / one.union(other).area
     return share if share >= (_LEAST_SHARE if place.unnamed else _RENAMED_SHARE) else 0.0
@@ -171,8 +176,9 @@ def _same_sized(place: DrawnOutline, row: Shape) -> float:
 def _tell(
     pairs: Pairs, drawn: Sequence[DrawnOutline], found: dict[int, str], unit: Unit
 ) -> Iterator[str]:
-    """Add the rows that are plain, the best first, and yield what is not."""
-    while pairs:
+    """Add the rows that are plain, the best first, and yield what is not, as far as it is told."""
+    told = 0
+    while pairs and told < MOST_TOLD:
         number, name = best = max(pairs, key=pairs.__getitem__)
         rivals = [
             (k, row)
@@ -183,6 +189,7 @@ def _tell(
         if not rivals or drawn[number].handle:
             found[number] = name
         if rivals and drawn[number].handle:
+            told += 1
             numbers, names = ({*each} for each in zip(best, *rivals, strict=True))
             yield _either([drawn[k] for k in sorted(numbers)], sorted(names), unit)
         pairs = {p: value for p, value in pairs.items() if p[0] != number and p[1] != name}
@@ -191,7 +198,7 @@ def _tell(
 def _either(places: Sequence[DrawnOutline], names: Sequence[str], unit: Unit) -> str:
     shown = (f"{place.handle or place.kind.value} ({_place(place.shape, unit)})"
              for place in places)  # fmt: skip
-    return f"{' and '.join(shown)} may be {' or '.join(names)}"
+    return f"{listed(shown)} may be {listed(names).replace(', ', ' or ')}"
 
 
 def _renamed(

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from inputs import FT
 from report.cli.main import main
-from report.drawing.matched import matched
+from report.drawing.matched import MOST_TOLD, matched
 from report.drawing.plan_read import DrawnOutline, RoofPlan
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import LayerKind, UnitsFirst
@@ -128,8 +128,18 @@ def test_an_array_split_in_halves_stops(tmp_path):
     path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
     halves = [(box(20, 60, (39, 40)), ""), (box(61, 60, (39, 40)), "")]
     output = revised(tmp_path, path, [*halves, ((20, 10), "")], exit_code=2)
-    assert " and " in output
-    assert "may be A1: write its name" in output
+    assert "x 20.00 to 59.00, y 60.00 to 100.00 ft), " in output
+    assert "x 61.00 to 100.00, y 60.00 to 100.00 ft) may be A1: write its name" in output
+
+
+def test_of_many_that_cannot_be_told_some_are_named():
+    places = [(20.0 * (k % 10), 12.0 * (k // 10), 16.0, 8.0) for k in range(3 * MOST_TOLD)]
+    far = tuple(drawn_at([(x + 1e3, *rest) for x, *rest in places]))
+    draft = {"arrays": rows_at(places), "objects": [], "outlines": [], "project": [], "roof": []}
+    with pytest.raises(InputError) as caught:
+        matched(RoofPlan(roof=(), arrays=far, objects=(), unread=()), draft)
+    assert len(caught.value.problems) == MOST_TOLD
+    assert max(map(len, map(str, caught.value.problems))) < 1000
 
 
 def test_a_new_array_has_a_name_that_no_row_had(tmp_path):
