@@ -131,5 +131,5 @@ def test_a_workbook_with_any_elements_in_a_part_is_opened_or_refused(folder, par
 )
 def test_a_run_of_any_numbers_is_finite_or_says_why_not(a_mps2, dt_s, slope_rad, mu, scale):
     with contextlib.suppress(InputError):
-        result = slide(a_mps2, dt_s, slope_rad=slope_rad, mu=mu, scale=scale)
+        result = slide(a_mps2, dt_s, slope_rad=slope_rad, mu=mu, scale=scale, units="m/s2")
         assert math.isfinite(result.prd_m) or result.status

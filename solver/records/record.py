@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike
 from solver.files import write_whole
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 
-_SPIKE = 3.0  # a code for missing data / the largest sample: shaking rises over several samples
-_NINES = re.compile(r"-?(?:999+(?:\.9+)?|99\.99+|999\.25)")
+_SPIKE_G = 9.0  # a code for missing data, at least: where all else is below 1 g, no shaking
+_NINES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25)")
 
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 """Acceleration units and their value in m/s2."""
@@ -201,7 +201,7 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     at = int(size.argmax())
     others = size[np.abs(size - size[at]) > 1e-9 * size[at]]
     most = float(others.max(initial=0.0))
-    if not most < min(UNITS["g"], size[at] / _SPIKE):
+    if most >= UNITS["g"] or size[at] < _SPIKE_G * UNITS["g"]:
         return
     values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
     if codes := list(filter(_NINES.fullmatch, values)):

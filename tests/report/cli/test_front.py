@@ -102,7 +102,7 @@ def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, word
     [
         (
             ("--slope-deg", 95, "--mu", 0.3),
-            "'--slope-deg': it is 95 deg; give more than -90 deg and less",
+            "'--slope-deg': it is 95 deg; give more than -45 deg and less",
         ),
         (("--slope-deg", "nan", "--mu", 0.3), "'--slope-deg': it is nan deg"),
         (("--slope-deg", 2, "--mu", -0.3), "'--mu': it is -0.3; give 0 or more."),
