@@ -8,8 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Future
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -26,9 +25,7 @@ import stand_in
 from places import ROOT
 from report.cli.main import main
 from report.figures import accelerations, charts, history, hodograph, plan, spectra
-from report.typeset.drawings import Converted
 from report.typeset.finish import Attached
-from report.typeset.pdf import draw_ahead, pictures
 
 
 def once(factory: pytest.TempPathFactory, name: str, fill: Callable[[Path], object]) -> Path:
@@ -96,7 +93,6 @@ def _script(top: Path, project: str) -> tuple[str, str]:
 _OTHER_VERSIONS = """
 import sys
 from importlib.metadata import Distribution
-import report.workers
 others = dict(pair.split("=") for pair in sys.argv.pop().split())
 true = Distribution.metadata.fget
 def about(one):
@@ -105,8 +101,6 @@ def about(one):
         found.replace_header("Version", others[found["Name"]])
     return found
 Distribution.metadata = property(about)
-# Another process has the true versions.
-report.workers.WorkerProcess = lambda _: report.workers.SameProcess()
 from report.cli.main import main
 main()
 """
@@ -141,25 +135,15 @@ def of_one_motion(factory: pytest.TempPathFactory) -> bytes:
 
 def _one_motion(folder: Path) -> None:
     html = stand_in.html(stand_in.book(shaking=stand_in.motions(1, seconds=8.0)))
-    (folder / "package.pdf").write_bytes(report.typeset.pdf.lay_out(html, attached=lambda: FILES))
+    (folder / "package.pdf").write_bytes(report.typeset.pdf.lay_out(html, FILES))
 
 
 @contextmanager
 def unlaid() -> Iterator[None]:
     """Have packages written as HTML: the layout takes four fifths of the time of a small one."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report.typeset.pdf, "pictures", lambda html: [])
         patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
         yield
-
-
-def drawn_ahead(html: str) -> Mapping[str, Future[Converted]]:
-    """The pictures of a page, each converted by now."""
-    drawn: dict[str, Future[Converted]] = {}
-    for source, picture in draw_ahead(pictures(html)).items():
-        drawn[source] = Future()
-        drawn[source].set_result(picture)
-    return drawn
 
 
 @contextmanager

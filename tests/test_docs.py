@@ -105,10 +105,10 @@ def commanded(folder):
     """
     laid_out, printed = {}, {}
 
-    def kept(html, drawn=None, attached=tuple):
-        files = tuple(attached())
+    def kept(html, attached=()):
+        files = tuple(attached)
         if (html, files) not in laid_out:
-            laid_out[html, files] = lay_out(html, drawn or {}, lambda: files)
+            laid_out[html, files] = lay_out(html, files)
         return laid_out[html, files]
 
     with pytest.MonkeyPatch.context() as patch, ExitStack() as after:

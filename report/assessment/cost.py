@@ -13,9 +13,9 @@ LONG_S = 60.0
 """A report that costs more says so before it starts."""
 
 # Processor time [s] of one machine; on its slow days a report took up to 1.9 times the sum.
-_CONSTANT_S, _ARRAY_S, _MOTION_S = 6.4, 0.45, 0.33
+_CONSTANT_S, _ARRAY_S, _MOTION_S = 6.2, 0.06, 0.27
 # Per million samples of the motions: spectra and figures, then the runs of arrays that differ.
-_SAMPLES_S, _RUNS_S = 61.0, 7.3
+_SAMPLES_S, _RUNS_S = 30.0, 3.5
 
 
 def expected_s(project: ProjectInput, shaking: Shaking) -> float:

@@ -191,7 +191,6 @@ def package(source: Path, is_shared: bool = False) -> BatchOutcome:
     """
     from report.making import make
     from report.results.publish import output_folder
-    from report.workers import SameProcess
     from solver.model import InputError
 
     started, lines = time.monotonic(), list[str]()
@@ -200,8 +199,8 @@ def package(source: Path, is_shared: bool = False) -> BatchOutcome:
     try:
         if is_shared:
             out = output_folder(None, workbook.parent, f"out/{workbook.stem}")
-        with no_collections(), SameProcess() as worker:
-            made = make(source, out, None, lambda _: None, worker, on_record=lines.append)
+        with no_collections():
+            made = make(source, out, None, lambda _: None, on_record=lines.append)
         assessment, folder, *_ = made
         warn_of_others(folder / "calc-package.pdf")
         done = BatchOutcome(

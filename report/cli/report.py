@@ -112,16 +112,14 @@ def report(
     inputs change later, the package has a condition.
     """
     from report.making import STEPS, make
-    from report.workers import started_worker
 
     lines: list[str] = []
     with (
         input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
         Progress(STEPS, quiet=quiet) as progress,
         no_collections(),
-        started_worker() as worker,
     ):
-        made = make(source, out, since, progress, worker, on_record=lines.append)
+        made = make(source, out, since, progress, on_record=lines.append)
     warn_of_others(made[1] / "calc-package.pdf")
     if as_json:
         print_json(_document(*made))

@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
-from concurrent.futures import Executor
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -54,16 +53,13 @@ def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool)
     compared or a signature not be checked, and why; 2 it cannot be read. A signature that was put
     on after the package was written is no difference.
     """
-    from report.workers import started_worker
-
     with (
         input_errors(file, as_json=as_json),
         Progress((*STEPS, COMPARING), quiet=quiet) as progress,
         no_collections(),
-        started_worker() as worker,
         tempfile.TemporaryDirectory(prefix="roofslip-") as folder,
     ):
-        proof = _proof(file, records, Path(folder), progress, worker)
+        proof = _proof(file, records, Path(folder), progress)
     if as_json:
         print_json(asdict(proof))
     elif not quiet:
@@ -74,9 +70,7 @@ def verify_package(file: Path, records: Path | None, quiet: bool, as_json: bool)
         sys.exit(NOT_COMPARED)
 
 
-def _proof(
-    file: Path, records: Path | None, folder: Path, progress: Progress, worker: Executor
-) -> Proof:
+def _proof(file: Path, records: Path | None, folder: Path, progress: Progress) -> Proof:
     from report.proof.package import open_package, take_out
     from report.proof.updates import appended
     from report.proof.verdict import Written, compared, failed
@@ -91,7 +85,7 @@ def _proof(
     workbook, former = take_out(package, folder / "input", records)
     try:
         assessment, _, files, _ = make(
-            workbook, folder / "out", former[0] if former else None, progress, worker
+            workbook, folder / "out", former[0] if former else None, progress
         )
     except InputError as error:
         return failed(error.problems, later)

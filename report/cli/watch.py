@@ -15,7 +15,6 @@ import time
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
-from concurrent.futures import Executor
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -62,39 +61,37 @@ def watch(source: Path, out: Path | None, once: bool) -> None:
     moment is read again.
     """
     from report.memoized import clear
-    from report.workers import started_worker
 
     with input_errors(source):
         if not source.is_dir():
             settle(source)
     workbook = workbook_of(source)
-    with started_worker() as worker:
-        round_ = Round(workbook, out, worker)
-        try:
-            if once:
-                sys.exit(0 if round_.run() else INPUT_ERROR)
-            found = saves(workbook, round_.folder)
-            next(found)  # from here on no save is missed, whatever else is done meanwhile
+    round_ = Round(workbook, out)
+    try:
+        if once:
+            sys.exit(0 if round_.run() else INPUT_ERROR)
+        found = saves(workbook, round_.folder)
+        next(found)  # from here on no save is missed, whatever else is done meanwhile
+        round_.run()
+        click.echo(f"watching {workbook.parent}; end with Ctrl+C")
+        round_.sweep()
+        for names in filter(None, found):
+            click.echo("")
+            click.echo(plain(f"saved: {', '.join(names)}"))
             round_.run()
-            click.echo(f"watching {workbook.parent}; end with Ctrl+C")
             round_.sweep()
-            for names in filter(None, found):
-                click.echo("")
-                click.echo(plain(f"saved: {', '.join(names)}"))
-                round_.run()
-                round_.sweep()
-        finally:
-            clear()
+    finally:
+        clear()
 
 
 class Round:
     """Checks and reports, and remembers the results to compare the next ones with.
 
-    What it computes is kept in both processes, so that the next round repeats only what changed.
+    What it computes is kept, so that the next round repeats only what changed.
     """
 
-    def __init__(self, workbook: Path, out: Path | None, worker: Executor) -> None:
-        self._workbook, self._out, self._worker = workbook, out, worker
+    def __init__(self, workbook: Path, out: Path | None) -> None:
+        self._workbook, self._out = workbook, out
         self.folder = out or workbook.parent / "out"
         self._before: Compared | None = None
 
@@ -128,17 +125,13 @@ class Round:
 
         settle(self._workbook)
         new_generation()
-        self._worker.submit(new_generation)
         with no_collections():
-            _, _, files, _ = make(
-                self._workbook, self._out, None, lambda _: None, self._worker, self._print
-            )
+            _, _, files, _ = make(self._workbook, self._out, None, lambda _: None, self._print)
         return files
 
     def sweep(self) -> None:
         """Free what a round has left, while nothing waits for the next one."""
         with _interrupted_after():
-            self._worker.submit(gc.collect)  # which may be this process
             gc.unfreeze()  # what `no_collections` has exempted
             gc.collect()
 

@@ -6,7 +6,7 @@ Nothing here is canned: every sentence follows from the sheet Friction tests.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, by_id
@@ -73,7 +73,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def drawings(package: PackageData, draw: Callable[..., str]) -> Sequence[str]:
+def drawings(package: PackageData) -> Sequence[str]:
     """Return the runs over velocity, where any run reports its velocity."""
     from report.figures.friction import friction_by_velocity
 
@@ -82,7 +82,7 @@ def drawings(package: PackageData, draw: Callable[..., str]) -> Sequence[str]:
         return ()
     runs = [run for one in tested(data) for run in one.runs]
     fits = {one.surface: fit for one, fit in _fits(package) if fit.is_determined}
-    return (draw(friction_by_velocity, runs, data.arrays, fits, package.fmt.us_first),)
+    return (friction_by_velocity(runs, data.arrays, fits, package.fmt.us_first),)
 
 
 def _n_drawn(data: ProjectInput) -> int:

@@ -1,12 +1,11 @@
 """The drawings of the package, by the id of their place; its template says their captions.
 
-`report.figures` draws them, at once or after the pages that name them. Read `Draw`.
+`report.figures` draws them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
@@ -15,7 +14,6 @@ from report.assessment.uncertainty import Uncertainty
 from report.drawing.on_paper import printed_plan
 from report.pages import friction_tests
 from report.pages.parts import PackageData
-from report.typeset.equations import data_uri
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
@@ -23,34 +21,13 @@ Drawings = Mapping[str, Sequence[Any]]
 """SVG by the id of its place; of an array, pairs of histories and paths; of the roof plan, what
 is printed, the plan and its legend."""
 
-Draw = Callable[..., str]
-"""Given the function that draws a picture and its arguments, returns the SVG or a name for it."""
-
-
-def at_once(function: Draw, *about: Any, **how: Any) -> str:
-    """Draw a picture where a page asks for it."""
-    return function(*about, **how)
-
-
-class Later:
-    """Names pictures where pages ask for them: they are drawn while the pages are laid out."""
-
-    def __init__(self) -> None:
-        self.undrawn: dict[str, Callable[[], str]] = {}
-
-    def __call__(self, function: Draw, *about: Any, **how: Any) -> str:
-        """Return a name that stands for the SVG on the pages."""
-        name = f"picture {len(self.undrawn) + 1}"
-        self.undrawn[data_uri(name)] = partial(function, *about, **how)
-        return name
-
 
 def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
     for start in range(0, len(items), most):
         yield items[start : start + most]
 
 
-def draw_assessment(package: PackageData, draw: Draw = at_once) -> Drawings:
+def draw_assessment(package: PackageData) -> Drawings:
     """Return the drawings that need no evidence."""
     from report.figures import accelerations, charts, plan
     from report.figures.section import array_section
@@ -58,21 +35,20 @@ def draw_assessment(package: PackageData, draw: Draw = at_once) -> Drawings:
     us_first, assessment = package.fmt.us_first, package.assessment
     printed = printed_plan(assessment)
     return {
-        "inputs-friction": friction_tests.drawings(package, draw),
-        "method-motion": [draw(array_section, package.governing.array, us_first)],
+        "inputs-friction": friction_tests.drawings(package),
+        "method-motion": [array_section(package.governing.array, us_first)],
         "motions-list": [
-            draw(accelerations.accelerations, some)
+            accelerations.accelerations(some)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
-        "plan": [printed, *(draw(plan.paper_svg, each) for each in (printed.plan, printed.key))],
+        "plan": [printed, *(plan.paper_svg(each) for each in (printed.plan, printed.key))],
         "comparison": [
-            draw(charts.comparison, some, us_first)
-            for some in _in_parts(assessment.alike, CHART_ROWS)
+            charts.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
         ],
     }
 
 
-def draw_plotted(package: PackageData, shown: Evidence, draw: Draw = at_once) -> Drawings:
+def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     """Return the drawings of spectra and of runs."""
     from report.figures.accuracy import work_precision
     from report.figures.spectra import spectra
@@ -82,28 +58,26 @@ def draw_plotted(package: PackageData, shown: Evidence, draw: Draw = at_once) ->
     ground = [part for part in shown.spectra if part.is_ground]
     runs = zip(package.assessment.alike, shown.histories, strict=True)
     return {
-        "motions-spectra": [
-            draw(spectra, parts) for parts in ((roof, ground) if ground else (roof,))
-        ],
-        "accuracy": [draw(work_precision, rivals)] if rivals.runs else [],
+        "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
+        "accuracy": [work_precision(rivals)] if rivals.runs else [],
         **{
-            f"results-{count}": list(_histories(group[0], followed, us_first, draw))
+            f"results-{count}": list(_histories(group[0], followed, us_first))
             for count, (group, followed) in enumerate(runs, start=1)
         },
     }
 
 
-def draw_uncertainty(package: PackageData, found: Uncertainty, draw: Draw = at_once) -> Drawings:
+def draw_uncertainty(package: PackageData, found: Uncertainty) -> Drawings:
     """Return the contours; none where nothing slides on the whole grid."""
     from report.figures.uncertainty import contours
 
     surface, arrays, us_first = found.surface, package.assessment.arrays, package.fmt.us_first
     slides = bool((surface.mean_m > 0.0).any())
-    return {"how-sure": [draw(contours, surface, arrays, us_first)] if slides else []}
+    return {"how-sure": [contours(surface, arrays, us_first)] if slides else []}
 
 
 def _histories(
-    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool, draw: Draw
+    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[tuple[str, str]]:
     from report.figures.history import histories
     from report.figures.hodograph import hodographs
@@ -111,4 +85,4 @@ def _histories(
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for motions, paths in runs:
         about = (motions, paths, us_first)
-        yield draw(histories, *about), draw(hodographs, *about)
+        yield histories(*about), hodographs(*about)

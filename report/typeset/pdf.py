@@ -8,17 +8,15 @@ from __future__ import annotations
 
 import datetime as dt
 import logging
-import re
+import tempfile
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
-from report.typeset.drawings import Converted, DeferredPicture, convert
 from report.typeset.finish import Attached, finish
-from report.typeset.renderer import discard, document, is_tried, load, shipped
 from solver.model import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
@@ -29,96 +27,80 @@ TEMPLATES = next(
 )
 VARIANT = "pdf/a-3a"
 _NO_DATE = dt.datetime(1980, 1, 1)
-_PICTURE = re.compile(r' src="(data:image/svg\+xml;base64,[^"]+)"')
+_SCHEME = "shipped:"
+"""Of addresses of the files of the template folder."""
 
 
-def pictures(html: str) -> list[str]:
-    """Return the `data:` addresses of the SVG pictures in an HTML document."""
-    return list(dict.fromkeys(_PICTURE.findall(html)))
-
-
-def draw_ahead(sources: Sequence[str]) -> dict[str, Converted]:
-    """Convert pictures for `lay_out`, in any process; none where the renderer is not tried.
-
-    Raises
-    ------
-    DefectError
-        As `lay_out`.
-    """
-    if not is_tried():
-        return {}
-    with _clean_log():
-        return convert(sources, TEMPLATES / "package.css")
-
-
-def lay_out(
-    html: str,
-    drawn: Mapping[str, Future[Converted]] = {},
-    attached: Callable[[], Sequence[Attached]] = tuple,
-) -> bytes:
+def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
     """Return the PDF of an HTML document; `shipped:/NAME` addresses a file of the templates.
-
-    Parameters
-    ----------
-    html : str
-        Well-formed as XML.
-    drawn : mapping of str to Future, optional
-        What `draw_ahead` returns for pictures, by the address in the document; each is waited for
-        when it is painted.
-    attached : callable
-        Returns the attachments; asked once the pages are painted.
 
     Raises
     ------
     DefectError
         If the renderer logs a line of warning level or above; with these lines.
     ParseError
-        If the markup is not well-formed.
+        If the markup is not well-formed as XML.
     """
-    load()
-    from weasyprint.text.fonts import FontConfiguration
+    from weasyprint import HTML
 
-    with _clean_log(), warnings.catch_warnings():
+    ElementTree.fromstring(html)  # the renderer mends broken markup without a word
+    files = sorted(attached, key=lambda file: file.name)
+    with _clean_log(), _no_fonts_left(), warnings.catch_warnings():
         # The renderer leaves the file of its color profile to the garbage collector.
         warnings.simplefilter("ignore", ResourceWarning)
-        given = document(html, shipped(TEMPLATES))
-        fonts = FontConfiguration()
-        shown = (
-            {source: DeferredPicture(source, one, fonts) for source, one in drawn.items()}
-            if is_tried()
-            else {}
+        pages = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher()).render()
+        created = pages.metadata.created
+        date = dt.datetime.fromisoformat(created) if created else _NO_DATE
+        pdf: bytes = pages.write_pdf(
+            pdf_variant=VARIANT,
+            attachments=[_attachment(file, date) for file in files],
+            finisher=lambda document, objects: finish(document, objects, files),
         )
-        try:
-            pages = given.render(font_config=fonts, cache=shown)
-            files: list[Attached] = []
-
-            def attachments() -> Iterator[Any]:
-                files.extend(sorted(attached(), key=lambda file: file.name))
-                yield from (_attachment(file, pages.metadata.created) for file in files)
-
-            pdf: bytes = pages.write_pdf(
-                pdf_variant=VARIANT,
-                attachments=attachments(),
-                finisher=lambda pages, objects: finish(pages, objects, files),
-            )
-        finally:
-            discard(fonts)
     return pdf
 
 
-def _attachment(file: Attached, date: str | None) -> Any:
+def _fetcher() -> Any:
+    """Return what the renderer loads addresses with: the templates and `data:`, no more."""
+    from weasyprint.urls import URLFetcher, URLFetcherResponse
+
+    class Shipped(URLFetcher):  # type: ignore[misc]
+        """Serves the templates and `data:`; refuses everything else."""
+
+        def fetch(self, url: str, headers: dict[str, str] | None = None) -> Any:
+            if not url.startswith(_SCHEME):
+                return super().fetch(url, headers)
+            path = (TEMPLATES / url.removeprefix(_SCHEME).lstrip("/")).resolve()
+            if not path.is_relative_to(TEMPLATES):
+                raise ValueError(f"outside the templates: {url}")
+            return URLFetcherResponse(url, path.read_bytes())
+
+    return Shipped(allowed_protocols=("data",))
+
+
+def _attachment(file: Attached, date: dt.datetime) -> Any:
     """Return an attachment for the renderer, without the time of day at which it is written."""
     from weasyprint import Attachment
 
-    day = dt.datetime.fromisoformat(date) if date else _NO_DATE
     return Attachment(
         string=file.content,
         name=file.name,
         description=file.description,
         relationship=file.relationship,
-        created=day,
-        modified=day,
+        created=date,
+        modified=date,
     )
+
+
+@contextmanager
+def _no_fonts_left() -> Iterator[None]:
+    """Have the files of fonts removed, which the renderer leaves to the garbage collector."""
+    usual = tempfile.tempdir
+    with tempfile.TemporaryDirectory(prefix="roofslip-") as folder:
+        tempfile.tempdir = folder
+        try:
+            yield
+        finally:
+            tempfile.tempdir = usual
 
 
 @contextmanager

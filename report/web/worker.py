@@ -19,7 +19,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 from report.making import Step
 from report.web.limits import FULL, INTERNAL, confine, is_full
 from report.words.counts import capitalized
-from report.workers import WorkerProcess, started_worker, tell
+from report.workers import WorkerProcess, tell
 
 NICE = 5
 """How far the others give way to the process of quick jobs, as the command nice has it."""
@@ -43,10 +43,7 @@ def computing(folder: Path, is_quick: bool) -> WorkerProcess:
 
 
 def making(folder: Path, told: Callable[[str], object]) -> WorkerProcess:
-    """Start a process that makes a package, with what it leaves behind in a folder.
-
-    Where it is ended, the process that draws beside it ends as well; that has the same limits.
-    """
+    """Start a process that makes a package, with what it leaves behind in a folder."""
     limits = partial(confine, _NICE_OF_PACKAGES, **_OF_PACKAGES)
     return WorkerProcess(limits, is_trusted=False, told=told, within=folder)
 
@@ -83,11 +80,7 @@ def made(workbook: Path, out: Path) -> str:
     """Make a package, telling its steps; return why there is none, in the words of the page."""
     from report.making import make
 
-    def do() -> None:
-        with started_worker() as worker:
-            make(workbook, out, None, lambda step: tell(in_words(step)), worker)
-
-    return _failure(do)
+    return _failure(lambda: make(workbook, out, None, lambda step: tell(in_words(step))))
 
 
 def motions_made(workbook: Path, out: Path) -> str:
@@ -119,7 +112,7 @@ def motions_made(workbook: Path, out: Path) -> str:
     return _failure(do)
 
 
-def _failure(do: Callable[[], None]) -> str:
+def _failure(do: Callable[[], object]) -> str:
     """Do something; return why it failed, in the words of the page."""
     try:
         do()

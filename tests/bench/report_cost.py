@@ -1,7 +1,7 @@
 """Claim: where the time of `roofslip report` goes, and that the estimate before it starts is near.
 
 Processor time, for other programs may be at work; medians of repeats. The stages of the example run
-one after the other in one process; the command has a second one. Larger projects repeat the arrays
+one after the other. Larger projects repeat the arrays
 and motions of the example, the motions in reverse, or one after the other where they are longer.
 """
 
@@ -15,7 +15,6 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from concurrent.futures import Future
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +27,6 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing import example
 from report.sheet.writing.template import write_template
-from report.typeset.drawings import Converted
 from solver.formats import read_record
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -57,15 +55,10 @@ def stages() -> Iterator[str]:
     from report.package.html import pages
 
     html = pages(assessment, evidence)
-    yield "pictures as PDF operators, with imports"
-    from report.typeset.pdf import draw_ahead, lay_out, pictures
+    yield "PDF, with tags and imports"
+    from report.typeset.pdf import lay_out
 
-    drawn: dict[str, Future[Converted]] = {}
-    for source, picture in draw_ahead(pictures(html)).items():
-        drawn[source] = Future()
-        drawn[source].set_result(picture)
-    yield "PDF, with tags and attachments"
-    lay_out(html, drawn)
+    lay_out(html)
     yield "plan.dxf, results.xlsx and results.json"
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
@@ -122,7 +115,7 @@ def _back(name: str) -> str:
 
 
 def reported(folder: Path) -> tuple[float, float]:
-    """Return the processor time [s] of a report, and the memory of its larger process [MB]."""
+    """Return the processor time [s] of a report, and its memory [MB]."""
     used = [finished(command("report", str(folder), "--quiet"))[:2] for _ in range(REPEATS)]
     seconds, megabytes = zip(*used, strict=True)
     return statistics.median(seconds), max(megabytes)
@@ -142,7 +135,7 @@ def main() -> None:
             taken, megabytes = reported(folder)
         size = f"{arrays} arrays, {motions} motions of {30 * length} s"
         figure(f"report of {size}", taken, "s")
-        figure(f"memory of its larger process, {size}", megabytes / 1000.0, "GB")
+        figure(f"memory, {size}", megabytes / 1000.0, "GB")
         figure(f"estimate relative to this report, {size}", expected / taken)
 
 

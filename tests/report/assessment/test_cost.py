@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from places import ROOT
-from report.assessment.cost import LONG_S, cost, expected_s
+from report.assessment.cost import cost, expected_s
 from report.making import make
-from report.workers import SameProcess
 from sheets import make as make_book
-from sheets import project, read_workbook
+from sheets import read_workbook
 from solver.model import InputError
 
 
@@ -33,16 +32,16 @@ def test_a_short_report_says_nothing(book):
 
 def test_the_example_is_estimated_as_it_was_measured():
     book = read_workbook(ROOT / "projects" / "example" / "input.xlsx")
-    # Processor time of the command with its second process: tests/bench/report_cost.py.
-    assert expected_s(book.input, book.shaking) == pytest.approx(14.2, rel=0.1)
+    # Processor time of the command: tests/bench/report_cost.py.
+    assert expected_s(book.input, book.shaking) == pytest.approx(10.1, rel=0.1)
 
 
 def test_a_long_report_says_what_makes_it_long(book):
     shaking = lasting(book, 700_000)
-    # 6.4 + 2 arrays 0.45 + 3 motions 0.33 + 2.1 million samples (61 + 2 arrays 7.3)
-    assert expected_s(book.input, shaking) == pytest.approx(167.05, abs=0.1)
+    # 6.2 + 2 arrays 0.06 + 3 motions 0.27 + 2.1 million samples (30 + 2 arrays 3.5)
+    assert expected_s(book.input, shaking) == pytest.approx(84.83, abs=0.1)
     assert cost(book.input, shaking) == (
-        "about 3 minutes of processor time for 2 arrays, 3 motions and 2,100,000 samples"
+        "about 2 minutes of processor time for 2 arrays, 3 motions and 2,100,000 samples"
     )
 
 
@@ -55,24 +54,20 @@ def test_arrays_cost_runs_where_their_slope_or_friction_differs(book):
         return expected_s(more, shaking) - expected_s(book.input, shaking)
 
     steeper = given[0].model_copy(update={"slope_value": 1.5})
-    assert more_s(*given) == pytest.approx(2 * 0.45)
-    assert more_s(steeper) == pytest.approx(0.45 + 0.3 * 7.3)
+    assert more_s(*given) == pytest.approx(2 * 0.06)
+    assert more_s(steeper) == pytest.approx(0.06 + 0.3 * 3.5)
 
 
 def test_a_report_says_it_before_the_runs(tmp_path, monkeypatch):
-    one = project().model_dump()["arrays"][0]
-    arrays = [
-        one | {"id": f"A{k}", "x_from_m": 20.0 * k, "x_to_m": 20.0 * k + 10.0} for k in range(200)
-    ]
-    path = make_book(tmp_path, arrays=arrays, objects=[], clearances=[])
+    path = make_book(tmp_path)
 
     def stopped(*_):
         raise InputError("the runs begin")
 
     monkeypatch.setattr("report.assessment.project.assess", stopped)
+    monkeypatch.setattr("report.assessment.cost.LONG_S", 1.0)
     said = []
-    with SameProcess() as here, pytest.raises(InputError, match="the runs begin"):
-        make(path, None, None, said.append, here)
-    cost_words = "about 2 minutes of processor time for 200 arrays, 3 motions and 600 samples"
+    with pytest.raises(InputError, match="the runs begin"):
+        make(path, None, None, said.append)
+    cost_words = "about 2 minutes of processor time for 2 arrays, 3 motions and 600 samples"
     assert str(said[-1]) == f"running the motions ({cost_words})"
-    assert LONG_S == 60.0

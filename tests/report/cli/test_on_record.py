@@ -19,7 +19,6 @@ from report.proof.package import open_package
 from report.sheet.checking.covered import outdated, to_record
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.read import read
-from report.workers import SameProcess
 from sheets import at, edit, make, type_into
 
 SHIPPED = sorted(path.parent.name for path in (ROOT / "projects").glob("*/input.xlsx"))
@@ -97,8 +96,7 @@ def test_a_workbook_that_is_read_only_stays_as_it_is(tmp_path, monkeypatch):
     before, usual = path.read_bytes(), os.access
     monkeypatch.setattr(os, "access", lambda at, mode: Path(at) != path and usual(at, mode))
     lines = []
-    with SameProcess() as worker:
-        make_package(path, None, None, lambda _: None, worker, on_record=lines.append)
+    make_package(path, None, None, lambda _: None, on_record=lines.append)
     assert path.read_bytes() == before
     (line,) = lines
     assert line.endswith("not put on record: the workbook is read-only, or was saved meanwhile")

@@ -27,7 +27,6 @@ from report.cli.terminal import INTERRUPTED
 from report.cli.watch import Round, is_input, saves, settle
 from report.making import OUTPUTS
 from report.memoized import clear
-from report.workers import SameProcess, started_worker
 from sheets import make, type_into
 from solver.model import InputError
 from solver.sliding import least_model
@@ -142,7 +141,7 @@ def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_run(
     monkeypatch.setattr("report.cli.watch.SETTLE_S", 0.0)
     path, folder = tmp_path / "input.xlsx", tmp_path / "out"
     path.write_bytes(b"half")
-    round_ = Round(path, None, SameProcess())
+    round_ = Round(path, None)
     try:
         assert not round_.run()
         first = capsys.readouterr().err
@@ -199,11 +198,9 @@ def test_once_ends_after_one_round(tmp_path):
 
 
 UNLAID = """
-import report.workers
 from packages import unlaid
 from report.cli.main import main
 
-report.workers.WorkerProcess = lambda _: report.workers.SameProcess()
 with unlaid(): main()
 """
 
@@ -248,19 +245,13 @@ class Interrupting:
         os.kill(os.getpid(), signal.SIGINT)
 
 
-class Idle:
-    def submit(self, call):
-        pass
-
-
-@pytest.mark.parametrize("worker", [Idle, SameProcess], ids=lambda kind: kind.__name__)
 @pytest.mark.nightly("report/cli/watch.py")
-def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path, worker):
+def test_ctrl_c_while_a_round_is_swept_ends_the_watch(tmp_path):
     gc.disable()
     try:
         Interrupting()
         with pytest.raises(KeyboardInterrupt):
-            Round(tmp_path, tmp_path, worker()).sweep()
+            Round(tmp_path, tmp_path).sweep()
     finally:
         gc.enable()
 
@@ -288,11 +279,9 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
 REPORTS = """
 import sys
 from contextlib import nullcontext
-import report.workers
 from packages import unlaid
 from report.cli.main import main
 
-report.workers.WorkerProcess = lambda _: report.workers.SameProcess()
 for folder in sys.argv[1:]:
     with nullcontext() if folder == sys.argv[-1] else unlaid():
         main(["report", folder, "--quiet"], standalone_mode=False)
@@ -314,7 +303,7 @@ def outputs(folder):
 def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
     tmp_path, monkeypatch, capsys
 ):
-    """The package of the last round is laid out, with pictures that the first has converted."""
+    """The package of the last round is laid out."""
     runs, copies, warm = [], [], []
     solve = least_model.solve
     monkeypatch.setattr(least_model, "solve", lambda *call: runs.append(call) or solve(*call))
@@ -330,19 +319,18 @@ def test_a_warm_round_runs_what_changed_and_gives_the_files_of_a_fresh_process(
         return len(runs)
 
     try:
-        with started_worker() as worker:
-            round_ = Round(path, folder / "out", worker)
-            with monkeypatch.context() as patch:
-                patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
-                assert round_.run()
-                all_runs = len(runs)
-                type_into(path, {"Clearances/1/Provided clearance": 31.0})
-                none = counted(round_, "clearance")
-                type_into(path, {FRICTION: 0.5})
-                some = counted(round_, "friction")
-            vertical.write_text("0.001\n" + vertical.read_text().partition("\n")[2])
-            others = counted(round_, "record")
-            round_.sweep()
+        round_ = Round(path, folder / "out")
+        with monkeypatch.context() as patch:
+            patch.setattr(report.typeset.pdf, "lay_out", lambda html, *_: html.encode())
+            assert round_.run()
+            all_runs = len(runs)
+            type_into(path, {"Clearances/1/Provided clearance": 31.0})
+            none = counted(round_, "clearance")
+            type_into(path, {FRICTION: 0.5})
+            some = counted(round_, "friction")
+        vertical.write_text("0.001\n" + vertical.read_text().partition("\n")[2])
+        others = counted(round_, "record")
+        round_.sweep()
     finally:
         clear()
     assert warm == fresh(copies)

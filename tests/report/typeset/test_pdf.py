@@ -1,0 +1,97 @@
+"""The PDF of a document: each stream compressed once, broken markup refused, nothing left."""
+
+import io
+import os
+import subprocess
+import sys
+import zlib
+from xml.etree import ElementTree
+
+import pytest
+from pypdf import PdfReader
+
+from report.typeset.equations import data_uri
+from report.typeset.finish import LEVEL
+from report.typeset.pdf import lay_out
+from solver.model import DefectError
+
+
+def page(body):
+    return (
+        "<html lang='en-US'><head><title>T</title><style>@font-face { font-family: 'Source Sans 3';"
+        " src: url('shipped:/fonts/SourceSans3-Regular.ttf') } p { font-family: 'Source Sans 3' }"
+        f"</style></head><body>{body}</body></html>"
+    )
+
+
+def test_streams_of_a_document_are_compressed_once(monkeypatch):
+    once: list[bytes] = []
+    compress = zlib.compress
+
+    def counted(data: bytes, level: int) -> bytes:
+        assert level == LEVEL
+        once.append(data)
+        return compress(data, level)
+
+    monkeypatch.setattr(zlib, "compress", counted)
+    others: list[int] = []
+    compressor = zlib.compressobj
+
+    def opened(level: int):
+        others.append(level)
+        return compressor(level)
+
+    monkeypatch.setattr(zlib, "compressobj", opened)
+    assert b"One page of text" not in lay_out(page("<p>One page of text.</p>"))
+    assert len(set(once)) == len(once) >= 3  # the page, its color profile and a font
+    # The list of objects for the identifier and in the file; their places.
+    assert len(others) == 3
+
+
+def test_broken_markup_is_an_error_and_not_mended():
+    with pytest.raises(ElementTree.ParseError):
+        lay_out('<html lang="en-US"><title>T</title><p>One page of text.</html>')
+
+
+@pytest.mark.parametrize(
+    ("body", "word"),
+    [
+        pytest.param("<p>\N{HIRAGANA LETTER A}</p>", "notdef", id="a glyph that no font has"),
+        pytest.param("<p style='colour: red'>a</p>", "colour", id="an unknown property"),
+        pytest.param("<img src='{}' alt='a'/>", "http", id="an address of the network"),
+        pytest.param("<img src='shipped:/../pyproject.toml' alt='a'/>", "outside", id="a file"),
+    ],
+)
+def test_what_the_renderer_warns_of_is_an_internal_error(body, word):
+    with pytest.raises(DefectError, match=word):
+        lay_out(page(body.format("http" + "://127.0.0.1/a.png")))
+
+
+def test_a_picture_is_drawn_with_its_words():
+    svg = (
+        '<svg xmlns="http://www.w3.org/2000/svg" width="144pt" height="72pt" viewBox="0 0 144 72">'
+        '<text x="70" y="30" style="font: 9px \'Source Sans 3\'">Array A2</text></svg>'
+    )
+    pdf = lay_out(page(f"<img src='{data_uri(svg)}' alt='A chart'/>"))
+    assert "Array A2" in PdfReader(io.BytesIO(pdf)).pages[0].extract_text()
+
+
+PROGRAM = """
+import gc, sys
+from report.typeset.pdf import lay_out
+gc.disable()  # as commands do
+assert lay_out(sys.argv[1]).startswith(b"%PDF")
+gc.freeze()
+"""
+
+
+def test_a_process_that_laid_out_a_document_ends_without_a_word_and_leaves_no_fonts(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, page("<p>a</p>")],
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
+    assert list(tmp_path.iterdir()) == []
