@@ -103,19 +103,6 @@ def test_check_warns_and_repair_restores_every_formula_to_the_letter(tmp_path):
     assert path.read_bytes() == whole
 
 
-def test_repair_changes_the_one_cell_and_keeps_its_format(tmp_path):
-    name, sheet = "Site/S_DS/Computed", "xl/worksheets/sheet3.xml"
-    path = type_into(make(tmp_path), {name: 1.2})
-    old = parts(path)
-    assert check("--repair", "--quiet", path).output == ""
-    new = parts(path)
-    assert [part for part in old if old[part] != new[part]] == [sheet]
-    cell = rb'<c r="%b"([^>]*)>.*?</c>' % at(name).partition("!")[2].encode()
-    assert re.sub(cell, b"", old[sheet]) == re.sub(cell, b"", new[sheet])
-    before, after = (re.search(cell, data[sheet])[1] for data in (old, new))
-    assert re.search(rb's="\d+"', before)[0] == re.search(rb's="\d+"', after)[0]
-
-
 def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):
     def change(book):
         # As Excel does it: what refers to a heading or a sheet follows.
