@@ -57,7 +57,7 @@ def test_broken_markup_is_an_error_and_not_mended():
     ("body", "word"),
     [
         pytest.param("<p>\N{HIRAGANA LETTER A}</p>", "notdef", id="a glyph that no font has"),
-        pytest.param("<p style='colour: red'>a</p>", "colour", id="an unknown property"),
+        pytest.param("<p style='shade: red'>a</p>", "shade", id="an unknown property"),
         pytest.param("<img src='{}' alt='a'/>", "http", id="an address of the network"),
         pytest.param("<img src='shipped:/../pyproject.toml' alt='a'/>", "outside", id="a file"),
     ],
