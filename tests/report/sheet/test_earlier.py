@@ -1,0 +1,65 @@
+"""Workbooks of 158bb098, whose formulas repeated what `check` refuses, give the results of then."""
+
+import json
+import math
+import shutil
+
+import pytest
+from click.testing import CliRunner
+
+from packages import undrawn, unlaid
+from places import DATA, ROOT
+from report.cli.main import main
+from report.sheet.reading.read import read
+from report.sheet.schema import ProjectInput
+from report.study.read import read_study
+from report.study.schema import StudyInput
+from sheets import same
+
+EARLIER = DATA / "158bb098"
+RECORDED = json.loads((EARLIER / "recorded.json").read_text())
+COMPLETE = ("campus", "conditions", "example", "school")
+
+
+def beside(folder, name, project):
+    """Put a workbook where a project has its own, beside the project's records."""
+    ignored = shutil.ignore_patterns("out", "*.py", "*.xlsx")
+    shutil.copytree(ROOT / "projects" / project, folder, ignore=ignored)
+    return shutil.copy(EARLIER / f"{name}.xlsx", folder / "input.xlsx")
+
+
+@pytest.mark.parametrize("name", COMPLETE)
+def test_a_project_is_read_as_it_was(tmp_path, name):
+    sheet = read(beside(tmp_path / name, name, name))
+    assert same(sheet.project, ProjectInput.model_validate(RECORDED[name]["input"]))
+
+
+def test_a_study_is_read_as_it_was():
+    sheet = read_study(EARLIER / "study.xlsx")
+    assert same(sheet.project, StudyInput.model_validate(RECORDED["study"]["input"]))
+
+
+@pytest.mark.parametrize(("name", "project"), [("begun", "example"), ("undone", "conditions")])
+def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(tmp_path, name, project):
+    beside(tmp_path / "job", name, project)
+    done = CliRunner().invoke(main, ["check", str(tmp_path / "job")])
+    assert done.exit_code == 2
+    assert done.output.replace(str(tmp_path), "").splitlines() == RECORDED[name]["check"]
+
+
+@pytest.mark.nightly("report/sheet/", "report/results/")
+@pytest.mark.parametrize("name", ["example", "conditions"])
+def test_the_results_are_those_of_then(tmp_path, name):
+    beside(tmp_path / name, name, name)
+    with unlaid(), undrawn():
+        done = CliRunner().invoke(main, ["report", "--quiet", str(tmp_path / name)])
+    assert done.exit_code == 0, done.output
+    results = json.loads((tmp_path / name / "out" / "results.json").read_text())
+    for section in ("arrays", "clearances"):
+        for row, wanted in zip(results[section], RECORDED[name][section], strict=True):
+            for key, value in wanted.items():
+                found = row[key]
+                if isinstance(value, float):
+                    assert math.isclose(found, value, rel_tol=1e-9, abs_tol=1e-14), (row, key)
+                else:
+                    assert found == value, (row, key)
