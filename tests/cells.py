@@ -31,7 +31,9 @@ def cell(book: Workbook, name: str) -> Cell:
     if title not in book.sheetnames:
         raise _unknown(name, "sheet", book.sheetnames)
     sheet = book[title]
-    labels = _by_text(next(filter(_text, line), line[0]) for line in sheet.iter_rows())
+    tops = {range_boundaries(table.ref)[1] for table in sheet.tables.values()}
+    lines = (line for line in sheet.iter_rows() if line[0].row not in tops)
+    labels = _by_text(next(filter(_text, line), line[0]) for line in lines)
     if not heading:
         if row not in labels:
             raise _unknown(name, "label", labels)

@@ -15,7 +15,7 @@ from zipfile import ZipFile
 import pytest
 from openpyxl import Workbook, load_workbook
 from openpyxl.cell import Cell
-from openpyxl.utils import coordinate_to_tuple
+from openpyxl.utils import coordinate_to_tuple, range_boundaries
 
 import inputs
 from cells import address, addressed, cell
@@ -190,7 +190,8 @@ def retitle(book: Workbook, sheet: str, heading: str, text: str) -> None:
     head = cell(book, f"{sheet}/heading/{heading}")
     head.value = text
     (table,) = book[sheet].tables.values()
-    table.tableColumns[head.column - 1].name = text
+    left, *_ = range_boundaries(table.ref)
+    table.tableColumns[head.column - left].name = text
 
 
 def type_into(path: Path, cells: Mapping[str, object]) -> Path:

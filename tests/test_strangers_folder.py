@@ -79,22 +79,12 @@ def ballast(job):
     return ("plan", "ballast", job.parent / "map.csv", job, *more)
 
 
-def repair(job):
-    return ("check", "--repair", job)
-
-
-WRITERS = (rows, suite, clearances, ballast, repair, plan_read)
+WRITERS = (rows, suite, clearances, ballast, plan_read)
 """Every command that changes the workbook."""
-
-
-def spoiled(job):
-    """Type over a formula, so that there is something to repair."""
-    sheets.edit(job / "input.xlsx", lambda book: setattr(sheets.formula_cells(book)[0], "value", 1))
 
 
 @pytest.mark.parametrize("writer", WRITERS)
 def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
-    spoiled(folder)
     outside = folder.parent / "theirs.xlsx"
     (folder / "input.xlsx").rename(outside)
     (folder / "input.xlsx").symlink_to(outside)
@@ -106,7 +96,6 @@ def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
 
 @pytest.mark.parametrize("writer", WRITERS)
 def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
-    spoiled(folder)
     link = folder / "given.xlsx"
     link.symlink_to(folder / "input.xlsx")
     before = (folder / "input.xlsx").read_bytes()
@@ -120,7 +109,6 @@ def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
 @pytest.mark.parametrize("lock", ["~$input.xlsx", ".~lock.input.xlsx#"])
 @pytest.mark.parametrize("writer", WRITERS)
 def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock):
-    spoiled(folder)
     (folder / lock).write_bytes(b"")
     before = state(folder.parent)
     told = commands.refused(*writer(folder))
@@ -133,7 +121,6 @@ def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock)
 
 @pytest.mark.parametrize("writer", WRITERS)
 def test_the_workbook_as_it_was_is_kept_by_one_name(folder, writer):
-    spoiled(folder)
     before = (folder / "input.xlsx").read_bytes()
     (folder / "input.before.xlsx").write_bytes(b"of the command before")
     commands.printed(*writer(folder))
@@ -168,7 +155,6 @@ TRAP = '{"../stolen.txt": true, "../../stolen.txt": true, "theirs.txt": false}'
 
 def test_no_instruction_is_read_from_a_folder(folder):
     """Journals of an earlier version replaced, removed and moved files as they said."""
-    spoiled(folder)
     (folder / "theirs.txt").write_text("theirs")
     for home in (folder, folder / "records", folder / "made"):
         for name in ("forward.json", "back.json"):

@@ -36,31 +36,29 @@ STEPS = 3
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
-@click.option("--repair", is_flag=True,
-              help="First restore the formulas that were typed over.")  # fmt: skip
+@click.option("--repair", is_flag=True, hidden=True)
 @QUIET
 @AS_JSON
 def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
-    """Check the input, and print what is known without a run; write nothing without --repair.
+    """Check the input, and print what is known without a run; write nothing.
 
     An error stops the work. A warning may be intended: give its name, printed in brackets, and a
     reason on the sheet Acknowledged. A warning without a name is a limit that is not satisfied, a
     formula of the sheet that was typed over, or a source other than that in suite.json. A note
     needs no answer.
     """
-    restored: list[str] = []
+    if repair:
+        raise click.UsageError(
+            "--repair is gone: nothing is read from the formulas of the workbook; where one was"
+            " typed over, copy it from a fresh workbook (roofslip new FOLDER)"
+        )
     with (
         input_errors(source, as_json=as_json),
         Progress(STEPS, quiet=quiet or as_json) as progress,
     ):
-        if repair:
-            restored = _repaired(source)
-            if not (as_json or quiet):
-                listed = f": {', '.join(restored)}" if restored else ""
-                click.echo(f"{numbered(len(restored), 'formula')} restored{listed}")
         sheet, shaking, found = checked(source, progress)
     if as_json:
-        print_json(_document(sheet, found) | {"restored": restored})
+        print_json(_document(sheet, found))
     elif not quiet:
         click.echo(_summary(sheet, shaking, found))
         for line in lines(sheet, found):
@@ -93,14 +91,13 @@ def checked(
     progress("reading the records")
     shaking = prepare(sheet)
     progress("comparing with the limits")
-    typed_over = formula_findings(overwritten(sheet.book), sheet.path)
     return (
         sheet,
         shaking,
         in_order(
             [
                 *what_is_new(sheet.book),
-                *typed_over,
+                *formula_findings(overwritten(sheet.book)),
                 *limits_before_runs(sheet.project, shaking),
                 *missing_clearances(sheet),
                 *other_sources(sheet),
@@ -120,18 +117,6 @@ def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
     if date > today:
         text = f"date is {date}, after today, {today}; correct it if that is not intended"
         yield note(Place("project", 0, "date"), text)
-
-
-def _repaired(source: Path) -> list[str]:
-    """Restore the formulas that were typed over; return the addresses of their cells."""
-    from report.sheet.reading.parts import Formula
-    from report.sheet.writing.filled import changing
-    from report.sheet.writing.live import overwritten
-
-    with changing(source) as change:
-        lost = [item for item in overwritten(change.book) if item.can_be_restored]
-        change.fill({item.position: Formula(item.formula) for item in lost})
-    return [item.position.address for item in lost]
 
 
 def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:

@@ -1,92 +1,58 @@
-"""What makes a cell required or wrong, each as one expression: tested on a draft, and a formula.
+"""What makes a cell required that is optional by itself, and what names must be.
 
-`checks` yields an error where an expression holds, and `needs` counts cells by its formula, so that
-a tick of the sheet and `roofslip check` agree. Read `REQUIRED`, then `REFERENCES`.
+`checks` yields an error where it is not so. Read `REQUIRED`, then `REFERENCES`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from report.sheet.schema import SECTION
 from report.sheet.schema.choices import ObjectKind, RecordedAt, Scaling
-from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, YesNo
-from report.sheet.schema.layout import literal
+from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.scene import ROOF, SIDES, WEIGHT_PARTS
 
-Refer = Callable[[str], str]
-"""Returns the reference to a field of the row or block of a formula."""
-
-
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """A condition on the cells of a row: whether it holds for a row of a draft, and for cells."""
-
-    holds: Callable[[DraftRow, Draft], bool]  # not where a cell could not be read
-    formula: Callable[[Refer], str]
+Condition = Callable[[DraftRow, Draft], bool]
+"""Whether a condition holds for a row of a draft; not where a cell could not be read."""
 
 
 def _filled(*fields: str) -> Condition:
-    return Condition(
-        lambda row, _: any(row.get(field) not in (None, "") for field in fields),
-        lambda refer: f'TRIM({"&".join(map(refer, fields))})<>""',
-    )
+    return lambda row, _: any(row.get(field) not in (None, "") for field in fields)
 
 
 def _chosen(field: str, *choices: str) -> Condition:
-    def formula(refer: Refer) -> str:
-        tests = [f'TRIM({refer(field)})="{choice}"' for choice in choices]
-        return tests[0] if len(tests) == 1 else f"OR({','.join(tests)})"
-
-    return Condition(lambda row, _: row.get(field) in choices, formula)
+    return lambda row, _: row.get(field) in choices
 
 
-def _yes(field: str) -> Condition:
-    return Condition(
-        lambda row, _: row.get(field) is True, lambda refer: f'TRIM({refer(field)})="{YesNo.YES}"'
-    )
+def _is_directional(row: DraftRow, draft: Draft) -> bool:
+    return row.get("directional") is True
 
 
-def _on_the_sheet(formula: Callable[[Refer], str]) -> Condition:
-    """Return a condition of the sheet alone, of which other modules tell."""
-    return Condition(lambda row, draft: False, formula)
+def _has_no_outline(row: DraftRow, draft: Draft) -> bool:
+    """Whether an array needs the four sides of a rectangle."""
+    return "id" in row and all(vertex.get("name") != row["id"] for vertex in draft["outlines"])
 
 
-# An array needs the four sides of a rectangle.
-_NO_OUTLINE = Condition(
-    lambda row, draft: (
-        "id" in row and all(vertex.get("name") != row["id"] for vertex in draft["outlines"])
-    ),
-    lambda refer: f"COUNTIF(live_outlines,{literal(refer('id'))})=0",
-)
-# The weight of an array is computed from its parts.
-_LACKS_PARTS = Condition(
-    lambda row, _: (
-        all(part in row for part in WEIGHT_PARTS) and any(row[p] is None for p in WEIGHT_PARTS)
-    ),
-    lambda refer: f"""OR({",".join(f'TRIM({refer(part)})=""' for part in WEIGHT_PARTS)})""",
-)
-# A building of ground motions needs a period.
-_NO_STRUCTURE = Condition(
-    lambda row, draft: (
+def _lacks_parts(row: DraftRow, draft: Draft) -> bool:
+    """Whether the weight of an array is not computed from its parts."""
+    return all(part in row for part in WEIGHT_PARTS) and any(row[p] is None for p in WEIGHT_PARTS)
+
+
+def _has_no_structure(row: DraftRow, draft: Draft) -> bool:
+    """Whether a building of ground motions needs a period."""
+    return (
         "structure" in row
         and row["structure"] is None
         and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in draft["motions"])
-    ),
-    lambda refer: f'AND(live_ground_motions>0,TRIM({refer("structure")})="")',
-)
+    )
 
 
-@dataclass(frozen=True, slots=True)
-class Required:
-    """When an optional cell is required, and what would do where it is missing.
-
-    Without a wish, other modules tell that it is missing.
-    """
+class Required(NamedTuple):
+    """When an optional cell is required, and what would do where it is missing."""
 
     when: Condition
-    wish: str = ""
+    wish: str
 
 
 _OR_NONE = "give all four sides of the rectangle, or none"
@@ -94,44 +60,32 @@ _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet 
 _LAW = "give high-velocity friction and friction rate, or neither"
 _CODE = "give building code and year, or neither"
 _CONFIRMED = "give who confirmed the drawing distances and when, or neither"
-# A pasted column does not state them.
-_PASTED = _on_the_sheet(lambda refer: f'ISNUMBER(FIND("!",{refer("record")}))')
 
 REQUIRED: Mapping[tuple[str, str], Required] = {
-    ("site", "s_ds_g"): Required(_on_the_sheet(lambda _: 'live_s_ds=""')),
-    ("site", "s_d1_g"): Required(_on_the_sheet(lambda _: 'AND(live_to_design,live_s_d1="")')),
-    ("target", "t_l_s"): Required(_on_the_sheet(lambda _: "live_to_design")),
     ("site", "building_code"): Required(_filled("building_code_year"), _CODE),
     ("site", "building_code_year"): Required(_filled("building_code"), _CODE),
     ("project", "drawing_confirmed_by"): Required(_filled("drawing_confirmed_date"), _CONFIRMED),
     ("project", "drawing_confirmed_date"): Required(_filled("drawing_confirmed_by"), _CONFIRMED),
     **{("roof", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
-    **{("arrays", side): Required(_NO_OUTLINE, _OR_OUTLINE) for side in SIDES},
+    **{("arrays", side): Required(_has_no_outline, _OR_OUTLINE) for side in SIDES},
     **{("objects", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
     ("objects", "height_m"): Required(
         _chosen("kind", ObjectKind.EDGE_WITH_PARAPET), "give the parapet's height above the roof"
     ),
     ("arrays", "weight_n"): Required(
-        _LACKS_PARTS, "give it, or modules, module weight and ballast weight"
+        _lacks_parts, "give it, or modules, module weight and ballast weight"
     ),
     ("arrays", "mu_fast"): Required(_filled("mu_rate_s_per_m"), _LAW),
     ("arrays", "mu_rate_s_per_m"): Required(_filled("mu_fast"), _LAW),
-    ("motions", "units"): Required(_PASTED),
-    ("motions", "dt_s"): Required(_PASTED),
     ("motions", "scale_value"): Required(
         _chosen("scaling", Scaling.FACTOR, Scaling.PPA), "give the factor, or the PPA in g"
     ),
     ("building", "period_s"): Required(
-        _NO_STRUCTURE, "give it, or a structure type: a motion is recorded at the ground"
+        _has_no_structure, "give it, or a structure type: a motion is recorded at the ground"
     ),
-    # Lacking ones are a condition of the package.
-    **{
-        ("options", f"peer_{field}"): Required(_yes("peer_reviewed"))
-        for field in ("reviewer", "license", "date", "letter")
-    },
     **{
         ("options", f"directional_{field}"): Required(
-            _yes("directional"), "give it, or answer No to displacement by direction"
+            _is_directional, "give it, or answer No to displacement by direction"
         )
         for field in ("reason", "reviewer", "license", "date")
     },
@@ -161,8 +115,8 @@ ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
 def missing(draft: Draft, where: Where) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
     for (section, field), required in REQUIRED.items():
-        for index, row in enumerate(draft[section] if required.wish else ()):
+        for index, row in enumerate(draft[section]):
             is_blank = field in row and row[field] in (None, "")
-            if is_blank and required.when.holds(row, draft):
+            if is_blank and required.when(row, draft):
                 found = f"{SECTION[section].entry(field).spoken} is missing"
                 yield Finding.error(Place(section, index, field), found, required.wish)

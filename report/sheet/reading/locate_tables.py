@@ -26,7 +26,8 @@ from report.sheet.reading.positions import (
     sheet_titled,
     unit_size,
 )
-from report.sheet.schema.answers import ANSWER_HEADINGS, STATUS_HEADING
+from report.sheet.schema import legacy_labels
+from report.sheet.schema.answers import ANSWER_HEADINGS
 from report.sheet.schema.fields import SheetSection, entries
 from solver.model import InputError, Problem
 
@@ -72,7 +73,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         right += 1
     positions = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
     # Formulas are not read.
-    answers = ANSWER_HEADINGS.get(section.key, {STATUS_HEADING.casefold()})
+    answers = ANSWER_HEADINGS.get(section.key, frozenset()) | legacy_labels.ANSWERS
     headings = [p for p in positions if label_key(sheet.cell(top, p.column).value) not in answers]
     columns, others, absent, problems = _columns(book, section, headings)
     used = [column.number for column in columns.values()]

@@ -11,16 +11,10 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import KW_ONLY, dataclass
 
-from report.sheet.schema.layout import Layout, literal
+from report.sheet.schema.layout import Tables, literal
 from report.words.units import Quantity, Unit
 from solver.model import INCH_M
 from solver.rules.provisions import Neighbor
-
-STATUS = "status"
-"""Name of the first column of every table: see `report.sheet.writing.needs.row_status`."""
-
-STATUS_HEADING = "Status"
-STATUS_FORMAT = '[=0]"✓";[<0]"wrong";0" missing"'
 
 IN_DISPLACEMENT, IN_SEPARATION = "in the displacement", "in the separation"
 """Where a rule set applies the importance factor, as written on the sheet Provisions."""
@@ -48,19 +42,19 @@ class FormulaColumn:
     width: int = 11
     is_helper: bool = False  # it only serves other formulas, and is folded at the right
 
-    def written(self, layout: Layout, section: str) -> str:
+    def written(self, tables: Tables, section: str) -> str:
         """Return the formula with the references of a finished layout."""
-        return _blank_on_error(written(self.formula, layout, layout.tables[section].this))
+        return _blank_on_error(written(self.formula, tables, tables[section].this))
 
 
-def written(formula: str, layout: Layout, this: Callable[[str], str]) -> str:
+def written(formula: str, tables: Tables, this: Callable[[str], str]) -> str:
     """Return a formula with the references of a finished layout, on one line."""
 
     def reference(match: re.Match[str]) -> str:
         table, is_heading, field = match.groups()
         if not table:
             return this(field)
-        place = layout.tables[table]
+        place = tables[table]
         return place.head(field) if is_heading else place.all(field)
 
     return _REFERENCE.sub(reference, "".join(map(str.strip, formula.splitlines())))
@@ -333,9 +327,9 @@ PRESCRIPTIVE_BASIS = (
 
 ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
     section: frozenset(
-        heading.partition("[")[0].strip().casefold()
-        for heading in (STATUS_HEADING, *(a.heading for a in table_answers(section, is_us=True)))
+        answer.heading.partition("[")[0].strip().casefold()
+        for answer in table_answers(section, is_us=True)
     )
     for section in ("arrays", "clearances", "outlines")
 }
-"""Headings of formulas by section, lowercase and without unit; other tables have only the first."""
+"""Headings of formulas by section, lowercase and without unit; other tables have none."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter, quote_sheetname
@@ -37,11 +37,6 @@ class TablePlace:
         """Return the reference to a column in the row of the formula."""
         return f"{self.section.table_name}[[#This Row],{self._column(name)}]"
 
-    def here(self, name: str) -> str:
-        """Return the reference to a column in the row of the cell that asks for a defined name."""
-        # What is not fixed in a name is said for a cell of the first row.
-        return f"{quote_sheetname(self.sheet)}!${self.letters[name]}1"
-
     def head(self, name: str) -> str:
         """Return the reference to a heading."""
         return f"{self.section.table_name}[[#Headers],{self._column(name)}]"
@@ -49,10 +44,6 @@ class TablePlace:
     def all(self, name: str) -> str:
         """Return the reference to a whole column."""
         return f"{self.section.table_name}[{self._column(name)}]"
-
-    def cell(self, name: str) -> str:
-        """Return the reference to a column in the first row, as conditional formats need it."""
-        return f"${self.letters[name]}{self.header + 1}"
 
     def cells(self, name: str) -> str:
         """Return the range of a column, beyond the prepared rows."""
@@ -67,24 +58,8 @@ class TablePlace:
         return f"[{_SPECIAL.sub(_ESCAPED, self.headings[name])}]"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BlockPlace:
-    """A block as written: the row of each field; values are in column B."""
-
-    section: SheetSection
-    rows: Mapping[str, int]
-
-    def cell(self, name: str) -> str:
-        """Return the address of a value on its sheet."""
-        return f"$B${self.rows[name]}"
-
-
-@dataclass(slots=True)
-class Layout:
-    """All blocks and tables as far as they are written."""
-
-    tables: dict[str, TablePlace] = field(default_factory=dict)
-    blocks: dict[str, BlockPlace] = field(default_factory=dict)
+Tables = Mapping[str, TablePlace]
+"""The tables of a workbook by section."""
 
 
 def literal(name: str) -> str:

@@ -24,6 +24,9 @@ LABELS: Mapping[tuple[str, str], tuple[str, ...]] = {
 }
 """Earlier labels and headings, by section and field."""
 
+ANSWERS = frozenset({"status"})
+"""Headings of formulas that every table had, lowercase: what a row lacks, which `check` says."""
+
 FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {("site", "stories"): ("storeys",)}
 """Earlier names of a field, which defined names of cells end with."""
 

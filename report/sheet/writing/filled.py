@@ -22,7 +22,7 @@ from report.sheet.reading.read import Sheet, read_book
 from report.sheet.reading.what_if import cells
 from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.fields import DraftRow, Place
-from report.sheet.writing.live import BROKEN, live_formulas
+from report.sheet.writing.live import BROKEN, legacy_statuses, live_formulas
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 
@@ -94,14 +94,18 @@ def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
     """
     if not cells:
         return book
-    before = live_formulas(book)
+    before = _formulas(book)
     book = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
-    after = live_formulas(book)
+    after = _formulas(book)
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
     grown = {at: Formula(after[at]) for at in after.keys() - before.keys()}
     # An earlier workbook lacks columns that the formulas of today refer to.
     whole = {at: formula for at, formula in grown.items() if BROKEN not in formula}
     return book_of(book.path, changed(book.data, whole)) if whole else book
+
+
+def _formulas(book: OpenBook) -> Mapping[CellPosition, str]:
+    return {**live_formulas(book), **dict(legacy_statuses(book))}
 
 
 def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:

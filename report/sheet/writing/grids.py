@@ -15,29 +15,17 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.sheet.checking.refused import UNDECIDED
 from report.sheet.schema import provision_name
 from report.sheet.schema.answers import (
     SITE_ANSWERS,
     SITE_FORMAT,
-    STATUS,
-    STATUS_FORMAT,
-    STATUS_HEADING,
     FormulaColumn,
     table_answers,
-    written,
 )
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Entry, Frozen, SheetSection, entries
-from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell, name_formula
+from report.sheet.schema.layout import TablePlace, Tables, name_cell
 from report.sheet.writing import style
-from report.sheet.writing.needs import (
-    row_status,
-    status_name,
-    undecided_names,
-    wrong_cells,
-    wrong_names,
-)
 from report.words.units import Unit
 
 BLANK_ROWS = 20
@@ -46,7 +34,10 @@ BLOCK_HEADS = ("", "Value", "Unit", "Computed", "Allowed", "Example", "Note")
 BLOCK_WIDTHS = (28, 30, 13, 16, 24, 20, 46)
 HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
-STATUS_WIDTH = 13  # "12 missing" in bold, in the wider type of a computer without Calibri too
+HINTS_WIDTH = 10
+FIRST = 2
+"""First column of a table; the words for its hints are in the one before it."""
+
 MANY, MANY_WIDTH = 6, 12
 _WIDER = 0.85  # of a column for text that is typed, as fonts may be wider than Calibri
 DATA_LINES = 2
@@ -73,8 +64,8 @@ def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bo
 
 def write_block(
     book: Workbook, section: SheetSection, units: UnitsFirst, given: Frozen | None
-) -> BlockPlace:
-    """Write a block, and return where its fields are."""
+) -> None:
+    """Write a block."""
     sheet = book[section.sheet]
     top, is_first = _put_section_title(sheet, section)
     unused = "" if section.key == "site" else "Computed"
@@ -89,12 +80,12 @@ def write_block(
         row, unit = rows[entry.name], entry.unit(is_us=units.is_us)
         style.put_input(sheet.cell(row, 2), entry, value, unit)
         _write_block_row(sheet, row, section, entry, unit)
+    style.make_plain_when_filled(sheet, f"B{top + 1}:C{top + len(rows)}")
     if is_first:
         for column, width in enumerate(BLOCK_WIDTHS, start=1):
             sheet.column_dimensions[get_column_letter(column)].width = width
         sheet.freeze_panes = f"B{top + 1}"
         sheet.print_title_rows = f"{top}:{top}"
-    return BlockPlace(section=section, rows=rows)
 
 
 def _write_block_row(
@@ -152,8 +143,7 @@ def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
         GridColumn(answer.name, answer.heading, answer.width, answer=answer)
         for answer in table_answers(section.key, is_us=units is UnitsFirst.US)
     ]
-    status = GridColumn(STATUS, STATUS_HEADING, STATUS_WIDTH)
-    return [status, *sorted((*fields, *answers), key=lambda c: (c.is_folded, bool(c.answer)))]
+    return sorted((*fields, *answers), key=lambda c: (c.is_folded, bool(c.answer)))
 
 
 def write_table(
@@ -170,14 +160,16 @@ def write_table(
         header=header,
         size=max(BLANK_ROWS, len(rows) + SPARE_ROWS),
         headings={column.name: column.heading for column in columns},
-        letters={c.name: get_column_letter(count) for count, c in enumerate(columns, start=1)},
+        letters={c.name: get_column_letter(at) for at, c in enumerate(columns, start=FIRST)},
     )
-    for number, column in enumerate(columns, start=1):
+    if is_first:
+        sheet.column_dimensions["A"].width = HINTS_WIDTH
+    for number, column in enumerate(columns, start=FIRST):
         if is_first or number > len(BLOCK_WIDTHS):
             sheet.column_dimensions[get_column_letter(number)].width = column.width
     _write_hints(sheet, top, columns, units)
     lines = 1
-    for number, column in enumerate(columns, start=1):
+    for number, column in enumerate(columns, start=FIRST):
         _write_heading(sheet, header, number, column)
         if column.entry is not None:
             values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
@@ -216,12 +208,13 @@ def _write_column(
         style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
     else:
         style.validate(sheet, place.cells(entry.name), entry, unit.si if unit else 1.0)
+    style.make_plain_when_filled(sheet, place.cells(entry.name))
     return lines
 
 
 def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
     """Group the columns that are rarely needed; closed unless one of them has a value."""
-    folded = [(count, c) for count, c in enumerate(columns, start=1) if c.is_folded]
+    folded = [(count, c) for count, c in enumerate(columns, start=FIRST) if c.is_folded]
     used = any(
         column.entry and _unless_default(getattr(row, column.name), column.entry) not in (None, "")
         for row in rows
@@ -247,12 +240,12 @@ def _write_hints(
 ) -> None:
     for offset, name in enumerate(HINT_ROWS):
         style.put(sheet, top + offset, 1, name, color=style.GRAY, size=9)
-    for number, column in enumerate(columns[1:], start=2):
+    for number, column in enumerate(columns, start=FIRST):
         for row, text in enumerate(_hints(column, units), start=top):
             is_example = row == top + 2
             hint = style.put(sheet, row, number, text, color=style.GRAY, size=9, italic=is_example)
             hint.fill, hint.border = style.HINT_FILL, style.BOX
-    shown = [number for number, column in enumerate(columns[1:], start=2) if not column.is_folded]
+    shown = [at for at, column in enumerate(columns, start=FIRST) if not column.is_folded]
     widths = [int(sheet.column_dimensions[get_column_letter(at)].width) for at in shown]
     for row in range(top, top + len(HINT_ROWS)):
         said = [str(sheet.cell(row, number).value) for number in shown]
@@ -278,8 +271,8 @@ def _write_heading(sheet: Worksheet, row: int, number: int, column: GridColumn) 
 
 
 def _add_table(sheet: Worksheet, place: TablePlace) -> None:
-    last = list(place.letters.values())[-1]
-    area = f"A{place.header}:{last}{place.header + place.size}"
+    first, *_, last = place.letters.values()
+    area = f"{first}{place.header}:{last}{place.header + place.size}"
     table = Table(displayName=place.section.table_name, ref=area)
     # Columns are named here: openpyxl would add filter buttons.
     table.tableColumns = [
@@ -291,32 +284,19 @@ def _add_table(sheet: Worksheet, place: TablePlace) -> None:
 
 
 def table_formulas(
-    layout: Layout, place: TablePlace, *, is_us: bool
+    tables: Tables, place: TablePlace, *, is_us: bool
 ) -> Mapping[str, tuple[str, str]]:
     """Return formula, without its equals sign, and number format of each column that computes."""
-    answers = table_answers(place.section.key, is_us=is_us)
-    return {STATUS: (status_name(place.section), STATUS_FORMAT)} | {
-        answer.name: (answer.written(layout, place.section.key), answer.number_format)
-        for answer in answers
+    return {
+        answer.name: (answer.written(tables, place.section.key), answer.number_format)
+        for answer in table_answers(place.section.key, is_us=is_us)
     }
 
 
-def define_tests(book: Workbook, layout: Layout) -> None:
-    """Define whether each cell is wrong, and of each section whether no formula tells."""
-    places: list[BlockPlace | TablePlace] = [*layout.blocks.values(), *layout.tables.values()]
-    for place in places:
-        for name, formula in wrong_cells(place, layout).items():
-            name_formula(book, name, formula)
-        for name in undecided_names([place.section]):
-            name_formula(book, name, written(UNDECIDED[place.section.key], layout, str))
-
-
-def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: bool) -> None:
+def write_answers(book: Workbook, tables: Tables, place: TablePlace, *, is_us: bool) -> None:
     """Write the formulas of a table; in Excel new rows get them by themselves."""
-    tests = wrong_names(place.section)
-    name_formula(book, status_name(place.section), row_status(place, tests))
     sheet = book[place.section.sheet]
-    formulas = table_formulas(layout, place, is_us=is_us)
+    formulas = table_formulas(tables, place, is_us=is_us)
     columns = sheet.tables[place.section.table_name].tableColumns
     for count, name in enumerate(place.letters):
         if name not in formulas:
@@ -325,7 +305,7 @@ def write_answers(book: Workbook, layout: Layout, place: TablePlace, *, is_us: b
         columns[count].calculatedColumnFormula = TableFormula(attr_text=formula)
         first = None
         for row in range(place.header + 1, place.header + 1 + place.size):
-            cell = sheet.cell(row, count + 1)
+            cell = sheet.cell(row, count + FIRST)
             style.put_answer(cell, formula, number_format, like=first)
             first = first or cell
 

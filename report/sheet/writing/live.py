@@ -1,7 +1,7 @@
 """The live formulas of a workbook as they should be, and the cells where others stand instead.
 
 The formulas are written again for the headings that the workbook has, and found in it by table and
-by defined name. Read `overwritten`; `report.sheet.reading.parts` writes them back.
+by defined name. Read `overwritten`.
 """
 
 from __future__ import annotations
@@ -10,8 +10,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby, product
-from pathlib import Path
-from shlex import quote
 
 from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
@@ -29,14 +27,12 @@ from report.sheet.reading.positions import (
     labels_of,
 )
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.answers import SITE_ANSWERS, STATUS
+from report.sheet.schema.answers import SITE_ANSWERS
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Finding, Level, Place, SheetSection
-from report.sheet.schema.layout import BlockPlace, Layout, TablePlace, name_cell
-from report.sheet.writing.counts import START, write_counts
+from report.sheet.schema.layout import TablePlace, Tables, name_cell
 from report.sheet.writing.grids import columns_of, table_formulas
 from report.sheet.writing.lookups import write_lookups
-from report.sheet.writing.needs import status_in
 from report.sheet.writing.results_panel import write_panel
 from report.sheet.writing.rules import write_rules
 from report.words.letters import cut
@@ -61,9 +57,9 @@ class Overwritten:
     formula: str  # what it should be, with its equals sign
 
     @property
-    def can_be_restored(self) -> bool:
-        """Whether the workbook has all columns that the formula refers to."""
-        return BROKEN not in self.formula
+    def is_broken(self) -> bool:
+        """Whether the workbook lacks a column that the formula refers to."""
+        return BROKEN in self.formula
 
 
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
@@ -88,7 +84,7 @@ def _differs(found: Found, formula: str) -> bool:
     return found.formula != formula and canonical(found.formula) != canonical(formula)
 
 
-def findings(lost: Sequence[Overwritten], workbook: Path) -> Iterator[Finding]:
+def findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
     """Yield a warning for each run of cells below each other."""
     keys = {section.sheet: section.key for section in reversed(SECTIONS)}
     for run in _runs(lost):
@@ -96,7 +92,7 @@ def findings(lost: Sequence[Overwritten], workbook: Path) -> Iterator[Finding]:
         cell = first.position.address
         cells = f"{cell}:{last.position.cell}" if len(run) > 1 else cell
         place = Place(keys.get(first.position.sheet, SECTIONS[0].key))
-        text = _text(first, len(run), workbook)
+        text = _text(first, len(run))
         yield Finding(level=Level.WARNING, place=place, text=text, cell=cells)
 
 
@@ -104,31 +100,24 @@ def _runs(lost: Sequence[Overwritten]) -> Iterator[list[Overwritten]]:
     def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
         count, item = numbered
         at = item.position
-        return at.sheet, at.column, at.row - count, item.can_be_restored
+        return at.sheet, at.column, at.row - count, item.is_broken
 
     for _, run in groupby(enumerate(lost), key):
         yield [item for _, item in run]
 
 
-def _text(item: Overwritten, count: int, workbook: Path) -> str:
+def _text(item: Overwritten, count: int) -> str:
     title = f"{item.title} ({count} cells)" if count > 1 else item.title
-    if not item.can_be_restored:
+    if item.is_broken:
         return f"{title} refers to a column that is missing; write its heading again, or {FRESH}"
-    formula, found = item.formula, item.found
+    formula, found = cut(item.formula, _SHOWN), item.found
     if found.is_blank:
-        what = f"is blank, and its formula is gone: {cut(formula, _SHOWN)}"
+        what = f"is blank, and its formula is gone: {formula}"
     elif found.formula:
-        # From where their difference is seen.
-        pairs = enumerate(zip(found.formula, formula, strict=False))
-        start = max(next((i for i, (a, b) in pairs if a != b), 0) - _SHOWN // 2, 0)
-        what = f"is {_from(found.formula, start)}, and its formula is {_from(formula, start)}"
+        what = f"is {cut(found.formula, _SHOWN)}, which is not its formula {formula}"
     else:
-        what = f"is {cut(plain(found.value))}, typed over its formula {cut(formula, _SHOWN)}"
-    return f"{title} {what}; roofslip check --repair {quote(str(workbook))} restores it"
-
-
-def _from(formula: str, start: int) -> str:
-    return cut(f"…{formula[start:]}" if start else formula, _SHOWN)
+        what = f"is {cut(plain(found.value))}, typed over its formula {formula}"
+    return f"{title} {what}; {FRESH}"
 
 
 def _title(book: OpenBook, position: CellPosition) -> str:
@@ -158,15 +147,10 @@ def live_formulas(book: OpenBook) -> Mapping[CellPosition, str]:
         return {}
     is_us = panel[1][0] == 2  # inches are in the first of its columns
     units = UnitsFirst.US if is_us else UnitsFirst.SI
-    layout = Layout(
-        blocks={s.key: BlockPlace(section=s, rows={}) for s in SECTIONS if not s.is_table}
-    )
     areas = {s.key: area for s in SECTIONS if s.is_table and (area := table_area(book, s))}
-    for section in SECTIONS:
-        if section.is_table:
-            layout.tables[section.key] = _place(book, section, areas.get(section.key), units)
-    formulas = dict(_in_tables(book, layout, areas, is_us=is_us))
-    return formulas | dict(_named(book, _written(layout, is_us=is_us)))
+    tables = {s.key: _place(book, s, areas.get(s.key), units) for s in SECTIONS if s.is_table}
+    formulas = dict(_in_tables(tables, areas, is_us=is_us))
+    return formulas | dict(_named(book, _written(tables, is_us=is_us)))
 
 
 def _place(
@@ -191,31 +175,41 @@ def _place(
 
 
 def _in_tables(
-    book: OpenBook, layout: Layout, areas: Mapping[str, TableArea], *, is_us: bool
+    tables: Tables, areas: Mapping[str, TableArea], *, is_us: bool
 ) -> Iterator[tuple[CellPosition, str]]:
     for key, area in areas.items():
-        place = layout.tables[key]
-        for name, (formula, _) in table_formulas(layout, place, is_us=is_us).items():
+        place = tables[key]
+        for name, (formula, _) in table_formulas(tables, place, is_us=is_us).items():
             heading = area.headings.get(label_key(place.headings[name]))
-            is_long = name == STATUS and formula not in book.book.defined_names
             if heading is not None:
                 for row in range(area.header + 1, area.last + 1):
-                    text = status_in(row, place, layout) if is_long else formula
-                    yield CellPosition(area.sheet, row, heading.column), f"={text}"
+                    yield CellPosition(area.sheet, row, heading.column), f"={formula}"
 
 
-def _written(layout: Layout, *, is_us: bool) -> Workbook:
+def legacy_statuses(book: OpenBook) -> Iterator[tuple[CellPosition, str]]:
+    """Yield the formulas of the column Status, which tables of earlier workbooks have."""
+    for section in SECTIONS:
+        area, name = (
+            table_area(book, section) if section.is_table else None,
+            f"status_{section.key}",
+        )
+        heading = area.headings.get("status") if area else None
+        if area and heading and name in book.book.defined_names:
+            for row in range(area.header + 1, area.last + 1):
+                yield CellPosition(area.sheet, row, heading.column), f"={name}"
+
+
+def _written(tables: Tables, *, is_us: bool) -> Workbook:
     """Return a workbook that has the formulas outside of tables, at places of its own."""
     book = Workbook()
-    for title in dict.fromkeys((START, *(section.sheet for section in SECTIONS))):
+    for title in dict.fromkeys(section.sheet for section in SECTIONS):
         book.create_sheet(title)
     for row, (formula, name) in enumerate(SITE_ANSWERS.values(), start=1):
         book["Site"].cell(row, _ASIDE).value = f"={formula}"
         name_cell(name, book["Site"], row, _ASIDE)
     write_panel(book, is_us=is_us)
-    write_rules(book, layout)
-    write_lookups(book, layout)
-    write_counts(book, layout, 1)
+    write_rules(book, tables)
+    write_lookups(book, tables)
     return book
 
 

@@ -13,7 +13,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import entries
-from report.sheet.schema.layout import LAST_ROW, Layout, name_cell, name_formula, name_range
+from report.sheet.schema.layout import LAST_ROW, Tables, name_cell, name_formula, name_range
 from report.sheet.writing import style
 from report.sheet.writing.style import Answer
 from report.words.units import LENGTHS, PRESSURES, STIFFNESSES, VELOCITIES, WEIGHTS
@@ -34,7 +34,7 @@ _STATUS = {
 }
 
 
-def write_lookups(book: Workbook, layout: Layout) -> None:
+def write_lookups(book: Workbook, tables: Tables) -> None:
     """Write the sheet, with the defined names that other formulas use."""
     sheet = book.create_sheet(TABLES)
     style.put_title(sheet, TABLES, _HINT)
@@ -46,8 +46,8 @@ def write_lookups(book: Workbook, layout: Layout) -> None:
         row = _write_coefficients(sheet, row, table)
     row = _write_sdc(sheet, row)
     row = _write_separations(sheet, row)
-    row = _write_units(sheet, layout, row)
-    _write_names(book, sheet, layout, row)
+    row = _write_units(sheet, tables, row)
+    _write_names(book, sheet, tables, row)
     sheet.print_area = f"A1:H{row - 1}"
 
 
@@ -116,12 +116,12 @@ def _write_separations(sheet: Worksheet, row: int) -> int:
     return _write_table(sheet, row, words, heads, rows, names) + 1
 
 
-def _write_units(sheet: Worksheet, layout: Layout, row: int) -> int:
+def _write_units(sheet: Worksheet, tables: Tables, row: int) -> int:
     sizes = (LENGTHS | WEIGHTS | STIFFNESSES | VELOCITIES | PRESSURES).items()
     words = ("Units", "Size of each unit in SI")
     names = ("unit_symbols", "unit_sizes")
     row = _write_table(sheet, row, words, ("Unit", "In SI"), sizes, names) + 1
-    in_use = list(_units_in_use(layout))
+    in_use = list(_units_in_use(tables))
     rows = [
         (
             words,
@@ -138,7 +138,7 @@ def _write_units(sheet: Worksheet, layout: Layout, row: int) -> int:
     )
 
 
-def _units_in_use(layout: Layout) -> Iterator[tuple[str, str, str]]:
+def _units_in_use(tables: Tables) -> Iterator[tuple[str, str, str]]:
     """Yield the name of each field with a choice of units, words, and the symbol's formula."""
     for section in SECTIONS:
         for entry in entries(section.model):
@@ -146,7 +146,7 @@ def _units_in_use(layout: Layout) -> Iterator[tuple[str, str, str]]:
                 continue
             words = f"{section.title}: {entry.cell.label}"
             if section.is_table:
-                head = layout.tables[section.key].heading_cell(entry.name)
+                head = tables[section.key].heading_cell(entry.name)
                 start = f'FIND("[",{head})+1'
                 symbol = f'TRIM(MID({head},{start},FIND("]",{head})-({start})))'
             else:
@@ -154,11 +154,10 @@ def _units_in_use(layout: Layout) -> Iterator[tuple[str, str, str]]:
             yield section.cell_name(entry.name), words, symbol
 
 
-def _write_names(book: Workbook, sheet: Worksheet, layout: Layout, row: int) -> None:
+def _write_names(book: Workbook, sheet: Worksheet, tables: Tables, row: int) -> None:
     """Write the ids of arrays and objects, one list, which the sheet Clearances offers."""
-    arrays, objects = (layout.tables[key].all("id") for key in ("arrays", "objects"))
-    factors = ",".join(layout.tables[key].all("i_p") for key in ("arrays", "objects"))
-    grounds = layout.tables["motions"].all("recorded_at")
+    arrays, objects = (tables[key].all("id") for key in ("arrays", "objects"))
+    factors = ",".join(tables[key].all("i_p") for key in ("arrays", "objects"))
     count, top = f"COUNTA({arrays})", row + 3
 
     def name_of(number: str) -> Answer:
@@ -168,7 +167,7 @@ def _write_names(book: Workbook, sheet: Worksheet, layout: Layout, row: int) -> 
     rows = ((name_of(f"ROWS($A${top}:$A{top + k})"),) for k in range(MOST_NAMES))
     words = ("Names for the sheet Clearances", "Arrays, then objects")
     below = _write_table(sheet, row, words, ("Name",), rows, ("name_list",)) + 1
-    outlines = layout.tables["outlines"]
+    outlines = tables["outlines"]
     letter, first_row = outlines.letters["name"], outlines.header + 1
     area = f"${letter}${first_row}:${letter}${LAST_ROW}"
     name_range("live_outlines", book[outlines.section.sheet], area)
@@ -177,17 +176,12 @@ def _write_names(book: Workbook, sheet: Worksheet, layout: Layout, row: int) -> 
             ("Arrays", count, "live_array_count"),
             ("Arrays and objects", f"{count}+COUNTA({objects})", "live_name_count"),
             ("Largest I_p", f"MAX(1,{factors})", "live_largest_i_p"),
-            ("Ground motions", f'COUNTIF({grounds},"ground")', "live_ground_motions"),
         ),
         start=below,
     ):
         style.put(sheet, at, 1, said)
         style.put_answer(sheet.cell(at, 2), formula)
         name_cell(name, sheet, at, 2)
-    scaled = layout.tables["motions"].all("scaling")
-    to_target = f'SUMPRODUCT((TRIM({grounds})="ground")*(TRIM({scaled})="target spectrum"))'
-    periods = layout.tables["spectrum"].all("period_s")
-    name_formula(book, "live_to_design", f"AND(COUNT({periods})=0,{to_target}>0)")
     first = f"{TABLES}!$A${top},0,0"
     for name, length in (("names", "name_count"), ("array_names", "array_count")):
         reach = f"MIN({MOST_NAMES},MAX(1,live_{length}))"

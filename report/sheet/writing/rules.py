@@ -15,7 +15,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import provision_name, provision_unit
 from report.sheet.schema.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
-from report.sheet.schema.layout import Layout, TablePlace, name_cell, name_range
+from report.sheet.schema.layout import TablePlace, Tables, name_cell, name_range
 from report.sheet.writing import style
 from solver.rules.provisions import OVERRIDABLE
 from solver.rules.rulesets import ALLOWED, RULE_SETS, RuleSet, usual
@@ -57,7 +57,7 @@ _FACTS: Sequence[tuple[str, str, Callable[[RuleSet], str]]] = (
 """What of a rule set is no number: its name, words, and what a rule set says."""
 
 
-def write_rules(book: Workbook, layout: Layout) -> None:
+def write_rules(book: Workbook, tables: Tables) -> None:
     """Write the sheet, with a defined name for each number in use."""
     sheet = book.create_sheet(PROVISIONS)
     style.put_title(sheet, PROVISIONS, _HINT)
@@ -71,7 +71,7 @@ def write_rules(book: Workbook, layout: Layout) -> None:
     sheet.row_dimensions[head].height = 32
     first = head + 1
     for row, key in enumerate(OVERRIDABLE, start=first):
-        _write_rule(sheet, layout.tables["overrides"], row, key)
+        _write_rule(sheet, tables["overrides"], row, key)
     last = first + len(OVERRIDABLE) - 1
     name_range("rule_names", sheet, f"$A${first}:$A${last}")
     _write_facts(sheet, last + 2)

@@ -1,4 +1,4 @@
-"""The sheet Start: the six steps, a picture that explains the words, the colors, what is missing.
+"""The sheet Start: the six steps, links to the sheets, a picture of the words, and the colors.
 
 Has no inputs. Read `write_start`.
 """
@@ -9,15 +9,18 @@ import io
 
 from openpyxl import Workbook
 from openpyxl.drawing.image import Image
-from openpyxl.styles import PatternFill
+from openpyxl.styles import Font
+from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import SECTIONS
-from report.sheet.writing import marks, style
-from report.sheet.writing.counts import COUNTS_COLUMN, START
+from report.sheet.schema.layout import name_cell
+from report.sheet.writing import style
 from report.sheet.writing.sketch import SIZE_IN, sketch_png
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS
 
+START = "Start"
+LINKS_COLUMN = 4
 _WIDTHS = (5, 24, 76, 16, 14)
 _HINT = "From this workbook to the calculation package. This sheet has no input cells."
 
@@ -25,10 +28,10 @@ STEPS = (
     "Fill in the yellow cells, sheet by sheet. Select a cell to see its instructions.",
     "Put the acceleration records in the folder “records” beside this workbook, or paste them as"
     " columns into a new sheet.",
-    "Look at the blue cells, which compute, and at the line at the top of each sheet.",
+    "Look at the blue cells, which compute.",
     "Save the workbook as .xlsx and close it.",
-    "Run roofslip check FOLDER. It lists every cell to correct and writes nothing. FOLDER contains"
-    " this workbook, named input.xlsx.",
+    "Run roofslip check FOLDER, which finds what is missing or wrong, as does the page of roofslip"
+    " serve. FOLDER contains this workbook, named input.xlsx.",
     "Run roofslip report FOLDER. It writes the calculation package to FOLDER/out.",
 )
 _NOTES = (
@@ -41,16 +44,11 @@ _NOTES = (
     "A roof that is drawn is read by roofslip plan read ROOF.DXF FOLDER; the sheet Layers says what"
     " is drawn on each layer of the drawing.",
     "The blue cells compute prescriptive values only; the package alone has the displacement from"
-    " analysis. They are not read as input. If one is typed over, it turns violet, roofslip check"
-    " lists it, and roofslip check --repair restores its formula. Formulas in yellow cells are"
-    " accepted. Macros are not: .xlsm files are rejected.",
-)
-_RED_FILL, _AMBER_FILL, _VIOLET_FILL, _DRAWN_FILL = (
-    PatternFill("solid", start_color=color)
-    for color in (marks.RED, marks.AMBER, marks.VIOLET, marks.DRAWN)
+    " analysis. They are not read as input. If one is typed over, roofslip check lists it. Formulas"
+    " in yellow cells are accepted. Macros are not: .xlsm files are rejected.",
 )
 _SAMPLES = (
-    ("input", "000000", style.INPUT_FILL, "Input cell."),
+    ("", "000000", style.INPUT_FILL, "Input cell. It loses its color once it is filled."),
     (
         "heading, tab",
         style.WHITE,
@@ -62,17 +60,6 @@ _SAMPLES = (
     ("tab", style.WHITE, style.HELP_FILL, "Sheet without input cells."),
     ("1.566", style.INK, style.ANSWER_FILL, "Computed cell: a formula, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
-    (
-        "",
-        "000000",
-        _RED_FILL,
-        "Required and still blank, or refused: no number, out of range, no choice, unknown.",
-    ),
-    ("1.2", "000000", _AMBER_FILL, "Outside the usual range."),
-    ("8.25", "000000", _DRAWN_FILL, "Row of Outlines or Clearances taken from a drawing."),
-    ("1.5", style.INK, _VIOLET_FILL, "Computed cell that has lost its formula."),
-    ("✓", marks.GREEN, style.ANSWER_FILL, "Nothing is missing, and roofslip check accepts it."),
-    (marks.SEE_CHECK, marks.UNDECIDED, style.ANSWER_FILL, "Nothing is missing; check decides."),
 )
 
 
@@ -87,23 +74,34 @@ def color_tabs(book: Workbook) -> None:
         sheet.sheet_properties.tabColor = fill.start_color.rgb
 
 
-def write_start(book: Workbook) -> int:
-    """Write the sheet; return the first row of the list of what each sheet lacks."""
+def write_start(book: Workbook) -> None:
+    """Write the sheet."""
     sheet = book[START]
     for column, width in zip("ABCDE", _WIDTHS, strict=True):
         sheet.column_dimensions[column].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
     sheet.page_setup.fitToHeight = 1
     picture = _write_steps(sheet, 4)
-    counts = _put_heading(sheet, picture, "Missing or wrong", COUNTS_COLUMN)
-    titles = {section.sheet for section in SECTIONS}
-    row = max(_put_picture(sheet, picture), counts + len(titles) + 1)
+    links = _write_links(book, _put_heading(sheet, picture, "Sheets", LINKS_COLUMN))
+    row = max(_put_picture(sheet, picture), links)
     row = _put_heading(sheet, _write_colors(sheet, row), "Notes")
     for at, note in enumerate(_NOTES, start=row):
         style.put(sheet, at, 2, note)
         sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=5)
         sheet.row_dimensions[at].height = 34
-    return counts
+
+
+def _write_links(book: Workbook, row: int) -> int:
+    """Write a link to each sheet of inputs; return the row below and one more."""
+    titles = list(dict.fromkeys(section.sheet for section in SECTIONS))
+    for at, title in enumerate(titles, start=row):
+        # By a defined name, which follows a sheet that is renamed.
+        name = f"top_{title.lower().replace(' ', '_')}"
+        name_cell(name, book[title], 1, 1)
+        cell = style.put(book[START], at, LINKS_COLUMN, title)
+        cell.hyperlink = Hyperlink(ref=cell.coordinate, location=name)
+        cell.font = Font(name="Calibri", size=10, color=style.INK, underline="single")
+    return row + len(titles) + 1
 
 
 def _put_heading(sheet: Worksheet, row: int, title: str, column: int = 1) -> int:

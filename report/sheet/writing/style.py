@@ -1,7 +1,6 @@
 """Appearance of the input sheets: colors, cells, dropdowns, input messages, print setup.
 
-Uses `fields` but no section of the workbook. `marks` owns the conditional formats. Read `template`
-next.
+Uses `fields` but no section of the workbook. Read `template` next.
 """
 
 from __future__ import annotations
@@ -16,7 +15,9 @@ from weakref import WeakKeyDictionary
 
 import openpyxl
 from openpyxl.cell import Cell
+from openpyxl.formatting.rule import Rule
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
+from openpyxl.styles.differential import DifferentialStyle
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
@@ -37,6 +38,7 @@ HELP_FILL = PatternFill("solid", start_color="4A90C2")
 HINT_FILL = PatternFill("solid", start_color="F3F4F5")
 ANSWER_FILL = PatternFill("solid", start_color="E3EDF5")
 ANSWER_HEAD_FILL = PatternFill("solid", start_color="9DB4C4")
+PLAIN = DifferentialStyle(fill=PatternFill("solid", start_color=WHITE, end_color=WHITE))
 HAIR = Side(style="thin", color="C9CDD1")
 BOX = Border(left=HAIR, right=HAIR, top=HAIR, bottom=HAIR)
 LINE = Border(bottom=HAIR)
@@ -170,6 +172,13 @@ def style_input(cell: Any, kind: type[Any]) -> None:
         cell.number_format = "yyyy-mm-dd"
     elif kind not in (int, float):
         cell.number_format = "@"
+
+
+def make_plain_when_filled(sheet: Worksheet, cells: str) -> None:
+    """Have the input cells of a range lose their color once something is typed."""
+    first, _, _ = cells.partition(":")
+    filled = Rule(type="expression", dxf=PLAIN, formula=[f"NOT(ISBLANK({first}))"])
+    sheet.conditional_formatting.add(cells, filled)
 
 
 def put_answer(

@@ -10,8 +10,12 @@ from click.testing import CliRunner
 from packages import undrawn, unlaid
 from places import DATA, ROOT
 from report.cli.main import main
+from report.sheet.reading.archive import open_book
+from report.sheet.reading.locate_tables import table_area
+from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
-from report.sheet.schema import ProjectInput
+from report.sheet.schema import SECTION, ProjectInput
+from report.sheet.writing.filled import filled
 from report.study.read import read_study
 from report.study.schema import StudyInput
 from sheets import same
@@ -45,6 +49,15 @@ def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(tmp_path, name, p
     done = CliRunner().invoke(main, ["check", str(tmp_path / "job")])
     assert done.exit_code == 2
     assert done.output.replace(str(tmp_path), "").splitlines() == RECORDED[name]["check"]
+
+
+def test_a_row_that_a_table_grows_by_has_all_the_formulas_of_its_version():
+    book = open_book(EARLIER / "example.xlsx")
+    area = table_area(book, SECTION["objects"])
+    below = CellPosition("Objects", area.last + 1, area.headings["id"].column)
+    grown = filled(book, {below: "RTU-99"})
+    assert table_area(grown, SECTION["objects"]).last == area.last + 1
+    assert grown.formula("Objects", f"A{area.last + 1}") == "=status_objects"
 
 
 @pytest.mark.nightly("report/sheet/", "report/results/")

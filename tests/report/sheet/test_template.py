@@ -103,10 +103,18 @@ def test_inputs_are_yellow_and_formulas_are_blue(blank):
         assert cell(blank, name).fill.start_color.rgb == color
     formulas = formula_cells(blank)
     others = [c for c in formulas if c.fill.start_color.rgb != "00E3EDF5"]
-    # The lines at the top of the sheets, and the clauses of the panel.
-    assert {c.coordinate for c in others if c.parent.title != "Site"} == {"A3"}
-    assert {c.column_letter for c in others if c.parent.title == "Site"} == {"A", "E"}
+    # The clauses of the panel.
+    assert {(c.parent.title, c.column_letter) for c in others} == {("Site", "E")}
     assert len(others) < len(formulas) / 10
+
+
+def test_an_input_loses_its_color_once_it_is_filled(blank):
+    for name in ("Site/Rule set", "Site/Fire lane width/Unit", "Arrays/1/ID", "Arrays/20/Slope"):
+        at = cell(blank, name)
+        areas = [a for a in at.parent.conditional_formatting if at.coordinate in a.sqref]
+        ((first, rule),) = [(str(a.sqref).split(":")[0], a.rules[0]) for a in areas]
+        assert rule.formula == [f"NOT(ISBLANK({first}))"]
+        assert rule.dxf.fill.start_color.rgb == "00FFFFFF"
 
 
 def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
@@ -133,8 +141,7 @@ def test_rows_of_linked_blocks_offer_the_arrays_and_have_their_units(blank, is_u
     sheet, table = tables(blank)["links_table"]
     unit, example = ("lb/in", "5000") if is_us else ("kN/m", "876")
     heads = sheet[table.ref][0]
-    examples = {head.value: str(head.offset(row=-1).value) for head in heads[1:]}
-    assert heads[0].value == "Status"
+    examples = {head.value: str(head.offset(row=-1).value) for head in heads}
     assert list(examples.items()) == [
         ("Array", "A1"),
         ("Block friction", "0.40, 0.45, 0.50"),
@@ -166,8 +173,9 @@ def test_messages_and_formulas_satisfy_the_limits_of_excel(blank):
             assert len(rule.errorTitle) < len(rule.error) <= 225
             assert rule.error != rule.prompt
             assert all(len(text or "") <= 255 for text in (rule.formula1, rule.formula2))
-        for area in sheet.conditional_formatting:
-            assert all(len(text) <= 255 for rule in area.rules for text in rule.formula)
+    texts = [str(c.value) for c in formula_cells(blank)]
+    texts += [name.attr_text for name in blank.defined_names.values()]
+    assert max(map(len, texts)) <= 8192
 
 
 def test_headings_are_frozen_and_sheets_print_one_page_wide(blank):
@@ -193,6 +201,11 @@ def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
     text = "\n".join(str(value) for row in sheet.values for value in row if value is not None)
     for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Colors"):
         assert part in text
+    assert "Run roofslip check FOLDER, which finds what is missing or wrong" in text
+    links = {c.value for row in sheet for c in row if c.hyperlink}
+    assert links == {section.sheet for section in SECTIONS}
+    tops = [blank.defined_names[c.hyperlink.location] for row in sheet for c in row if c.hyperlink]
+    assert {top.attr_text.partition("!")[2] for top in tops} == {"$A$1"}
     assert [row[0] for row in sheet.values if str(row[0]).isdecimal()] == list("123456")
     (picture,) = sheet._images
     assert picture._data()[:4] == b"\x89PNG"
