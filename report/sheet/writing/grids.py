@@ -197,12 +197,11 @@ def _write_column(
     width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
     if entry.name == "provision":
         values = [provision_name(str(value)) for value in values]
-    first, lines = None, 1
+    lines = 1
     for row in range(place.size):
         value = values[row] if row < len(values) else None
         cell = sheet.cell(place.header + 1 + row, number)
-        style.put_input(cell, entry, value, unit, like=first)
-        first = first or cell
+        style.put_input(cell, entry, value, unit)
         lines = max(lines, _lines([str(style.in_cell(value, unit) or "")], [_WIDER * width]))
     if source := _SOURCES.get((place.section.key, entry.name)):
         style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
@@ -303,11 +302,8 @@ def write_answers(book: Workbook, tables: Tables, place: TablePlace, *, is_us: b
             continue
         formula, number_format = formulas[name]
         columns[count].calculatedColumnFormula = TableFormula(attr_text=formula)
-        first = None
         for row in range(place.header + 1, place.header + 1 + place.size):
-            cell = sheet.cell(row, count + FIRST)
-            style.put_answer(cell, formula, number_format, like=first)
-            first = first or cell
+            style.put_answer(sheet.cell(row, count + FIRST), formula, number_format)
 
 
 def heading_of(entry: Entry, units: UnitsFirst) -> str:

@@ -8,7 +8,6 @@ from cells import address, cell
 from report.sheet.schema import SECTIONS, provision_name
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import entries
-from report.sheet.writing import style
 from report.sheet.writing.template import write_template
 from sheets import arrays, formula_cells, make, project
 from solver.rules.provisions import OVERRIDABLE
@@ -47,21 +46,6 @@ def validation(book, name):
 
 def test_sheets_are_in_working_order(blank):
     assert blank.sheetnames == [*SHEETS, "Provisions", "Tables"]
-
-
-def test_another_version_of_openpyxl_gives_every_cell_the_same_format(tmp_path, monkeypatch):
-    def cells(name):
-        write_template(tmp_path / name, units=UnitsFirst.US)
-        sheets = load_workbook(tmp_path / name).worksheets
-        return [one for sheet in sheets for row in sheet.iter_rows() for one in row]
-
-    usual = cells("usual.xlsx")
-    monkeypatch.setattr(style, "TRIED", ("0.1",))
-    pairs = {(a.style_id, b.style_id): (a, b) for a, b in zip(usual, cells("b.xlsx"), strict=True)}
-    assert len(pairs) > 30
-    for a, b in pairs.values():
-        for part in ("font", "fill", "border", "alignment", "number_format", "protection"):
-            assert repr(getattr(a, part)) == repr(getattr(b, part)), a
 
 
 def test_every_single_field_has_a_defined_name(blank):
