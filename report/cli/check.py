@@ -102,10 +102,26 @@ def checked(
                 *missing_clearances(sheet),
                 *other_sources(sheet),
                 *findings(sheet, shaking),
+                *_computed(sheet),
                 *_in_future(sheet, dt.date.today()),
             ]
         ),
     )
+
+
+def _computed(sheet: Sheet) -> Iterator[Finding]:
+    """Yield what blank cells of the site stand for, by which rule."""
+    from report.sheet.checking.findings import note
+    from report.sheet.schema import SECTION
+    from report.sheet.schema.fields import Place
+
+    site = SECTION["site"]
+    blank = {row.address: row.value for row in sheet.echo if not row.typed}
+    for name in site.model.computed_last:
+        place = Place("site", 0, name)
+        value = blank.get(sheet.addresses[place], "")
+        if "(computed" in value:
+            yield note(place, f"{site.entry(name).spoken} is {value}")
 
 
 def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from report.sheet.checking.site_checks import site_parameters
 from report.sheet.reading.read import Sheet
 from report.sheet.schema.fields import Place
+from report.sheet.schema.project import site_parameters
 from report.suite.inputs import CODES, SuiteTargets, ac156_targets
 from solver.model import InputError
 

@@ -186,6 +186,10 @@ def design_categories(
     return by(s_ds_g, LIMITS_SHORT_G), by(s_d1_g, LIMITS_1S_G), by_s_1
 
 
+LEAST_I_E: Mapping[str, float] = {"I": 1.0, "II": 1.0, "III": 1.25, "IV": 1.5}
+"""Importance factor I_e by risk category (ASCE 7, Table 1.5-2)."""
+
+
 class HazardBasis(StrEnum):
     """Source of the ground motion values of a site."""
 

@@ -9,9 +9,9 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
-from report.sheet.checking.site_checks import site_parameters
 from report.sheet.schema.choices import RecordedAt, Scaling
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
+from report.sheet.schema.project import site_parameters
 from report.words.units import digits_up
 from solver.building.beam import MOST_STORIES
 

@@ -8,25 +8,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from report.sheet.schema.choices import RiskCategory
 from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
-from report.sheet.schema.project import edition_of, site_class_or_default
+from report.sheet.schema.project import (
+    categories,
+    edition_of_row,
+    site_class_or_default,
+    site_parameters,
+)
 from solver.rules import hazard
-from solver.rules.hazard import Edition, HazardBasis, SeismicParameters
+from solver.rules.hazard import LEAST_I_E, Edition, HazardBasis
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coefficient
 
-LEAST_I_E = {
-    RiskCategory.I: 1.0,
-    RiskCategory.II: 1.0,
-    RiskCategory.III: 1.25,
-    RiskCategory.IV: 1.5,
-}
 # Difference allowed between a value and the same from other cells: it is typed as a permit sheet
 # or a hazard tool prints it, rounded to two decimals or more.
 AGREES_G = 0.0051
 ROUNDING_OF_COEFFICIENTS = 0.0051
 """Difference of a site coefficient from its table that is rounding: to two decimals."""
 
+_SDC = "seismic design category"
 _Chain = tuple[tuple[str, str], ...]
 
 # Names at the short period and at 1 s: mapped, coefficient, maximum considered, design.
@@ -50,23 +49,6 @@ def site_faults(draft: Draft, where: Where) -> Iterator[Finding]:
             yield from _agreement(row, edition, chain)
             yield from _below_table(row, edition, chain, table, where)
         yield from _sdc(row)
-
-
-def edition_of_row(row: DraftRow) -> Edition | None:
-    """Return the edition of a draft of the site; None if it cannot be determined."""
-    if "rule_set" not in row or "edition_name" not in row:
-        return None
-    return edition_of(row["rule_set"], row["edition_name"])
-
-
-def site_parameters(row: DraftRow) -> SeismicParameters | None:
-    """Return the parameters of a draft of the site; None if a cell could not be read."""
-    edition = edition_of_row(row)
-    names = [name for chain in _CHAINS for name, _ in chain]
-    if edition is None or any(name not in row for name in names):
-        return None
-    values = {name.removesuffix("_g"): row[name] for name in names}
-    return hazard.seismic_parameters(edition, **values)
 
 
 def _fault(field: str, found: str, wanted: str) -> Finding:
@@ -188,21 +170,21 @@ def _or_study(field: str, found: str, wanted: str, table: CoefficientTable) -> F
 
 
 def _sdc(row: DraftRow) -> Iterator[Finding]:
-    sdc, risk_category = row.get("sdc"), row.get("risk_category")
-    parameters = site_parameters(row)
-    if sdc is None or risk_category is None or parameters is None or parameters.s_ds is None:
+    parameters, risk_category = site_parameters(row), row.get("risk_category")
+    if "sdc" not in row or not parameters or parameters.s_ds is None or risk_category is None:
         return
-    s_ds_g, s_d1_g, s_1_g = parameters.s_ds, parameters.s_d1, row["s_1_g"]
-    is_essential = risk_category is RiskCategory.IV
-    found = hazard.design_categories(
-        s_ds_g=s_ds_g, s_d1_g=s_d1_g, s_1_g=s_1_g, is_essential=is_essential
-    )
+    sdc, found = row["sdc"], categories(row)
+    if sdc is None:
+        lacking = {"S_1": row["s_1_g"], "S_D1": parameters.s_d1}
+        others = " and ".join(name for name, value in lacking.items() if value is None)
+        yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or give {others}")
+        return
     reasons = (
-        (f"S_DS = {s_ds_g:.3f} g", "ASCE 7 Table 11.6-1"),
-        (f"S_D1 = {s_d1_g or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
-        (f"S_1 = {s_1_g or 0.0:g} g", "ASCE 7 section 11.6"),
+        (f"S_DS = {parameters.s_ds:.3f} g", "ASCE 7 Table 11.6-1"),
+        (f"S_D1 = {parameters.s_d1 or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
+        (f"S_1 = {row['s_1_g'] or 0.0:g} g", "ASCE 7 section 11.6"),
     )
     least, (reason, clause) = max(zip(found, reasons, strict=True), key=lambda by: by[0])
     if sdc < least:
         wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
-        yield _fault("sdc", f"seismic design category is '{sdc}'", wanted)
+        yield _fault("sdc", f"{_SDC} is '{sdc}'", wanted)

@@ -261,6 +261,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
     row = {entry.name: entry.default for entry in absent}
     typed = beside(book, section)
     gathered.draft[section.key].append(row)
+    found: list[tuple[Entry, Place, Found, FieldColumn]] = []
     for entry in entries(section.model):
         if entry in absent:
             continue
@@ -279,7 +280,14 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
+        found.append((entry, place, cell, column))
+    order, first = [cell.address for _, _, cell, _ in found], len(gathered.echo)
+    last = section.model.computed_last
+    for entry, place, cell, column in sorted(
+        found, key=lambda one: one[2].is_blank and one[0].name in last
+    ):
         _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
+    gathered.echo[first:] = sorted(gathered.echo[first:], key=lambda row: order.index(row.address))
 
 
 def _read_table(
@@ -347,7 +355,9 @@ def _read_field(
     row[entry.name] = value
     shown = as_used(value, entry, column.unit)
     if cell.is_blank and shown:
-        shown += " (default)" if value == entry.default else " (computed)"
+        rule = entry.model.computed_last.get(entry.name)
+        computed = f"computed, {rule}" if rule else "computed"
+        shown += f" ({'default' if value == entry.default else computed})"
     echoed = EchoRow(
         sheet=cell.sheet,
         cell=cell.cell,

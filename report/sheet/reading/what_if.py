@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from openpyxl.utils import coordinate_to_tuple
 
@@ -16,7 +17,7 @@ from report.sheet.reading.cells import CellError, Found, read_cell
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import Gathered, Sheet
 from report.sheet.schema import SECTION
-from report.sheet.schema.fields import Place
+from report.sheet.schema.fields import Place, entries
 
 Typed = float | str | None
 """What is typed into a cell: a number in the unit of the cell, a text, or nothing."""
@@ -39,8 +40,26 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
             draft[place.section][place.row][place.field] = read
         except CellError as error:
             gathered.add(place, [error.problem.at(sheet.addresses[place], entry.spoken)])
+    _compute(sheet, typed, draft)
     gathered.take(faults(draft, gathered.where))
     return replace(sheet, draft=draft, problems=tuple(gathered.problems))
+
+
+def _compute(
+    sheet: Sheet, typed: Mapping[Place, Typed], draft: Mapping[str, list[dict[str, Any]]]
+) -> None:
+    """Compute again what blank cells of the rows stand for in which something is typed."""
+    blank = {row.address for row in sheet.echo if not row.typed}
+    for section, index in {(place.section, place.row) for place in typed}:
+        row = draft[section][index]
+        for entry in entries(SECTION[section].model):
+            place = Place(section, index, entry.name)
+            is_blank = (
+                typed[place] is None if place in typed else sheet.addresses.get(place) in blank
+            )
+            if entry.name in row and is_blank:
+                value = entry.model.computed(entry.name, row)
+                row[entry.name] = entry.default if value is None else value
 
 
 def size_of_unit(sheet: Sheet, place: Place) -> float:

@@ -14,6 +14,7 @@ from dataclasses import KW_ONLY, dataclass
 from report.sheet.schema.layout import Tables, literal
 from report.words.units import Quantity, Unit
 from solver.model import INCH_M
+from solver.rules.hazard import LEAST_I_E, HazardBasis
 from solver.rules.provisions import Neighbor
 
 IN_DISPLACEMENT, IN_SEPARATION = "in the displacement", "in the separation"
@@ -269,11 +270,18 @@ def _coefficient(mapped: str, symbol: str) -> str:
     )
 
 
-def _maximum(given: str, mapped: str, coefficient: str, design: str) -> str:
+_FROM_TABLE = (
+    'IF(AND(TRIM(site_f_a)="",ISNUMBER(live_f_a),'
+    f'site_hazard<>"{HazardBasis.SITE_SPECIFIC}"),live_f_a*site_s_s_g,"")'
+)
+"""S_MS where F_a is blank and S_DS is not given: as `Site.computed`."""
+
+
+def _maximum(given: str, mapped: str, coefficient: str, design: str, otherwise: str = '""') -> str:
     has_both = f"AND(live_edition=table_f_a_edition,ISNUMBER({mapped}),ISNUMBER({coefficient}))"
     return (
         f"IF(ISNUMBER({given}),{given},IF({has_both},{coefficient}*{mapped},"
-        f'IF(ISNUMBER({design}),1.5*{design},"")))'
+        f"IF(ISNUMBER({design}),1.5*{design},{otherwise})))"
     )
 
 
@@ -290,21 +298,31 @@ _SDC = (
     f'CHAR(MAX(CODE({_BY_S_DS}),IF(live_s_d1="",0,CODE({_BY_S_D1})),{_BY_S_1})))'
 )
 
+_LEAST_I_E = "".join(f'IF(TRIM(site_risk_category)="{c}",{v:g},' for c, v in LEAST_I_E.items())
+_LEAST_I_E += '""' + ")" * len(LEAST_I_E)
+_S_MS = ("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g")
+
 SITE_ANSWERS: Mapping[str, tuple[str, str]] = {
-    "i_e": ('IF(ISNUMBER(site_i_e),site_i_e,"")', "live_i_e"),
+    "i_e": (f"IF(ISNUMBER(site_i_e),site_i_e,{_LEAST_I_E})", "live_i_e"),
     "edition_name": (
         'IF(TRIM(site_edition_name)<>"",site_edition_name,rule_edition)',
         "live_edition",
     ),
     "f_a": (_coefficient("site_s_s_g", "f_a"), "live_f_a"),
     "f_v": (_coefficient("site_s_1_g", "f_v"), "live_f_v"),
-    "s_ms_g": (_maximum("site_s_ms_g", "site_s_s_g", "site_f_a", "site_s_ds_g"), "live_s_ms"),
+    "s_ms_g": (_maximum(*_S_MS, _FROM_TABLE), "live_s_ms"),
     "s_m1_g": (_maximum("site_s_m1_g", "site_s_1_g", "site_f_v", "site_s_d1_g"), "live_s_m1"),
     "s_ds_g": (_design("site_s_ds_g", "live_s_ms"), "live_s_ds"),
     "s_d1_g": (_design("site_s_d1_g", "live_s_m1"), "live_s_d1"),
     "sdc": (_SDC, "live_sdc"),
 }
 """Formula and defined name of the answer beside each field of the site."""
+
+LEGACY_ANSWERS: Mapping[str, str] = {
+    "live_i_e": 'IF(ISNUMBER(site_i_e),site_i_e,"")',
+    "live_s_ms": _maximum(*_S_MS),
+}
+"""Formulas of earlier workbooks, by defined name."""
 
 _I_E = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
 PRESCRIPTIVE_FORMULA_IN = _blank_on_error(

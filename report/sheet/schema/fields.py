@@ -15,7 +15,7 @@ from dataclasses import KW_ONLY, asdict, dataclass
 from enum import StrEnum
 from functools import cache
 from itertools import pairwise
-from typing import Annotated, Any, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, ClassVar, NamedTuple, get_args, get_origin
 
 from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel, ConfigDict, TypeAdapter
@@ -104,9 +104,12 @@ class Frozen(BaseModel):
         frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
     )
 
+    computed_last: ClassVar[Mapping[str, str]] = {}
+    """Fields of a block that all others give where they are blank, in order, and by which rule."""
+
     @classmethod
     def computed(cls, name: str, row: Mapping[str, Any]) -> Any:
-        """Return what a blank cell is by the fields of its row before it; None for its default."""
+        """Return what a blank cell is by the fields read before it; None for its default."""
         return None
 
 

@@ -6,7 +6,9 @@ Read `report.sheet.schema` first.
 from __future__ import annotations
 
 import datetime as dt
-from typing import Annotated
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, model_validator
 
@@ -23,16 +25,19 @@ from report.sheet.schema.choices import (
     Text,
     UnitsFirst,
 )
-from report.sheet.schema.fields import Cell, Frozen
+from report.sheet.schema.fields import Cell, DraftRow, Frozen
 from report.words.units import Quantity
 from solver.rules.hazard import (
     EDITIONS,
+    LEAST_I_E,
     Edition,
     HazardBasis,
     SeismicParameters,
+    design_categories,
     seismic_parameters,
 )
 from solver.rules.rulesets import RULE_SETS
+from solver.rules.site_coefficients import F_A, site_coefficient
 
 Acceleration = Annotated[float, Field(gt=0, le=10)]
 
@@ -91,9 +96,12 @@ class Site(Frozen):
     risk_category: Annotated[RiskCategory, Cell("Risk category", "II")]
     """ASCE 7 Table 1.5-1."""
     i_e: Annotated[
-        float, Field(ge=1.0, le=2.0), Cell("Importance factor I_e", 1.0, usual=(1.0, 1.5))
+        float,
+        Field(ge=1.0, le=2.0),
+        Cell("Importance factor I_e", 1.0, usual=(1.0, 1.5), need="computed if blank"),
     ]
-    """At least 1.0 in risk category I or II, 1.25 in III, 1.5 in IV."""
+    """At least 1.0 in risk category I or II, 1.25 in III, 1.5 in IV, which a blank cell stands
+    for."""
     s_s_g: Annotated[Acceleration | None, Cell("S_S", 1.97, "g", usual=(0.1, 3.5))] = None
     """Mapped value at 0.2 s. Give S_S and F_a, or S_MS, or S_DS."""
     s_1_g: Annotated[Acceleration | None, Cell("S_1", 0.70, "g", usual=(0.03, 1.5))] = None
@@ -101,15 +109,16 @@ class Site(Frozen):
     site_class: Annotated[SiteClass | None, Cell("Site class", "D")] = None
     """ASCE 7 chapter 20."""
     f_a: Annotated[float | None, Field(gt=0, le=10), Cell("F_a", 1.2, usual=(0.8, 2.4))] = None
-    """Site coefficient at 0.2 s, ASCE 7-16. ASCE 7-22 has none."""
+    """Site coefficient at 0.2 s, ASCE 7-16. Blank without S_MS and S_DS: of its table, by S_S and
+    site class. ASCE 7-22 has none."""
     f_v: Annotated[float | None, Field(gt=0, le=10), Cell("F_v", 1.7, usual=(0.8, 4.2))] = None
     """Site coefficient at 1 s, ASCE 7-16. ASCE 7-22 has none."""
     s_ds_g: Annotated[
         float | None, Field(gt=0, le=5), Cell("S_DS", 1.566, "g", usual=(0.1, 2.5))
     ] = None
     """Design value, short period. Blank: 2/3 S_MS, unrounded."""
-    sdc: Annotated[Sdc, Cell("Seismic design category", "D")]
-    """ASCE 7 section 11.6."""
+    sdc: Annotated[Sdc, Cell("Seismic design category", "D", need="required, or S_1 and S_D1")]
+    """ASCE 7 section 11.6. Blank: the least by S_DS, S_D1 and S_1, if all are given or computed."""
     stories: Annotated[int, Field(ge=1, le=200), Cell("Number of stories", 1, usual=(1.0, 6.0))]
     """Above grade."""
     structure_height_m: Annotated[
@@ -162,6 +171,28 @@ class Site(Frozen):
     ] = 4 * 0.3048
     """Arrays that are closer count as one between fire lanes. Blank: 4 ft, a practice: verify
     against the adopted code."""
+
+    computed_last: ClassVar[Mapping[str, str]] = {
+        "i_e": "ASCE 7 Table 1.5-2†",
+        "f_a": f"{F_A.clause}†",
+        "sdc": "ASCE 7 section 11.6†",
+    }
+
+    @classmethod
+    def computed(cls, name: str, row: Mapping[str, Any]) -> Any:
+        """Return the least I_e, F_a of the table, or the SDC, if all it depends on is given."""
+        match name:
+            case "i_e":
+                return LEAST_I_E.get(row.get("risk_category", ""))
+            case "f_a":
+                return _tabulated_f_a(row)
+            case "sdc":
+                parameters = site_parameters(row)
+                if parameters is None or parameters.s_d1 is None or row["s_1_g"] is None:
+                    return None
+                least = max(categories(row))
+                return Sdc(least) if least else None
+        return None
 
     @model_validator(mode="after")
     def _enough_for_s_ds(self) -> Site:
@@ -241,3 +272,51 @@ def edition_of(rule_set: RuleSetName, name: EditionName | None) -> Edition:
 def site_class_or_default(given: SiteClass | None) -> SiteClass:
     """Return a site class, D by default where none is given."""
     return SiteClass.D_DEFAULT if given is None else given
+
+
+_PARAMETERS = ("s_s_g", "f_a", "s_ms_g", "s_ds_g", "s_1_g", "f_v", "s_m1_g", "s_d1_g")
+
+
+def edition_of_row(row: DraftRow) -> Edition | None:
+    """Return the edition of a draft of the site; None if it cannot be determined."""
+    if "rule_set" not in row or "edition_name" not in row:
+        return None
+    return edition_of(row["rule_set"], row["edition_name"])
+
+
+def site_parameters(row: DraftRow) -> SeismicParameters | None:
+    """Return the parameters of a draft of the site; None if a cell could not be read."""
+    edition = edition_of_row(row)
+    if edition is None or any(name not in row for name in _PARAMETERS):
+        return None
+    values = {name.removesuffix("_g"): row[name] for name in _PARAMETERS}
+    return seismic_parameters(edition, **values)
+
+
+def categories(row: DraftRow) -> tuple[str, str, str]:
+    """Return the SDC of a draft of the site by S_DS, by S_D1 and by S_1, as `design_categories`.
+
+    All are empty if S_DS or the risk category is not known, or a cell could not be read.
+    """
+    parameters, risk_category = site_parameters(row), row.get("risk_category")
+    if parameters is None or parameters.s_ds is None or risk_category is None:
+        return "", "", ""
+    return design_categories(
+        s_ds_g=parameters.s_ds,
+        s_d1_g=parameters.s_d1,
+        s_1_g=row["s_1_g"],
+        is_essential=risk_category is RiskCategory.IV,
+    )
+
+
+def _tabulated_f_a(row: DraftRow) -> float | None:
+    """Return F_a of its table where S_MS follows from it; None where that is site-specific."""
+    edition, wanted = edition_of_row(row), ("s_s_g", "site_class", "hazard", "s_ms_g", "s_ds_g")
+    if edition is None or edition.name != F_A.edition or not row.keys() >= {*wanted}:
+        return None
+    s_s_g, site_class, hazard, *given = (row[name] for name in wanted)
+    has_table = site_class in F_A.rows and hazard is not HazardBasis.SITE_SPECIFIC
+    if s_s_g is None or not has_table or given != [None, None]:
+        return None
+    value = site_coefficient(F_A, site_class, s_s_g)
+    return None if math.isnan(value) else value

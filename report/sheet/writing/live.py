@@ -27,7 +27,7 @@ from report.sheet.reading.positions import (
     labels_of,
 )
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.answers import SITE_ANSWERS
+from report.sheet.schema.answers import LEGACY_ANSWERS, SITE_ANSWERS
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import Finding, Level, Place, SheetSection
 from report.sheet.schema.layout import TablePlace, Tables, name_cell
@@ -230,7 +230,9 @@ def _named(book: OpenBook, written: Workbook) -> Iterator[tuple[CellPosition, st
             text = str(cell.value)
             if cell.data_type == "f" and known.issuperset(_NAME.findall(text)):
                 at = CellPosition(there[0], row + down, column + right)
-                yield at, moved(text, down)
+                former = f"={LEGACY_ANSWERS.get(name)}"
+                is_former = not _differs(found_at(book, at), former)
+                yield at, former if is_former else moved(text, down)
 
 
 def _size(bounds: tuple[int, int, int, int]) -> tuple[int, int]:

@@ -15,11 +15,12 @@ from inputs import FT, INCH, NO_SIDES
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
 from report.assessment.clearances import check_clearance
+from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import SiteClass, UnitsFirst
 from report.sheet.writing.template import write_template
 from report.words.units import PRESSURES, Quantity, number, ratio
-from sheets import formula_cells, project, retitle, site
+from sheets import formula_cells, project, retitle, same, site, type_into
 from solver.rules import hazard
 from solver.rules.provisions import Neighbor, prescriptive_displacement, required_separation
 from solver.rules.rulesets import RULE_SETS, RuleSet
@@ -141,7 +142,18 @@ def names_of(book: Workbook) -> dict[str, tuple[str, str]]:
     return {name: (sheet.strip("'"), at) for name, (sheet, bang, at) in split.items() if bang}
 
 
-CASES = {**dict.fromkeys(PROJECTS), **edge_cases()}
+BLANK = "computed"
+"""Its I_e, F_a and SDC are blank in the workbook."""
+COMPUTED = {
+    "i_e": 1.25, "risk_category": "III", "s_s_g": 0.6, "s_1_g": 0.05, "site_class": "D",
+    "f_a": site_coefficient(F_A, "D", 0.6), "f_v": 2.4, "sdc": "D",
+    **dict.fromkeys(("s_ds_g", "s_ms_g", "s_m1_g", "s_d1_g", "edition_name")),
+}  # fmt: skip
+CASES = {
+    **dict.fromkeys(PROJECTS),
+    **edge_cases(),
+    BLANK: project(site=site(**COMPUTED)),
+}
 CHANGED = "low-category"
 IN_SI = {f"{name} in SI": name for name in ("given-twice and importance", "asce-16 and overrides")}
 
@@ -213,6 +225,9 @@ def filled(tmp_path_factory):
     weigh_in_kips(book)
     weigh_by_modules(book)
     book.save(changed)
+    names = ("Importance factor I_e", "F_a", "Seismic design category")
+    type_into(folder / f"{BLANK}.xlsx", dict.fromkeys(f"Site/{name}" for name in names))
+    assert same(read(folder / f"{BLANK}.xlsx").project, data[BLANK])
     return {
         name: Filled(case, si if is_si(name, case) else us, sheets)
         for (name, case), sheets in zip(
@@ -268,6 +283,13 @@ def test_site_coefficients_are_those_of_the_tables(case, table, name, mapped):
     else:
         wanted = site_coefficient(table, data.site_class.value, at)
         assert number(found, 3) == number(wanted, 3)
+
+
+def test_what_is_used_where_a_cell_is_blank_is_that_of_the_package(filled):
+    blank, site = filled[BLANK], filled[BLANK].data.site
+    assert blank.named("live_i_e") == site.i_e
+    assert blank.named("live_sdc_used") == site.sdc
+    assert blank.named("live_s_ds") == pytest.approx(site.s_ds, rel=1e-12)
 
 
 def test_the_prescriptive_displacement_is_that_of_the_package(case):
