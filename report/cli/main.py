@@ -1,9 +1,9 @@
 """The command line: every command by name. Only the modules of this folder print and catch.
 
 Heavy imports stay inside the commands so that `--help` is quick. Exit codes: 0 done, whatever the
-verdict; 130 cut off by Ctrl+C; 4 where `verify-package` could not compare or check all; 3 where a
-package differs, and with --fail-on-ng where the verdict is not OK; 2 input error; 1 internal error
-(with the traceback) or failed verification checks.
+verdict; 130 cut off by Ctrl+C; 4 where `verify-package` could not compare all; 3 with --fail-on-ng
+where the verdict is not OK; 2 input error; 1 internal error (with the traceback), failed
+verification checks, or a package that differs.
 Read `report` for the way from workbook to package.
 """
 
@@ -24,7 +24,6 @@ from report.cli.groups import SectionedGroup
 from report.cli.motion import motion
 from report.cli.plan import plan
 from report.cli.report import new, report
-from report.cli.sbom import sbom
 from report.cli.schema import schema
 from report.cli.serve import serve
 from report.cli.sign import sign
@@ -45,6 +44,11 @@ from report.cli.watch import watch
 from report.elsewhere import stay_apart
 from report.words.command import called
 
+_NO_SBOM = (
+    "There is no command 'sbom' any more. Each package lists the versions of the software that "
+    "matters on its page Records and software and in its attachment roofslip.json."
+)
+
 
 class _Commands(SectionedGroup):
     """The group of all commands, which says so where what it prints cannot be written."""
@@ -63,6 +67,12 @@ class _Commands(SectionedGroup):
         except OSError as error:
             unwritten(error)
             sys.exit(INPUT_ERROR)
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """Return a command by its name; for one version, what replaces a former one is said."""
+        if name == "sbom":
+            raise click.UsageError(_NO_SBOM, ctx)
+        return super().get_command(ctx, name)
 
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke a command that Ctrl+C may cut off."""
@@ -110,5 +120,5 @@ main.add_section("Package", report, watch, serve, batch, schema)
 main.add_section("Sheet", new, check, plan)
 main.add_section("Motions", motion, slide)
 main.add_section("Studies", study)
-main.add_section("Trust", verify, verify_package, sign, sbom)
+main.add_section("Trust", verify, verify_package, sign)
 main.add_section("Installation", doctor, completion)

@@ -75,9 +75,9 @@ def say(line: str) -> None:
 SCHEMA_VERSION = 1
 """Raised where a key that `--json` prints changes its name or meaning."""
 
-INTERNAL_ERROR, INPUT_ERROR, NOT_OK, NOT_COMPARED, INTERRUPTED = 1, 2, 3, 4, 130
-"""Exit codes: an error of the program; an error in the input; not OK where that is asked for; not
-all could be compared; cut off by Ctrl+C."""
+INTERNAL_ERROR, DIFFERS, INPUT_ERROR, NOT_OK, NOT_COMPARED, INTERRUPTED = 1, 1, 2, 3, 4, 130
+"""Exit codes: an error of the program; a package differs; an error in the input; not OK where that
+is asked for; not all could be compared; cut off by Ctrl+C."""
 
 QUIET = click.option("--quiet", is_flag=True, help="Print errors only.")
 AS_JSON = click.option(

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import platform
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
-from importlib import metadata
 from itertools import groupby, zip_longest
 from string import ascii_uppercase, digits
 
@@ -16,21 +14,10 @@ from report.document.tables import Column, Table, listed
 from report.entities.shown import plain, words
 from report.motions.components import RecordFile
 from report.pages.parts import BAR, MOTION_ROWS, PackageData
-from report.provenance.software import sbom_sha256
+from report.provenance.software import versions
 from report.sheet.reading.read import IGNORED, EchoRow
 from report.words.formats import shortened
 
-LIBRARIES = (
-    "numpy",
-    "numba",
-    "pandas",
-    "openpyxl",
-    "pydantic",
-    "matplotlib",
-    "ziamath",
-    "jinja2",
-    "weasyprint",
-)
 WIDEST = 112.0
 """Width of a table of the workbook, in letters: wide enough that a column holds its numbers."""
 
@@ -48,8 +35,7 @@ def records_page(package: PackageData) -> Mapping[str, object]:
     return {
         "files": records(package),
         "alike": _alike(package.assessment.shaking.records),
-        "software": software(),
-        "sbom": sbom_sha256(),
+        "software": ", ".join(f"{name} {version}" for name, version in versions().items()),
     }
 
 
@@ -247,10 +233,3 @@ def _alike(rows: Sequence[RecordFile]) -> Mapping[str, str]:
     """Return what all files have alike, by name."""
     found = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
     return {name: values.pop() for name, values in found.items() if len(values) == 1}
-
-
-def software() -> str:
-    """Return the software with its versions."""
-    libraries = (f"{name} {metadata.version(name)}" for name in LIBRARIES)
-    own = f"roofslip {metadata.version('roofslip')}", f"python {platform.python_version()}"
-    return ", ".join((*own, *libraries))

@@ -1,1 +1,1 @@
-"""A package held against its own input. Read `package`, `updates`, then `verdict`."""
+"""A package compared with what its own input gives. Read `package`, then `verdict`."""

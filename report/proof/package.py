@@ -1,19 +1,19 @@
-"""Opens an untrusted package: its first revision, and the files that it holds.
+"""Opens an untrusted package and takes out the files that it holds.
 
-Owns the limits on size and on where files may be taken out to; compares nothing. Read
-`open_package`.
+Owns the limits on size and on where files may be taken out to; compares nothing. Read `opened`.
 """
 
 from __future__ import annotations
 
 import hashlib
 import io
+import logging
 import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath, PureWindowsPath
+from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
@@ -27,99 +27,84 @@ from solver.meant import meant
 from solver.model import InputError
 
 _T = TypeVar("_T")
-_END = re.compile(rb"startxref\s+(\d{1,12})\s+%%EOF[\r\n]*")
-# Cross-references, a table or a stream, to which the end of a PDF points. That of an attached PDF,
-# which compression may store as it is, points to a place within that PDF.
-_XREF = re.compile(rb"xref\s|\d{1,10} \d{1,10} obj\b")
-_LONGEST_NAME = 255
 _MOST_OTHERS = 20
+
+# No drive, stream, backslash or control character, no "..", and no name of a device of Windows.
+_PART = re.compile(
+    r"(?!\.\.?$)(?!(con|prn|aux|nul|com\d|lpt\d)\s*(\.|$))[^\\:\x00-\x1f\x7f/]{1,255}",
+    re.IGNORECASE,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ReadPackage:
-    """A package as read.
+class Package:
+    """A package as a reader of PDF shows it, whatever was appended to it.
 
     Attributes
     ----------
     data : bytes
         The whole file.
-    first : bytes
-        Its first revision: what `roofslip report` wrote, unless the file was rewritten.
     files : mapping of str to bytes
-        Attachments of the first revision by name.
-    pdf : PdfReader
-        The first revision, to read further.
+        Its attachments by name.
+    listing, results : object
+        The manifest and the attached results.json, as JSON.
     """
 
-    path: Path
     data: bytes
-    first: bytes
-    manifest: Manifest
-    files: Mapping[str, bytes]
     pdf: PdfReader
-
-    @property
-    def listing(self) -> Any:
-        """The manifest as JSON."""
-        return parsed(self.files[MANIFEST], MANIFEST)
-
-    @property
-    def results(self) -> Any:
-        """The attached results.json; empty if there is none."""
-        return parsed(self.files.get(RESULTS, b"{}"), RESULTS)
+    files: Mapping[str, bytes]
+    manifest: Manifest
+    listing: Any
+    results: Any
 
 
-def open_package(path: Path) -> ReadPackage:
-    """Read a package and the files that it holds.
+def read_package(path: Path) -> bytes:
+    """Return the bytes of a package.
 
     Raises
     ------
     InputError
-        If it cannot be read, is too large, or is no package with its input inside.
+        If there is no such file, or it is larger than any package.
     """
-    data = _read(path)
-    ends = (end for end in _END.finditer(data) if _XREF.match(data, int(end[1])))
-    end = next(ends, None)
-    if not data.startswith(b"%PDF-") or end is None:
-        raise InputError("is no PDF, or is cut off; get the file again from where it was issued")
-    # What was appended later has an end of its own.
-    first = data[: end.end()]
-    pdf = guarded(lambda: reader(first))
+    if not path.is_file():
+        raise InputError(f"no such file; {meant(path) or 'give a calc-package.pdf'}")
+    if path.stat().st_size > MAX_FILE:
+        raise InputError(f"larger than {MAX_FILE // MB} MB, which no package is")
+    return path.read_bytes()
+
+
+def opened(data: bytes) -> Package:
+    """Return a package with the files that it holds.
+
+    Raises
+    ------
+    InputError
+        If it is damaged, unpacks to too much, or is no package with its input inside.
+    """
+    if not data.startswith(b"%PDF-"):
+        raise InputError("is no PDF; get the file again from where it was issued")
+    logging.getLogger("pypdf").addHandler(logging.NullHandler())  # it prints what it mends
+    pdf = guarded(lambda: PdfReader(io.BytesIO(data), strict=True))
     files = guarded(lambda: _attachments(pdf))
     if MANIFEST not in files:
         raise InputError(
             f"holds no {MANIFEST}: it is no package of `roofslip report`, or was written by version"
             " 0.1, which did not attach the input"
         )
-    for name in {MANIFEST, RESULTS} & files.keys():
-        parsed(files[name], name)
-    manifest = _manifest(files[MANIFEST])
-    return ReadPackage(path=path, data=data, first=first, manifest=manifest, files=files, pdf=pdf)
-
-
-def warn_of_other_input(new: Path, others: Sequence[Path]) -> None:
-    """Warn of packages that were written from another input than a new one, such as signed ones."""
-    for path in others[:_MOST_OTHERS]:
-        with suppress(InputError, OSError, KeyError, TypeError):  # no package, or a damaged one
-            package = open_package(path)
-            if _inputs(package) != _inputs(open_package(new)):
-                revision = package.results["input"]["project"]["revision"]
-                sign = "; sign the new package" if package.data != package.first else ""
-                what = f"of revision {revision!s:.40}, another input: {package.results['verdict']}"
-                warnings.warn(f"{path}: is {what}{sign}", stacklevel=2)
-
-
-def _inputs(package: ReadPackage) -> set[tuple[str, str]]:
-    return {(file.path, file.sha256) for file in package.manifest.files if file.kind != "results"}
-
-
-def reader(data: bytes) -> PdfReader:
-    """Return a PDF to read; nothing damaged in it is mended."""
-    return PdfReader(io.BytesIO(data), strict=True)
+    listing = parsed(files[MANIFEST], MANIFEST)
+    manifest = _manifest(files)
+    return Package(
+        data=data,
+        pdf=pdf,
+        files=files,
+        manifest=manifest,
+        listing=listing,
+        results=parsed(files[RESULTS], RESULTS),
+    )
 
 
 def guarded(read: Callable[[], _T]) -> _T:
-    """Run what reads a PDF; a damaged one makes the library raise almost anything.
+    """Run what reads a PDF; a damaged one makes the libraries raise almost anything.
 
     Raises
     ------
@@ -133,25 +118,20 @@ def guarded(read: Callable[[], _T]) -> _T:
         raise InputError("is damaged; get the file again from where it was issued") from error
 
 
-def _read(path: Path) -> bytes:
-    if not path.is_file():
-        raise InputError(f"no such file; {meant(path) or 'give a calc-package.pdf'}")
-    if path.stat().st_size > MAX_FILE:
-        raise InputError(f"larger than {MAX_FILE // MB} MB, which no package is")
-    return path.read_bytes()
-
-
 def _attachments(pdf: PdfReader) -> dict[str, bytes]:
     """Return the attachments by name, within the limits of a workbook and its records."""
+    if pdf.is_encrypted:
+        raise InputError("is encrypted, which no package is")
+    listed = pdf.root_object.get("/Names", {}).get("/EmbeddedFiles", {}).get("/Names", ())
     found: dict[str, bytes] = {}
-    for count, file in enumerate(pdf.attachment_list, start=1):
-        if count > MAX_MEMBERS:
-            raise InputError(f"has more than {MAX_MEMBERS} attachments, which no package has")
-        if file.name in found:
-            raise InputError(f"has two attachments of the name {file.name}")
-        found[file.name] = file.content
-        total = sum(map(len, found.values()))
-        if len(file.content) > MAX_RECORD or total > MAX_TOTAL:
+    total = 0
+    for key, file in zip(listed[::2], listed[1::2], strict=True):
+        about = file.get_object()
+        if key in found or not key == about["/UF"] == about["/F"] or len(found) >= MAX_MEMBERS:
+            raise InputError(f"its attachment {key!s:.80} has two names or is one of too many")
+        found[str(key)] = content = about["/EF"]["/F"].get_data()
+        total += len(content)
+        if len(content) > MAX_RECORD or total > MAX_TOTAL:
             raise InputError(
                 f"its attachments unpack to more than {MAX_RECORD // MB} MB in one or"
                 f" {MAX_TOTAL // MB} MB in all"
@@ -159,25 +139,37 @@ def _attachments(pdf: PdfReader) -> dict[str, bytes]:
     return found
 
 
-def _manifest(content: bytes) -> Manifest:
+def _manifest(files: Mapping[str, bytes]) -> Manifest:
+    """Return the manifest of a package whose attachments are those that it lists."""
     try:
-        manifest = Manifest.model_validate_json(content)
+        manifest = Manifest.model_validate_json(files[MANIFEST])
     except ValidationError as error:
-        first = error.errors()[0]
-        place = "".join(f"{step}: " for step in first["loc"])
+        place = "".join(f"{step}: " for step in error.errors()[0]["loc"])
         raise InputError(f"{MANIFEST} is damaged at {place}") from error
     if manifest.schema_version != SCHEMA_VERSION:
         raise InputError(
             f"{MANIFEST} has the schema_version {manifest.schema_version}; this version reads"
             f" {SCHEMA_VERSION}: use Roofslip {manifest.roofslip_version}"
         )
-    if len(manifest.of_kind("workbook")) != 1 or len(manifest.of_kind("former")) > 1:
-        raise InputError(f"{MANIFEST} names no workbook, or more than one")
+    counts = {kind: len(manifest.of_kind(kind)) for kind in ("workbook", "results", "former")}
+    if (counts["workbook"], counts["results"]) != (1, 1) or counts["former"] > 1:
+        raise InputError(f"{MANIFEST} names no workbook or results, or more than one")
+    has_records = manifest.has_records
+    listed = {file.name: file for file in manifest.files if has_records or file.kind != "record"}
+    for name in dict.fromkeys((RESULTS, *listed, *files)):
+        if name not in files:
+            raise InputError(f"the attachment {name} is missing")
+        if name != MANIFEST and name not in listed:
+            raise InputError(f"the attachment {name} is not listed in {MANIFEST}")
+        if name != MANIFEST and hashlib.sha256(files[name]).hexdigest() != listed[name].sha256:
+            raise InputError(
+                f"the attachment {name} was changed: its SHA-256 is not the one listed"
+            )
     return manifest
 
 
 def take_out(
-    package: ReadPackage, folder: Path, records: Path | None = None
+    package: Package, folder: Path, records: Path | None = None
 ) -> tuple[Path, list[Path]]:
     """Write the input of a package to a folder of its own; return workbook and former results.
 
@@ -189,74 +181,70 @@ def take_out(
     Raises
     ------
     InputError
-        If a file is missing, or would lie outside of the folder.
+        If a name leads outside of the folder or is given twice, or a record is not that listed.
     """
     written: dict[str, list[Path]] = {}
     for file in package.manifest.files:
         if file.kind == "results":
             continue
-        target = folder / _inside(file.path)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with target.open("xb") as new:
-            new.write(_content(package, file, records))
+        if not all(map(_PART.fullmatch, file.path.split("/"))):
+            raise InputError(f"the attachment {file.path!r:.80} would lie outside of its folder")
+        is_held = package.manifest.has_records or file.kind != "record"
+        content = package.files[file.name] if is_held else _left_out(file, records)
+        target = folder / file.path
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            with target.open("xb") as new:
+                new.write(content)
+        except (FileExistsError, NotADirectoryError) as error:
+            raise InputError(
+                f"the attachment {file.path!r:.80} is in the way of another"
+            ) from error
         written.setdefault(file.kind, []).append(target)
     return written["workbook"][0], written.get("former", [])
 
 
-def _inside(path: str) -> PurePosixPath:
-    """Return a relative path that leads to no other folder on any system."""
-    parts = PurePosixPath(path).parts
-    is_bad = (
-        not parts
-        or PurePosixPath(path).is_absolute()
-        or bool(PureWindowsPath(path).drive)
-        or any(part == ".." or len(part) > _LONGEST_NAME for part in parts)
-        or re.search(r"[\\\x00-\x1f\x7f]", path) is not None
-    )
-    if is_bad:
-        raise InputError(f"the attachment {path!r:.80} would lie outside of its folder")
-    return PurePosixPath(path)
-
-
-def _content(package: ReadPackage, file: Listed, records: Path | None) -> bytes:
-    if file.kind == "record" and not package.manifest.has_records:
-        return _left_out(file, records)
-    if file.name not in package.files:
-        raise InputError(f"the attachment {file.name} is missing")
-    return package.files[file.name]
+class RecordsMissingError(InputError):
+    """Record files that a package only lists are not given: what is called lacks something."""
 
 
 def _left_out(file: Listed, records: Path | None) -> bytes:
     """Return a record file that a package is too small to hold."""
     if records is None:
-        raise InputError(
+        raise RecordsMissingError(
             "its records are too large to be attached; name the folder of the workbook that they"
             " lie beside with --records"
         )
-    path = records / _inside(file.path)
+    path = records / file.path
     if not path.is_file() or path.stat().st_size > MAX_RECORD:
-        raise InputError(f"{path}: is missing or too large; the package was computed from it")
+        raise RecordsMissingError(
+            f"{path}: is missing or too large; the package was computed from it"
+        )
     content = path.read_bytes()
     if hashlib.sha256(content).hexdigest() != file.sha256:
-        raise InputError(f"{path}: is not the file that the package was computed from (SHA-256)")
+        raise RecordsMissingError(
+            f"{path}: is not the file that the package was computed from (SHA-256)"
+        )
     return content
 
 
-def mismatched(package: ReadPackage) -> Sequence[str]:
-    """Return attachments that are not those of the manifest: changed, missing or added."""
-    has_records, files = package.manifest.has_records, package.manifest.files
-    listed = {file.name: file.sha256 for file in files if has_records or file.kind != "record"}
-    held = {
-        name: hashlib.sha256(content).hexdigest()
-        for name, content in package.files.items()
-        if name != MANIFEST
-    }
-    return [
-        *(f"{name} is missing" for name in listed if name not in held),
-        *(f"{name} is not listed" for name in held if name not in listed),
-        *(
-            f"{name} was changed: its SHA-256 is not the one listed"
-            for name in held
-            if name in listed and held[name] != listed[name]
-        ),
-    ]
+def signed_fields(pdf: PdfReader) -> list[str]:
+    """Return the names of the fields of a PDF that were signed."""
+    fields = [item.get_object() for item in pdf.root_object.get("/AcroForm", {}).get("/Fields", ())]
+    return [str(field.get("/T")) for field in fields if "/V" in field]
+
+
+def warn_of_other_input(new: Path, others: Sequence[Path]) -> None:
+    """Warn of packages that were written from another input than a new one, such as signed ones."""
+    for path in others[:_MOST_OTHERS]:
+        with suppress(InputError, OSError, KeyError, TypeError):  # no package, or a damaged one
+            package = opened(read_package(path))
+            if _inputs(package) != _inputs(opened(read_package(new))):
+                revision = package.results["input"]["project"]["revision"]
+                sign = "; sign the new package" if signed_fields(package.pdf) else ""
+                what = f"of revision {revision!s:.40}, another input: {package.results['verdict']}"
+                warnings.warn(f"{path}: is {what}{sign}", stacklevel=2)
+
+
+def _inputs(package: Package) -> set[tuple[str, str]]:
+    return {(file.path, file.sha256) for file in package.manifest.files if file.kind != "results"}

@@ -18,7 +18,7 @@ from pydantic import BaseModel, ConfigDict, StringConstraints
 from report.motions.components import RecordFile
 from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
-from report.provenance.software import environment, sbom_sha256
+from report.provenance.software import environment
 from report.sheet.reading.read import Sheet
 from report.typeset.finish import Attached
 from solver.model import InputError
@@ -40,6 +40,7 @@ _MIMES = {
 }
 
 _Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+_Version = Annotated[str, StringConstraints(pattern=r"^[\w.+ -]{0,80}$")]
 
 
 class _Part(BaseModel):
@@ -60,12 +61,11 @@ class Manifest(_Part):
     """What a package was computed from, and by which software."""
 
     schema_version: int
-    roofslip_version: str
+    roofslip_version: _Version
     hash: str
     has_records: bool
     files: tuple[Listed, ...]
-    environment: dict[str, str]
-    sbom_sha256: _Sha256
+    environment: dict[str, _Version]
 
     def of_kind(self, kind: str) -> tuple[Listed, ...]:
         """Return the files of a kind: workbook, record, document, former or results."""
@@ -194,7 +194,6 @@ def attachments(found: Sequence[SourceFile], results: bytes, short: str) -> tupl
         has_records=has_records,
         files=tuple(source.listed for source in (*found, own)),
         environment=dict(environment()),
-        sbom_sha256=sbom_sha256(),
     ).model_dump(mode="json")
     listed = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
     return (

@@ -1,4 +1,4 @@
-"""A package that was made once, parts of it, and what holds a tampered one against it."""
+"""A package that was made once, and what holds a tampered one against it."""
 
 from functools import cache
 
@@ -6,9 +6,8 @@ import pytest
 
 import packages
 import tampering
-from report.proof.package import open_package
-from report.proof.updates import appended
-from report.proof.verdict import Written, compared
+from report.proof.package import opened
+from report.proof.verdict import compared
 
 
 @pytest.fixture(scope="session")
@@ -32,22 +31,10 @@ def few_sheets(data):
 
 
 @pytest.fixture(scope="session")
-def written():
-    """A function that parses what was written from an input, once for all comparisons with it."""
-    return cache(Written)
-
-
-@pytest.fixture
-def proof(tmp_path, data, written):
-    """A function that compares the bytes of a package with what was written from its input."""
-
-    def of(given, computed=data, short=""):
-        path = tmp_path / "given.pdf"
-        path.write_bytes(given)
-        package, ours = open_package(path), written(computed)
-        return compared(package, ours, appended(package), short or ours.manifest.hash)
-
-    return of
+def proof(data):
+    """A function that compares the bytes of a package with what was made from its input."""
+    parsed = cache(opened)
+    return lambda given, made=data: compared(opened(given), parsed(made))
 
 
 @pytest.fixture

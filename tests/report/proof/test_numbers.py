@@ -3,7 +3,7 @@
 import pytest
 
 from growth import grows_faster
-from report.proof.numbers import number_differences, parsed, word_differences
+from report.proof.numbers import differences, first_other_word, parsed
 from solver.model import InputError
 
 BAD = {
@@ -37,18 +37,44 @@ def test_json_is_read_as_it_is():
 
 def test_documents_of_other_types_differ():
     for other in ([], "x", 1, None, {"a": []}):
-        assert list(number_differences(other, {"a": 1.0}, 1e-9))
+        assert list(differences(other, {"a": 1.0}))
 
 
-def test_numbers_are_the_same_to_the_tolerance_and_no_further():
-    assert not list(number_differences({"a": 1.0 + 1e-10}, {"a": 1.0}, 1e-9))
-    assert list(number_differences({"a": 1.0 + 1e-8}, {"a": 1.0}, 1e-9))
-    assert list(number_differences({"a": True}, {"a": 1}, 1e-9))
+@pytest.mark.parametrize(
+    ("key", "one", "two", "count"),
+    [
+        ("design_m", 1.0 + 5e-10, 1.0, 0),
+        ("design_m", 1.0 + 2e-9, 1.0, 1),
+        ("design_m", 5e-15, 0.0, 0),
+        ("design_m", 2e-14, 0.0, 1),
+        ("error_m", 1.9e-9, 1e-9, 0),
+        ("error_m", 2.1e-9, 1e-9, 1),
+        ("error_m", 1.0, 1e-9, 1),
+        ("error_m", -1e-10, 1e-9, 1),
+        ("is_ok", True, 1, 1),
+        ("name", "A1", "A2", 1),
+    ],
+)
+def test_numbers_are_the_same_to_the_tolerance_and_no_further(key, one, two, count):
+    told = list(differences({"runs": [{key: one}]}, {"runs": [{key: two}]}))
+    assert len(told) == count
+    assert all(text.startswith(f"runs[0].{key} is ") for text in told)
+
+
+def test_of_another_version_only_numbers_that_both_have_are_compared():
+    ours = {"a": 1.0, "name": "A", "list": [1.0, 2.0], "new": 3.0}
+    assert not list(
+        differences({"a": 1.0, "name": "B", "list": [1.0], "old": 4}, ours, shared=True)
+    )
+    assert list(differences({"a": 1.1}, ours, shared=True)) == ["a is 1.1; the input gives 1.0"]
+    assert len(list(differences({"list": [1.0, 2.1]}, ours, shared=True))) == 1
 
 
 def test_blanks_between_words_do_not_count_and_every_letter_does():
-    assert word_differences("RTU- 1\n10 .", "RTU-1 10.") == []
-    assert word_differences("24.0 in", "24.1 in") == ["'24.0' where the input gives '24.1'"]
+    assert first_other_word("RTU- 1\n10 .", "RTU-1 10.") == ""
+    assert first_other_word("a b 24.0 in", "ab 24.1 in") == '"24.0" where the input gives "24.1"'
+    assert first_other_word("24.0 in", "24.0") == '"in" where the input gives nothing'
+    assert first_other_word("24.0", "24.0 in") == 'nothing where the input gives "in"'
 
 
 @pytest.mark.parametrize("content", [b"{", b"", b"\xff", b"[" * 3000, b'{"a": NaN}'])
@@ -67,17 +93,3 @@ def test_an_object_of_many_keys_is_refused_in_a_time_that_grows_as_their_number(
             parsed(content, "results.json")
 
     assert not grows_faster(read, twice, 2_000)
-
-
-def test_sheets_of_the_same_words_in_another_order_differ_from_the_first_of_them_on():
-    few, many = ("0.1 " + "a b " * count for count in (20, 1_000))
-    assert word_differences(few + "b", few) == ["'b' where the input gives nothing"]
-    assert word_differences(many + "b", many) == ["'b' where the input gives nothing"]
-    (told,) = word_differences("0.1 b " + "a b " * 1_000, many + "a")
-    assert told.startswith("'b a b a b")
-    assert " where the input gives 'a b a b" in told
-    assert not grows_faster(
-        lambda pair: word_differences(*pair),
-        lambda size: ("a b " * size, "b " * size + "a " * size),
-        500,
-    )

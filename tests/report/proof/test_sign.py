@@ -3,10 +3,10 @@
 import datetime as dt
 import io
 import json
+import re
 import sys
 import threading
 import warnings
-from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pikepdf
@@ -23,20 +23,20 @@ from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
 from pyhanko.pdf_utils.reader import PdfFileReader
 from pyhanko.sign.validation import validate_pdf_signature
 from pyhanko_certvalidator import ValidationContext
+from pypdf import PdfReader
 
 import packages
 import tampering
 from report.cli.main import main
 from report.cli.terminal import warn_of_others
-from report.proof import signatures
-from report.proof.package import ReadPackage, reader
+from report.proof.contents import refused
 from report.proof.sign import signed as signed_by
-from report.proof.signatures import Signature
-from report.proof.updates import Appended, appended
+from report.proof.signatures import Appended, Signature, appended
 from report.typeset.finish import FIELD
 from solver.model import InputError
 
 PASSWORD = "pass word"
+command = sys.modules["report.cli.verify_package"]
 CONFIG = """
 external-url-prefix: "http://localhost"
 keysets:
@@ -128,9 +128,9 @@ def clock(authority):
         thread.join()
 
 
-def test_without_the_library_a_signature_is_named_and_not_checked(monkeypatch):
+def test_without_the_library_a_signature_is_not_checked(monkeypatch):
     monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
-    assert list(signatures.checked(b"", ["S1"])) == [Signature(field="S1", is_checked=False)]
+    assert appended(b"") == Appended(is_checked=False)
 
 
 @pytest.fixture(scope="module")
@@ -160,11 +160,8 @@ def signed(sign):
 
 @pytest.fixture(scope="module")
 def found(data):
-    """A function that returns what was appended to the package, which is parsed once."""
-    package = ReadPackage(
-        path=None, data=data, first=data, manifest=None, files={}, pdf=reader(data)
-    )
-    return lambda whole: appended(replace(package, data=whole))
+    """A function that returns what was appended to the package."""
+    return lambda whole: appended(whole, data)
 
 
 def checked(content, authority):
@@ -186,7 +183,7 @@ def test_a_signature_is_pades_b_b_without_a_network(signed, authority, data, fou
     assert status.bottom_line
     assert status.timestamp_validity is None
     signed = Signature(field=FIELD, signer="Jane Doe, S.E.")
-    assert found(content) == Appended(signed=(signed,), others=())
+    assert found(content) == Appended(signed=(signed,), problems=())
 
 
 def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
@@ -195,13 +192,13 @@ def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
     _, status = checked(content, authority)
     assert status.bottom_line
     assert status.timestamp_validity.valid
-    assert found(content).others == ()
+    assert found(content).problems == ()
 
 
 def test_what_is_appended_after_the_signature_is_found(signed, found):
     _, content = signed
     for more in (b"\n", b"% more\n", b"1 0 obj\n<<>>\nendobj\n"):
-        assert "appended: bytes that no signature covers" in found(content + more).others
+        assert "appended: bytes that no signature covers" in found(content + more).problems
 
 
 @pytest.fixture
@@ -232,7 +229,24 @@ def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, updat
     assert done.exit_code == 0, done.output
     later = found(content)
     assert [one.field for one in later.signed] == [FIELD]
-    assert "appended: sheet 4 /Contents" in later.others
+    assert later.problems[0].startswith("appended: more than signatures: ")
+    assert appended(content).problems == later.problems  # whoever made the first revision
+
+
+def test_a_package_behind_another_one_is_found_though_it_is_signed(sign, data):
+    """Its cross-references name none before them, so that readers see the second one alone."""
+    text = re.search(rb"startxref\s+(\d+)\s+%%EOF\s*$", data)
+    assert text
+    with pikepdf.open(io.BytesIO(data)) as pdf:
+        tampering.painted_over(pdf)
+        out = io.BytesIO()
+        pdf.save(out)
+    done, content = sign(content=out.getvalue())
+    assert done.exit_code == 0, done.output
+    assert appended(content).problems == ()
+    other = PdfFileReader(io.BytesIO(content)).xrefs.get_startxref_for_revision(0)
+    assert other != int(text[1])
+    assert "appended: a package of its own" in appended(content, data).problems
 
 
 def test_a_signature_that_does_not_fit_is_a_difference(signed, found):
@@ -243,48 +257,94 @@ def test_a_signature_that_does_not_fit_is_a_difference(signed, found):
     digit = b"1" if content[end - 3 : end - 2] != b"1" else b"2"
     later = found(content[: end - 3] + digit + content[end - 2 :])
     assert [one.field for one in later.signed] == [FIELD]
-    assert any(text.startswith(f"signature '{FIELD}': ") for text in later.others)
+    assert any(text.startswith(f"signature '{FIELD}': ") for text in later.problems)
 
 
 @pytest.mark.parametrize("entry", ["/AA", "/A", "/Lock"])
-def test_a_hidden_field_with_an_action_is_found_though_it_is_signed(sign, updated, found, entry):
+def test_a_hidden_field_with_an_action_is_refused_though_it_is_signed(sign, updated, entry):
     name, text = generic.NameObject, generic.pdf_string
     script = {name("/S"): name("/JavaScript"), name("/JS"): text("app.alert(1)")}
-    field = generic.DictionaryObject({
+    field = new_field(generic, (0, 0, 0, 0))
+    field[name(entry)] = generic.DictionaryObject(script)
+    _, content = sign(content=updated(lambda writer: add_field(writer, field)))
+    assert next(refused(PdfReader(io.BytesIO(content))))
+
+
+def new_field(generic, rectangle):
+    name = generic.NameObject
+    return generic.DictionaryObject({
         name("/Type"): name("/Annot"), name("/Subtype"): name("/Widget"), name("/FT"): name("/Sig"),
-        name("/T"): text("other"), name("/F"): generic.NumberObject(132),
-        name("/Rect"): generic.ArrayObject(map(generic.NumberObject, (0, 0, 0, 0))),
-        name(entry): generic.DictionaryObject(script),
+        name("/T"): generic.pdf_string("other"), name("/F"): generic.NumberObject(132),
+        name("/Rect"): generic.ArrayObject(map(generic.NumberObject, rectangle)),
     })  # fmt: skip
 
+
+def add_field(writer, field):
+    page = writer.root["/Pages"]["/Kids"][0]
+    reference = writer.add_object(field)
+    page["/Annots"].append(reference)
+    writer.root["/AcroForm"]["/Fields"].append(reference)
+    writer.update_container(page)
+    writer.update_root()
+
+
+def test_a_field_over_a_sheet_is_found_though_it_is_signed_and_an_empty_one_is_not(
+    sign, updated, found
+):
+    hidden, painted = (new_field(generic, (0, 0, size, size)) for size in (0, 600))
+    _, content = sign(content=updated(lambda writer: add_field(writer, hidden)))
+    assert found(content).problems == ()
+    _, content = sign(content=updated(lambda writer: add_field(writer, painted)))
+    assert found(content).problems
+    assert next(refused(PdfReader(io.BytesIO(content)))).startswith("sheet 1: an annotation")
+
+
+def test_another_title_that_came_with_a_signature_is_found(sign, updated, found):
     def change(writer):
-        page = writer.root["/Pages"]["/Kids"][0]
-        page["/Annots"].append(writer.add_object(field))
-        writer.update_container(page)
+        info = writer.trailer["/Info"]
+        info["/Title"] = generic.pdf_string("Approved")
+        writer.set_info(info)
 
     _, content = sign(content=updated(change))
-    is_found = any("/Annots" in text for text in found(content).others)
-    assert is_found == (entry != "/Lock")  # which a field may have
+    assert "appended: another title, author or subject" in found(content).problems
 
 
-@pytest.mark.nightly("report/cli/verify_package.py", "report/proof/sign.py")
-def test_a_signature_that_cannot_be_checked_is_said_not_to_be(job, p12, tmp_path, monkeypatch):
+@pytest.fixture
+def made(job, monkeypatch):
+    """Has the command take the package that is there for the one made again."""
+    data = (job / "out" / "calc-package.pdf").read_bytes()
+    monkeypatch.setattr(command, "made_again", lambda *_: data)
+    return data
+
+
+def test_a_signature_that_cannot_be_checked_is_said_not_to_be(made, sign, tmp_path, monkeypatch):
     path = tmp_path / "calc-package-signed.pdf"
-    package = str(job / "out" / "calc-package.pdf")
-    words = ["sign", package, "--p12", str(p12), "--password", PASSWORD, "--out", str(path)]
-    assert CliRunner().invoke(main, words).exit_code == 0
-    monkeypatch.setitem(sys.modules, "pyhanko", None)
+    path.write_bytes(sign(content=made)[1])
+    monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
     done = CliRunner().invoke(main, ["verify-package", str(path)])
     assert done.exit_code == 4, done.output
-    assert "Same: the input in the package gives this package, to the last bit." in done.output
-    assert "the signature was not checked" in done.output
+    assert "Same" not in done.output
+    assert "were not checked" in done.output
     assert "./roofslip sign installs" in done.output
+    assert list(tmp_path.iterdir()) == [path]
     monkeypatch.undo()
+    monkeypatch.setattr(command, "made_again", lambda *_: made)
     done = CliRunner().invoke(main, ["verify-package", str(path), "--json"])
     assert done.exit_code == 0, done.output
-    (signature,) = json.loads(done.stdout)["signed"]
-    assert signature["signer"] == "Jane Doe, S.E."
-    assert signature["is_checked"]
+    said = json.loads(done.stdout)
+    assert said["answer"] == "same"
+    assert said["signed"] == [{"field": FIELD, "signer": "Jane Doe, S.E."}]
+
+
+def test_what_was_painted_over_before_it_was_signed_is_never_the_same(made, sign, tmp_path):
+    path = tmp_path / "calc-package-signed.pdf"
+    painted = tampering.rewritten(made, tampering.painted_over)
+    path.write_bytes(sign(content=painted)[1])
+    done = CliRunner().invoke(main, ["verify-package", str(path)])
+    assert done.exit_code == 4, done.output
+    assert "drawings not compared: read the package made again" in done.output
+    assert "by 'Jane Doe, S.E.'" in done.output
+    assert (tmp_path / "calc-package-signed-again.pdf").read_bytes() == made
 
 
 def test_a_second_signature_has_no_field(sign, signed):

@@ -1,0 +1,142 @@
+"""What no package has, and the words of one. Read `refused`, then `words`."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from pypdf import PageObject, PdfReader
+from pypdf.generic import ArrayObject, DictionaryObject, IndirectObject, StreamObject
+
+from report.typeset.finish import FIELD
+from solver.model import InputError
+
+MOST_SHEETS, MOST_OBJECTS, MOST_SECONDS = 5_000, 5_000_000, 300.0
+"""Beyond any package."""
+
+_FORBIDDEN = {
+    **dict.fromkeys(("/AA", "/OpenAction", "/URI", "/PA"), "an action"),
+    **dict.fromkeys(("/JS", "/JavaScript", "/XFA"), "a script"),
+    **dict.fromkeys(("/OC", "/OCGs", "/OCProperties"), "a layer"),
+    **dict.fromkeys(("/Collection", "/RF"), "an attachment that is not ours"),
+}
+"""Keys of a PDF that no package has, and what they stand for."""
+
+_UPWARD = {"/Parent", "/P", "/Dest", "/Obj", "/Pg"}
+_READ_ALOUD = {"/Alt", "/ActualText", "/E", "/Contents", "/Title", "/TU"}
+
+
+def pages(pdf: PdfReader) -> Sequence[PageObject]:
+    """Return the sheets.
+
+    Raises
+    ------
+    InputError
+        If the tree of sheets names one twice, or has more than any package.
+    """
+    pending, seen, count = [pdf.root_object.raw_get("/Pages")], set[int](), 0
+    while pending:
+        node: Any = pending.pop().get_object()
+        if id(node) in seen or len(seen) > MOST_SHEETS:
+            raise InputError("has a sheet twice, or more sheets than any package")
+        seen.add(id(node))
+        count += "/Kids" not in node
+        pending += list.__iter__(node.get("/Kids", []))
+    if len(pdf.pages) != count:
+        raise InputError(f"states {len(pdf.pages)} sheets and has {count}")
+    return list(pdf.pages)
+
+
+def refused(pdf: PdfReader) -> Iterator[str]:
+    """Yield where a PDF has what no package has, whichever software wrote it.
+
+    Raises
+    ------
+    InputError
+        If it has more sheets or objects than any package.
+    """
+    for count, page in enumerate(pages(pdf), start=1):
+        for note in page.get("/Annots", ()):
+            if _is_other(note.get_object()):
+                yield f"sheet {count}: an annotation beside links and the signature field"
+        if not isinstance(page["/Contents"], StreamObject):
+            yield f"sheet {count}: its content is in several parts"
+        if page.rotation or page.user_unit != 1.0 or page.cropbox != page.mediabox:
+            yield f"sheet {count}: rotated, cropped or scaled"
+    root: Any = pdf.root_object
+    own = {id(file.get_object()) for file in root["/Names"]["/EmbeddedFiles"]["/Names"]}
+    for place, item in _dictionaries(pdf):
+        for key in sorted(item.keys() & _FORBIDDEN.keys()):
+            yield f"{place}: {_FORBIDDEN[key]} ({key})"
+        action: Any = item.get("/A")
+        if isinstance(action, DictionaryObject) and "/S" in action:  # no tag has it
+            yield f"{place}: an action (/A)"
+        if ("/EF" in item and id(item) not in own) or ("/AF" in item and "/Pages" not in item):
+            yield f"{place}: an attachment that is not ours"
+
+
+def _is_other(note: Any) -> bool:
+    """Whether an annotation is neither a link within the package nor the signature field."""
+    if note["/Subtype"] == "/Link":
+        return "/Dest" not in note or "/AP" in note
+    if note["/Subtype"] != "/Widget" or note.get("/FT") != "/Sig":
+        return True
+    left, bottom, right, top = map(float, note["/Rect"])
+    is_hidden = (right - left) * (top - bottom) == 0.0
+    is_painted = "/V" not in note and note["/AP"]["/N"].get_data().strip()
+    return not is_hidden and (note["/T"] != FIELD or bool(is_painted))
+
+
+def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:
+    """Yield each dictionary with its sheet, or as of the document if it belongs to none."""
+    starts = [(f"sheet {count}", page) for count, page in enumerate(pages(pdf), start=1)]
+    pending: list[tuple[str, Any]] = [*reversed(starts)]
+    last: list[tuple[str, Any]] = [("document", pdf.trailer)]
+    seen, count = set[int](), 0
+    while pending or last:
+        place, item = pending.pop() if pending else last.pop()
+        if isinstance(item, IndirectObject):
+            item = item.get_object()
+        if id(item) in seen or not isinstance(item, (ArrayObject, DictionaryObject)):
+            continue
+        seen.add(id(item))
+        count += len(item)
+        if count > MOST_OBJECTS:
+            raise InputError("has more objects than any package")
+        if isinstance(item, ArrayObject):
+            pending += [(place, below) for below in reversed(list(list.__iter__(item)))]
+            continue
+        yield place, item
+        below = [(key, item.raw_get(key)) for key in sorted(item, reverse=True)]
+        pending += [(place, one) for key, one in below if key not in _UPWARD]
+        # What lies above belongs to no sheet.
+        last += [("document", one) for key, one in below if key in _UPWARD]
+
+
+def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
+    """Yield the place and the words of each sheet, then those that are read aloud or listed.
+
+    Raises
+    ------
+    InputError
+        If that takes longer than with any package.
+    """
+    end = time.monotonic() + MOST_SECONDS
+
+    def check(*_: object) -> None:
+        if time.monotonic() > end:
+            raise InputError("takes longer to read than any package")
+
+    for count, page in enumerate(pages(pdf), start=1):
+        check()
+        yield f"size of sheet {count}", f"{page.mediabox.width:g} x {page.mediabox.height:g}"
+        yield f"sheet {count}", page.extract_text(visitor_operand_before=check)
+    for place, item in _dictionaries(pdf):
+        check()
+        for key in sorted(item.keys() & _READ_ALOUD):
+            if isinstance(item[key], str):
+                yield f"{place} ({key})", str(item[key])
+    for key, value in sorted((pdf.metadata or {}).items()):
+        if key not in ("/Producer", "/ModDate"):
+            yield f"document ({key})", str(value)
