@@ -79,7 +79,7 @@ def refused(pdf: PdfReader) -> Iterator[str]:
 def _is_other(note: Any) -> bool:
     """Whether an annotation is neither a link within the package nor the signature field."""
     if note["/Subtype"] == "/Link":
-        return "/Dest" not in note or "/AP" in note
+        return "/Dest" not in note or "/AP" in note or note["/BS"]["/W"] != 0
     if note["/Subtype"] != "/Widget" or note.get("/FT") != "/Sig":
         return True
     left, bottom, right, top = map(float, note["/Rect"])

@@ -15,7 +15,7 @@ from places import ROOT
 from report.cli.main import main
 from report.making import make as make_package
 from report.motions.prepare import prepare
-from report.proof.package import open_package
+from report.proof.package import opened
 from report.sheet.checking.covered import outdated, to_record
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.read import read
@@ -67,7 +67,7 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     assert open_book(path).calculation == says
     files = {file.name for file in tmp_path.iterdir() if not file.name.startswith(".")}
     assert files == {"input.xlsx", "records", "out"}  # no copy: the former one may still be needed
-    package = open_package(tmp_path / "out" / "calc-package.pdf")
+    package = opened((tmp_path / "out" / "calc-package.pdf").read_bytes())
     (workbook,) = package.manifest.of_kind("workbook")
     assert workbook.sha256 == sheet.sha256
     run("verify-package", tmp_path / "out" / "calc-package.pdf")
