@@ -85,7 +85,6 @@ DAY = {
     "new": ["new", "OUT", "--example"],
     "plan": ["plan", "read", "PROJECT/roof.dxf", "PROJECT", "--replace", "--accept"],
     "rows": ["motion", "rows", EXAMPLE / "records"],
-    "sbom": ["sbom"],
     "schema": ["schema"],
     "slide": ["slide", RECORD, "--slope-deg", 2, "--mu", 0.3],
 }

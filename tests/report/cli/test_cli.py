@@ -172,3 +172,8 @@ def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_pa
     told = refused("report", tmp_path / "no-such-project", "--since", former)
     assert "issued.json: is no results.json or is damaged" in told
     assert not (tmp_path / "out").exists()
+
+
+def test_the_former_command_sbom_says_what_replaces_it():
+    told = " ".join(refused("sbom", "--out", "sbom.json").split())
+    assert "Each package lists the versions of the software that matters" in told
