@@ -134,5 +134,5 @@ def test_a_sheet_calls_the_command_as_it_was_typed(tmp_path, monkeypatch):
     printed("new", tmp_path)
     book = load_workbook(tmp_path / "input.xlsx", read_only=True)
     start = "\n".join(str(cell) for row in book["Start"].values for cell in row)
-    assert "Run ./roofslip check FOLDER." in start
+    assert "Run ./roofslip check FOLDER, which" in start
     assert not re.search(r"(?<!/)roofslip [a-z]", start)
