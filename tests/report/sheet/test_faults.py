@@ -197,7 +197,7 @@ CONTRADICTIONS = [
      " category II requires D or higher (ASCE 7 Table 11.6-1)"),
     ({"Site/S_DS": None},
      "<Site/S_DS>: S_DS is missing; give S_DS, S_MS, or both S_S and F_a"),
-    ({"Site/S_DS": None, "Site/S_S": 1.97},
+    ({"Site/S_DS": None, "Site/S_S": 1.97, "Site/Site class": None},
      "<Site/F_a>: F_a is missing; give S_DS, S_MS, or both S_S and F_a"),
     ({"Site/S_DS": None, "Site/F_a": 1.2},
      "<Site/S_S>: S_S is missing; give S_DS, S_MS, or both S_S and F_a"),
