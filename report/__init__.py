@@ -44,7 +44,7 @@ def assess_project(source: str | Path) -> Assessment:
     >>> assessment.clearances[1]
     ClearanceCheck: A2 to RTU-1, 549 mm required, 305 mm provided, NG
     """
-    from report.assessment.project import assess
+    from report.assessment.assess import assess
     from report.motions.prepare import prepare
     from report.sheet.reading.read import read
 

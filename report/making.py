@@ -48,9 +48,9 @@ def make(
     `on_assessment` is given the assessment before the package is made, which takes longer. With
     `on_record`, the workbook gets what its confirmations cover, and `on_record` a line on that.
     """
+    from report.assessment.assess import assess
     from report.assessment.cost import cost
     from report.assessment.evidence import support
-    from report.assessment.project import assess
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
     from report.package.html import pages

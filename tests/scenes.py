@@ -12,9 +12,10 @@ from functools import cache
 
 import stand_in
 from places import ROOT
+from report.assessment.assess import assess
 from report.assessment.changes import Changes
 from report.assessment.evidence import support
-from report.assessment.project import Assessment, assess
+from report.assessment.project import Assessment
 from report.motions.components import Components
 from report.motions.history import shake
 from report.pages.parts import PackageData

@@ -13,6 +13,7 @@ from typing import BinaryIO
 from zipfile import ZipFile
 
 import pytest
+from lxml import etree
 from openpyxl import Workbook, load_workbook
 from openpyxl.cell import Cell
 from openpyxl.utils import coordinate_to_tuple, range_boundaries
@@ -162,6 +163,16 @@ def parts(path: Path | BinaryIO) -> dict[str, bytes]:
     """Return the parts of a workbook by name."""
     with ZipFile(path) as archive:
         return {name: archive.read(name) for name in archive.namelist()}
+
+
+def different(before: Mapping[str, bytes], after: Mapping[str, bytes]) -> set[str]:
+    """Return the parts that hold something else, whatever their XML looks like."""
+    assert before.keys() == after.keys()
+    return {name for name in before if _in_one_form(before[name]) != _in_one_form(after[name])}
+
+
+def _in_one_form(part: bytes) -> bytes:
+    return etree.tostring(etree.fromstring(part), method="c14n") if part[:1] == b"<" else part
 
 
 def pack(path: Path, parts: Mapping[str, bytes]) -> Path:

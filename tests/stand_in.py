@@ -12,8 +12,9 @@ from openpyxl.utils import get_column_letter
 import inputs
 from inputs import FT as FOOT
 from inputs import INCH, array, clearance, links, roof_object
+from report.assessment.assess import assess
 from report.assessment.evidence import support
-from report.assessment.project import Assessment, assess
+from report.assessment.project import Assessment
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -42,9 +42,6 @@ from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import RULE_SETS, Neighbor, review_lifts_slope
-
-if TYPE_CHECKING:
-    from report.assessment.project import Assessment
 
 DRIFT_M = 0.010
 """Final displacement of a record [m] above which it drifts."""
@@ -477,12 +474,21 @@ def pathway_rows(
 
 
 def less_friction_rows(
-    arrays: Sequence[ArrayAssessment], clearances: Sequence[ClearanceCheck], reduced: Assessment
+    arrays: Sequence[ArrayAssessment],
+    clearances: Sequence[ClearanceCheck],
+    less_arrays: Sequence[ArrayAssessment],
+    less_clearances: Sequence[ClearanceCheck],
 ) -> Iterator[Requirement]:
-    """Yield the routes and clearances that are permitted as given, and not with less friction."""
+    """Yield the routes and clearances that are permitted as given, and not with less friction.
+
+    Parameters
+    ----------
+    less_arrays, less_clearances : sequence
+        The same with less friction.
+    """
     friction = f"{number(100.0 * SHIFT, 0)} % less friction"
     row = partial(condition, id="less_friction", is_satisfied=False, basis="sensitivity")
-    for array, less in zip(arrays, reduced.arrays, strict=True):
+    for array, less in zip(arrays, less_arrays, strict=True):
         if array.is_permitted and not less.is_permitted:
             yield row(
                 title=f"The {array.route} route with {friction}",
@@ -491,7 +497,7 @@ def less_friction_rows(
                 limit="permitted",
                 remedy=f"With {friction} no route is permitted: confirm the friction coefficient.",
             )
-    for gap, short in zip(clearances, reduced.clearances, strict=True):
+    for gap, short in zip(clearances, less_clearances, strict=True):
         if gap.verdict.is_permitted and not short.verdict.is_permitted:
             yield row(
                 title=f"Clearance {gap.clearance.array} to {gap.clearance.object} with {friction}",

@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from report.assessment.assess import changed, entered
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.entered import changed, entered
 from report.assessment.neighbors import compass
 from report.assessment.plan_gaps import shapes_of
 from report.assessment.project import Assessment

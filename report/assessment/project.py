@@ -1,61 +1,35 @@
-"""Runs every array under every motion and checks the result against the rule set.
+"""An assessed project as one record: arrays, clearances, requirements, and what they come to.
 
-Orders the work and collects the results; computes no physics (`solver.sliding.checked`) and reads
-no code rule itself (`solver.rules.provisions`). Read `report.assessment.arrays`,
-`report.assessment.clearances`, `report.assessment.links` first.
+Runs nothing: `report.assessment.assess` does.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass, field, replace
-from functools import partial
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
-from report.assessment.acceptance import shaking_acceptance
-from report.assessment.arrays import ArrayAssessment, assess_array, by_id
-from report.assessment.causes import outcome
+from report.assessment.arrays import ArrayAssessment
 from report.assessment.clearances import (
     ClearanceCheck,
-    check_clearance,
-    largest_separation_m,
-    minimum_gap,
 )
 from report.assessment.conditions import (
     MOTIONS_ID,
-    array_rows,
-    less_friction_rows,
-    motion_rows,
-    noted,
-    pathway_rows,
-    plan_rows,
-    project_rows,
 )
-from report.assessment.friction import SHIFT, with_friction
 from report.assessment.friction_velocity import (
-    NOT_BY_VELOCITY,
     LowVelocityAssessment,
-    low_velocity,
-    velocity_rows,
-    with_low_velocity,
 )
-from report.assessment.links import LinkedArray, assess_linked
-from report.assessment.neighbors import ComparedGap, PlanNeighbor, plan_pairs, reaches_of
-from report.assessment.overrides import rule_set_of, under_code
-from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
-from report.assessment.precheck import building_limits
+from report.assessment.links import LinkedArray
+from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.run_warnings import RunWarning, run_warnings
-from report.assessment.runs import MotionRun, nan_is_worst, run_along, run_motion, scene_key
+from report.assessment.runs import nan_is_worst, scene_key
 from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
 from report.motions.prepare import Shaking
-from report.motions.targets import Targets, targets
-from report.sheet.checking.covered import outdated
+from report.motions.targets import Targets
 from report.sheet.reading.read import Sheet
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.scene import Array
 from report.words.counts import grouped_by
-from solver.model import Motion, Status
+from solver.model import Status
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Limit
 from solver.rules.provisions import RuleSet
@@ -250,183 +224,3 @@ class Assessment:
         gaps: Sequence[ComparedGap] = (*self.clearances, *self.missing_gaps)
         found = [gap for gap in gaps if not array_id or gap.involves(array_id)]
         return max(found, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
-
-
-def assess(
-    sheet: Sheet,
-    shaking: Shaking,
-    former: Assessment | None = None,
-    project: ProjectInput | None = None,
-) -> Assessment:
-    """Run every array under every motion and check every limit and clearance.
-
-    Parameters
-    ----------
-    former : Assessment, optional
-        Of the same motions and targets: the limits on them are taken from it, and the runs of
-        arrays with the same slope, friction and model.
-    project : ProjectInput, optional
-        Assessed in place of that of the sheet; what the building code's rule set gives is left out.
-
-    Raises
-    ------
-    InputError
-        For an override of a provision that the rule set does not have.
-    """
-    data = outdated(project or sheet.project, shaking.hashes)
-    with ThreadPoolExecutor(THREADS) as pool:
-        begin = partial(begin_runs, pool, motions=shaking.motions)
-        begun = begin(run_motion, data, check_models=True, former=former.arrays if former else ())
-        # The runs with less friction follow without a pause, while motions and arrays are checked.
-        reduced = with_friction(data, 1.0 - SHIFT)
-        known = former.at_reduced_friction.arrays if former and former.at_reduced_friction else ()
-        less = begin(run_motion, reduced, check_models=False, former=known)
-        known = former.low_velocity.arrays if former else ()
-        slow = begin(run_motion, with_low_velocity(data), check_models=False, former=known)
-        acceptance = former.acceptance if former else shaking_acceptance(shaking, targets(data))
-        whole = partial(_assess, sheet, shaking, acceptance=acceptance, pool=pool)
-        at_reduced_friction = partial(whole, reduced, begun=less, has_pairs=False)
-        done = whole(data, begun=begun, slow=slow, reduced_friction=at_reduced_friction)
-        other = under_code(data)
-        if other is data or project is not None:
-            return done
-        acceptance = shaking_acceptance(shaking, targets(other))  # of another edition maybe
-        return _beside(whole(other, begun=begun, acceptance=acceptance), done)
-
-
-def _beside(other: Assessment, given: Assessment) -> Assessment:
-    """Return an assessment with the outcome by the rule set of its building code in its rows."""
-    linked = tuple(replace(row, design=by_id(other.arrays, row.design.id)) for row in given.linked)
-    one, two = ((each.project.overrides, each.project.options) for each in (given, other))
-    how = "the same motions and S_DS" + ("" if one == two else ", without overrides and departures")
-    words = outcome(replace(other, linked=linked)).words(given.project.us_first)
-    text = f"By {other.rules.name} 13.6.12 with {how}: {words}."
-    ids = "rule_set", "edition_name"
-    rows = [
-        row.model_copy(update={"remedy": f"{row.remedy} {text}"}) if row.id in ids else row
-        for row in given.rows
-    ]
-    return replace(given, rows=tuple(rows))
-
-
-def reassess(
-    given: Assessment,
-    project: ProjectInput,
-    run: RunMotion = run_motion,
-    key: Callable[[Array], Hashable] = scene_key,
-) -> Assessment:
-    """Assess another input under the same motions, with its own models only.
-
-    Parameters
-    ----------
-    run, key : callable, optional
-        As in `begin_runs`.
-    """
-    motions = given.shaking.motions
-    with ThreadPoolExecutor(THREADS) as pool:
-        begun = begin_runs(pool, run, project, motions, check_models=False, key=key)
-        return _assess(given.sheet, given.shaking, project, acceptance=given.acceptance,
-                       pool=pool, begun=begun)  # fmt: skip
-
-
-def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
-    """Assess another input in one axis, for provisional values (`runs.run_along`).
-
-    Each motion runs in the orientation that governs in the given assessment, where it still has it.
-    """
-    governing = {
-        array.id: {run.motion.id: run.governing.orientation for run in array.motions}
-        for array in given.arrays
-    }
-
-    def along(array: Array, motion: Motion) -> MotionRun:
-        orientation = governing.get(array.id, {}).get(motion.id)
-        orientations = [orientation] if orientation in motion.orientations else motion.orientations
-        return run_along(array, motion, orientations)
-
-    def key(array: Array) -> Hashable:
-        # Arrays that are alike now may have had other orientations that govern.
-        return scene_key(array), tuple(governing.get(array.id, {}).items())
-
-    return reassess(given, project, along, key)
-
-
-def _assess(
-    sheet: Sheet,
-    shaking: Shaking,
-    data: ProjectInput,
-    *,
-    acceptance: Acceptance,
-    pool: Executor,
-    begun: PendingRuns,
-    slow: PendingRuns = (),
-    has_pairs: bool = True,
-    reduced_friction: Callable[[], Assessment] | None = None,
-) -> Assessment:
-    """Assess an input from its runs.
-
-    Parameters
-    ----------
-    slow : PendingRuns, optional
-        Runs of the arrays of `with_low_velocity`; given with `reduced_friction`.
-    has_pairs : bool
-        Whether the plan is measured: with less friction it is the same.
-    reduced_friction : callable, optional
-        Assesses the same with less friction. With it, one rigid block is compared with a row of
-        linked blocks, and the verdicts with those for less friction.
-    """
-    rules = rule_set_of(data)
-    arrays = tuple(
-        assess_array(data, rules, array, *wait(), motions_qualify=acceptance.qualifies)
-        for array, wait in zip(data.arrays, begun, strict=True)
-    )
-    links = data.links if reduced_friction else ()
-    linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
-    clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
-    pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
-    rows = [
-        *project_rows(data, shaking.prepared),
-        *motion_rows(acceptance, (item.route for item in arrays)),
-        *(row for item in arrays for row in array_rows(data, item)),
-    ]
-    # Last, as these runs are begun last.
-    by_runs = {item.id for item in arrays if item.is_by_runs}
-    reduced, slower = reduced_friction() if reduced_friction else None, NOT_BY_VELOCITY
-    if slow:
-        slower = low_velocity(data, rules, arrays, slow, motions_qualify=acceptance.qualifies)
-    return Assessment(
-        sheet=sheet,
-        shaking=shaking,
-        project=data,
-        rules=rules,
-        targets=targets(data),
-        building_checks=building_limits(data, rules),
-        arrays=arrays,
-        clearances=clearances,
-        linked=linked,
-        pairs=pairs,
-        acceptance=acceptance,
-        rows=(
-            *noted(rows, by_runs),
-            *noted(velocity_rows(data, arrays, slower) if reduced_friction else (), by_runs),
-            *pathway_rows(data, arrays, clearances),
-            *plan_rows(data, [pair for pair in pairs if pair.is_listed]),
-            *(less_friction_rows(arrays, clearances, reduced) if reduced else ()),
-        ),
-        at_reduced_friction=reduced,
-        low_velocity=slower,
-    )
-
-
-def _plan_pairs(
-    sheet: Sheet, data: ProjectInput, rules: RuleSet, arrays: Sequence[ArrayAssessment]
-) -> tuple[PlanNeighbor, ...]:
-    largest_m = largest_separation_m(data, rules, arrays)
-
-    def required(near: PlanNeighbor) -> tuple[float, str]:
-        # Most pairs of a large roof are out of reach, and farther apart than any separation.
-        if not near.given and near.gap_m > max(largest_m, near.reach_m):
-            return math.nan, ""
-        return minimum_gap(data, rules, arrays, near)
-
-    return plan_pairs(data, reaches_of(arrays), sheet.addresses, required)

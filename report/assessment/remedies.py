@@ -1,6 +1,6 @@
 """What would satisfy a clearance or an array marked NG: separation, peer review, friction.
 
-Each is entered and assessed (`report.assessment.entered`); friction is searched with the runs of
+Each is entered and assessed (`report.assessment.assess`); friction is searched with the runs of
 `report.assessment.trials`. `report.pages.remedies` prints the results. Read `remedies`.
 """
 
@@ -15,9 +15,9 @@ from enum import StrEnum
 from functools import partial
 
 from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
+from report.assessment.assess import changed, entered, refused
 from report.assessment.causes import ProjectOutcome, outcome
 from report.assessment.clearances import ClearanceCheck
-from report.assessment.entered import changed, entered, refused
 from report.assessment.moves import moves
 from report.assessment.project import THREADS, Assessment
 from report.assessment.runs import nan_is_worst

@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.assess import reassess
 from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import SHIFT, with_friction
-from report.assessment.project import Assessment, reassess
+from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
 from report.memoized import memoized
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status

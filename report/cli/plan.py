@@ -145,8 +145,8 @@ def clearances(project: Path) -> None:
 
 def _add_clearances(change: WorkbookChange) -> Sequence[str]:
     """Add the rows of clearances that a workbook lacks; return what to print of them."""
+    from report.assessment.assess import assess
     from report.assessment.plan_clearances import missing_rows, without_clearances
-    from report.assessment.project import assess
     from report.motions.prepare import prepare
     from report.sheet.reading.read import read_book
     from solver.model import InputError

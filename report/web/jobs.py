@@ -12,9 +12,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from report.assessment.assess import anticipate, assess
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
-from report.assessment.project import Assessment, anticipate, assess
+from report.assessment.project import Assessment
 from report.sheet.checking.covered import outdated
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.parts import changed

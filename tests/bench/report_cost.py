@@ -42,7 +42,7 @@ def stages() -> Iterator[str]:
     sheet = read(EXAMPLE)
     shaking = prepare(sheet)
     yield "load the compiled solver and run the motions"
-    from report.assessment.project import assess
+    from report.assessment.assess import assess
 
     assessment = assess(sheet, shaking)
     yield "the runs once more"

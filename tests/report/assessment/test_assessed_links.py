@@ -9,8 +9,8 @@ import pytest
 
 import scenes
 import stand_in
+from report.assessment.assess import reassess
 from report.assessment.links import assess_linked
-from report.assessment.project import reassess
 from solver.model import Status
 from solver.sliding.checked import scene, slide
 from solver.sliding.least_model import DEFAULT

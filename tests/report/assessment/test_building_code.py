@@ -5,7 +5,7 @@ import pytest
 import scenes
 import stand_in
 from printed import printed
-from report.assessment import project
+from report.assessment import assess
 from report.assessment.hazard_rows import hazard_rows
 from report.assessment.precheck import limits_before_runs
 from report.assessment.runs import run_motion
@@ -176,7 +176,7 @@ def test_no_run_is_made_again(monkeypatch):
         runs.append((array.id, array.mu, motion.id))
         return run_motion(array, motion)
 
-    monkeypatch.setattr(project, "run_motion", run)
-    done = project.assess(book.sheet, book.shaking)
+    monkeypatch.setattr(assess, "run_motion", run)
+    done = assess.assess(book.sheet, book.shaking)
     assert "By ASCE 7-16" in listed(done.conditions)["rule_set"].remedy
     assert len(runs) == len(set(runs)) == 2 * len(done.arrays) * len(scenes.motions())

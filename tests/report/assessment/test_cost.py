@@ -64,7 +64,7 @@ def test_a_report_says_it_before_the_runs(tmp_path, monkeypatch):
     def stopped(*_):
         raise InputError("the runs begin")
 
-    monkeypatch.setattr("report.assessment.project.assess", stopped)
+    monkeypatch.setattr("report.assessment.assess.assess", stopped)
     monkeypatch.setattr("report.assessment.cost.LONG_S", 1.0)
     said = []
     with pytest.raises(InputError, match="the runs begin"):

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 import scenes
 import stand_in
 from inputs import FT, INCH, NO_SIDES, sides
+from report.assessment.assess import assess
 from report.assessment.clearances import minimum_gap
 from report.assessment.neighbors import Cover, NearbyKind, bare_edges, plan_pairs, reaches_of
-from report.assessment.project import assess
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput

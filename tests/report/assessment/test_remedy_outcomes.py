@@ -8,8 +8,8 @@ import inputs
 import scenes
 import stand_in
 from printed import printed
+from report.assessment.assess import changed, entered
 from report.assessment.causes import outcome
-from report.assessment.entered import changed, entered
 from report.assessment.remedies import MOST_GAPS, RemedyKind, best_remedy, remedies
 from report.assessment.trials import with_mu
 from report.assessment.verdict import Verdict

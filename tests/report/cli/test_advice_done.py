@@ -15,7 +15,7 @@ import packages
 import sheets
 from commands import run
 from places import ROOT
-from report.assessment.project import assess
+from report.assessment.assess import assess
 from report.assessment.verdict import Verdict
 from report.pages.summary import summary
 from report.sheet.schema.fields import Place

@@ -4,7 +4,7 @@ import stand_in
 from places import ROOT
 from printed import printed
 from report.assessment.arrays import Route
-from report.assessment.project import assess
+from report.assessment.assess import assess
 from report.pages.summary import document, summary
 from report.web.opened import opened, with_values
 

@@ -3,8 +3,8 @@
 import pytest
 
 from places import ROOT
+from report.assessment.assess import assess, reassess
 from report.assessment.friction import with_friction
-from report.assessment.project import assess, reassess
 from report.web.answers import answer
 from report.web.opened import opened
 

@@ -9,7 +9,7 @@ import pytest
 
 import stand_in
 from places import ROOT
-from report.assessment.project import anticipate, assess
+from report.assessment.assess import anticipate, assess
 from report.sheet.reading.parts import changed
 from report.sheet.reading.what_if import cells, retyped
 from report.sheet.schema.choices import Scaling
