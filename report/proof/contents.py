@@ -56,9 +56,11 @@ def refused(pdf: PdfReader) -> Iterator[str]:
     InputError
         If it has more sheets or objects than any package.
     """
+    fields = 0
     for count, page in enumerate(pages(pdf), start=1):
-        for note in page.get("/Annots", ()):
-            if _is_other(note.get_object()):
+        for note in (item.get_object() for item in page.get("/Annots", ())):
+            fields += note["/Subtype"] == "/Widget" and not _is_hidden(note)
+            if _is_other(note) or fields > 1:
                 yield f"sheet {count}: an annotation beside links and the signature field"
         if not isinstance(page["/Contents"], StreamObject):
             yield f"sheet {count}: its content is in several parts"
@@ -82,10 +84,14 @@ def _is_other(note: Any) -> bool:
         return "/Dest" not in note or "/AP" in note or note["/BS"]["/W"] != 0
     if note["/Subtype"] != "/Widget" or note.get("/FT") != "/Sig":
         return True
+    if _is_hidden(note):
+        return False
+    return note["/T"] != FIELD or ("/V" not in note and bool(note["/AP"]["/N"].get_data().strip()))
+
+
+def _is_hidden(note: Any) -> bool:
     left, bottom, right, top = map(float, note["/Rect"])
-    is_hidden = (right - left) * (top - bottom) == 0.0
-    is_painted = "/V" not in note and note["/AP"]["/N"].get_data().strip()
-    return not is_hidden and (note["/T"] != FIELD or bool(is_painted))
+    return (right - left) * (top - bottom) == 0.0
 
 
 def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:

@@ -138,8 +138,12 @@ def _is_signing(one: Any, two: Any) -> bool:
     if isinstance(one, StreamObject):
         return bool(one.get("/Type") == "/Metadata" == two.get("/Type"))
     if isinstance(one, ArrayObject):  # fields or annotations
-        return isinstance(two, ArrayObject) and _written(one)[:-1].strip() in _written(two)
+        return isinstance(two, ArrayObject) and _written(two).startswith(
+            _written(one)[:-1].rstrip()
+        )
     if not isinstance(one, DictionaryObject) or not isinstance(two, DictionaryObject):
+        return False
+    if "/Annots" in one and not _is_signing(one["/Annots"], two.get("/Annots")):
         return False
     changing = _SIGNED if one.get("/FT") == "/Sig" else _CHANGING
     return _without(one, changing) == _without(two, changing)

@@ -288,11 +288,28 @@ def add_field(writer, field):
 def test_a_field_over_a_sheet_is_found_though_it_is_signed_and_an_empty_one_is_not(
     sign, updated, found
 ):
-    hidden, painted = (new_field(generic, (0, 0, size, size)) for size in (0, 600))
+    hidden, painted, twin = (new_field(generic, (0, 0, size, size)) for size in (0, 600, 600))
+    twin[generic.NameObject("/T")] = generic.pdf_string(FIELD)
+    twin[generic.NameObject("/V")] = generic.DictionaryObject()
     _, content = sign(content=updated(lambda writer: add_field(writer, hidden)))
     assert found(content).problems == ()
-    _, content = sign(content=updated(lambda writer: add_field(writer, painted)))
-    assert next(refused(PdfReader(io.BytesIO(content)))).startswith("sheet 1: an annotation")
+    for field in (painted, twin):
+        content = updated(lambda writer, field=field: add_field(writer, field))
+        if field is painted:
+            _, content = sign(content=content)
+        assert next(refused(PdfReader(io.BytesIO(content)))).startswith("sheet 1: an annotation")
+
+
+def test_the_field_in_place_of_which_another_one_is_put_is_missed_though_it_is_signed(
+    sign, updated, found
+):
+    def change(writer):
+        page = writer.root["/Pages"]["/Kids"][0]
+        page["/Annots"] = generic.ArrayObject()
+        writer.update_container(page)
+
+    _, content = sign(content=updated(change))
+    assert any("another object" in text for text in found(content).problems)
 
 
 def test_another_title_that_came_with_a_signature_is_found(sign, updated, found):
