@@ -98,7 +98,7 @@ def _proof(
 ) -> tuple[Proof, bytes]:
     """Return the outcome, and the package made again if it was."""
     from report.proof.package import RecordsMissingError, opened, take_out
-    from report.proof.verdict import Answer, Proof, compared, failed
+    from report.proof.verdict import Agreement, Proof, compared, failed
     from report.results.publish import STAMP, warn_if_mixed
     from solver.model import InputError
 
@@ -117,7 +117,7 @@ def _proof(
     except RecordsMissingError:
         raise
     except InputError as error:
-        return Proof(answer=Answer.DIFFERS, reasons=tuple(error.problems)), b""
+        return Proof(answer=Agreement.DIFFERS, reasons=tuple(error.problems)), b""
 
 
 def made_again(workbook: Path, out: Path, former: list[Path], progress: Progress) -> bytes:

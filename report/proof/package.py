@@ -37,7 +37,7 @@ _PART = re.compile(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Package:
+class OpenedPackage:
     """A package as a reader of PDF shows it, whatever was appended to it.
 
     Attributes
@@ -73,7 +73,7 @@ def read_package(path: Path) -> bytes:
     return path.read_bytes()
 
 
-def opened(data: bytes) -> Package:
+def opened(data: bytes) -> OpenedPackage:
     """Return a package with the files that it holds.
 
     Raises
@@ -93,7 +93,7 @@ def opened(data: bytes) -> Package:
         )
     listing = parsed(files[MANIFEST], MANIFEST)
     manifest = _manifest(files)
-    return Package(
+    return OpenedPackage(
         data=data,
         pdf=pdf,
         files=files,
@@ -169,7 +169,7 @@ def _manifest(files: Mapping[str, bytes]) -> Manifest:
 
 
 def take_out(
-    package: Package, folder: Path, records: Path | None = None
+    package: OpenedPackage, folder: Path, records: Path | None = None
 ) -> tuple[Path, list[Path]]:
     """Write the input of a package to a folder of its own; return workbook and former results.
 
@@ -246,5 +246,5 @@ def warn_of_other_input(new: Path, others: Sequence[Path]) -> None:
                 warnings.warn(f"{path}: is {what}{sign}", stacklevel=2)
 
 
-def _inputs(package: Package) -> set[tuple[str, str]]:
+def _inputs(package: OpenedPackage) -> set[tuple[str, str]]:
     return {(file.path, file.sha256) for file in package.manifest.files if file.kind != "results"}

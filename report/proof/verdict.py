@@ -11,12 +11,12 @@ from typing import Any
 
 from report.proof.contents import refused, words
 from report.proof.numbers import differences, first_other_word
-from report.proof.package import Package, guarded, signed_fields
+from report.proof.package import OpenedPackage, guarded, signed_fields
 from report.proof.signatures import Appended, Signature, appended
 from report.provenance.files import MANIFEST, RESULTS, Manifest
 
 
-class Answer(StrEnum):
+class Agreement(StrEnum):
     """How a package compares with the one made again."""
 
     SAME = "same"
@@ -38,7 +38,7 @@ class Proof:
         Whether the package made again shows what was not compared.
     """
 
-    answer: Answer
+    answer: Agreement
     reasons: Sequence[str] = ()
     signed: Sequence[Signature] = ()
     is_to_be_read: bool = False
@@ -50,7 +50,7 @@ _UNCHECKED = (
 )
 
 
-def compared(package: Package, made: Package) -> Proof:
+def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
     """Compare a package with the one made again from its input.
 
     Raises
@@ -59,7 +59,7 @@ def compared(package: Package, made: Package) -> Proof:
         If the package is damaged or larger than any package.
     """
     if package.data == made.data:
-        return Proof(answer=Answer.SAME)
+        return Proof(answer=Agreement.SAME)
     is_same = package.data.startswith(made.data)
     fields = guarded(lambda: signed_fields(package.pdf))
     later = appended(package.data, made.data if is_same else b"") if fields else Appended()
@@ -67,23 +67,23 @@ def compared(package: Package, made: Package) -> Proof:
         later = Appended(problems=("appended: bytes that no signature covers",))
     first = guarded(lambda: next(_found(package, made, later, is_same=is_same), ""))
     if first:
-        return Proof(answer=Answer.DIFFERS, reasons=(first,), signed=later.signed)
+        return Proof(answer=Agreement.DIFFERS, reasons=(first,), signed=later.signed)
     reasons = [] if is_same else [_not_compared(package.manifest, made.manifest)]
     reasons += [] if later.is_checked else [_UNCHECKED]
     return Proof(
-        answer=Answer.PARTLY if reasons else Answer.SAME,
+        answer=Agreement.PARTLY if reasons else Agreement.SAME,
         reasons=tuple(reasons),
         signed=later.signed,
         is_to_be_read=not is_same,
     )
 
 
-def failed(package: Package, problems: Sequence[str]) -> Proof:
+def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
     """Return the outcome for a package whose input does not run here."""
     reason = f"its input does not run: {'; '.join(problems)}"
     if package.manifest.roofslip_version == version("roofslip"):
-        return Proof(answer=Answer.DIFFERS, reasons=(reason,))
-    return Proof(answer=Answer.PARTLY, reasons=(_other_version(package.manifest), reason))
+        return Proof(answer=Agreement.DIFFERS, reasons=(reason,))
+    return Proof(answer=Agreement.PARTLY, reasons=(_other_version(package.manifest), reason))
 
 
 def _not_compared(theirs: Manifest, ours: Manifest) -> str:
@@ -105,7 +105,9 @@ def _other_version(theirs: Manifest) -> str:
     return f"Roofslip {theirs.roofslip_version} made it: install that version to compare all of it"
 
 
-def _found(package: Package, made: Package, later: Appended, *, is_same: bool) -> Iterator[str]:
+def _found(
+    package: OpenedPackage, made: OpenedPackage, later: Appended, *, is_same: bool
+) -> Iterator[str]:
     """Yield what differs or what no package has."""
     yield from later.problems
     yield from refused(package.pdf)
@@ -122,14 +124,14 @@ def _found(package: Package, made: Package, later: Appended, *, is_same: bool) -
         yield from _words(package, made)
 
 
-def _listing(package: Package) -> Any:
+def _listing(package: OpenedPackage) -> Any:
     """Return the manifest without versions, and without the hash of the results."""
     kept = {key: value for key, value in package.listing.items() if key != "environment"}
     files = [file for file in kept["files"] if file["kind"] != "results"]
     return kept | {"files": files}
 
 
-def _words(package: Package, made: Package) -> Iterator[str]:
+def _words(package: OpenedPackage, made: OpenedPackage) -> Iterator[str]:
     theirs, ours = package.manifest.environment, made.manifest.environment
     for one, two in zip_longest(words(package.pdf), words(made.pdf)):
         if one is None or two is None:

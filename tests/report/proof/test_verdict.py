@@ -6,19 +6,19 @@ import pytest
 
 import tampering
 from report.proof.package import opened
-from report.proof.verdict import Answer, compared, failed
+from report.proof.verdict import Agreement, compared, failed
 from solver.model import InputError
 
 
 def test_the_same_bytes_are_the_same(proof, data):
     found = proof(data)
-    assert (found.answer, found.reasons, found.is_to_be_read) == (Answer.SAME, (), False)
+    assert (found.answer, found.reasons, found.is_to_be_read) == (Agreement.SAME, (), False)
 
 
 def test_a_file_that_was_only_written_again_is_not_the_same(proof, data):
     again = tampering.rewritten(data, lambda pdf: None)
     found = proof(again)
-    assert found.answer == Answer.PARTLY
+    assert found.answer == Agreement.PARTLY
     assert found.reasons == ("drawings not compared: read the package made again",)
     assert found.is_to_be_read
 
@@ -35,7 +35,7 @@ def test_a_file_that_was_tampered_with_is_never_the_same(proof, data, few_sheets
         assert kind in (tampering.cut, tampering.flipped, tampering.byte_in_attachment)
     else:
         is_hidden = kind is tampering.flipped  # in a drawing
-        assert found.answer == (Answer.PARTLY if is_hidden else Answer.DIFFERS)
+        assert found.answer == (Agreement.PARTLY if is_hidden else Agreement.DIFFERS)
         assert found.reasons
 
 
@@ -56,7 +56,7 @@ def test_what_no_report_writes_is_refused_whatever_software_is_named(
         assert change is tampering.another_file
         assert "other.txt is not listed" in str(error)  # noqa: PT017
     else:
-        assert found.answer == (Answer.PARTLY if change in NOT_SEEN else Answer.DIFFERS)
+        assert found.answer == (Agreement.PARTLY if change in NOT_SEEN else Agreement.DIFFERS)
 
 
 def of_another_version(pdf):
@@ -75,7 +75,7 @@ def test_nor_does_another_version_of_roofslip_explain_it(tampered, few_sheets, c
                       tampering.text_read_instead, tampering.alternative_text_of_a_link,
                       tampering.title_of_a_bookmark}  # fmt: skip
         is_seen = change not in NOT_SEEN | words_only
-        assert found.answer == (Answer.DIFFERS if is_seen else Answer.PARTLY)
+        assert found.answer == (Agreement.DIFFERS if is_seen else Agreement.PARTLY)
 
 
 @pytest.mark.parametrize("change", tampering.REDRAWN, ids=lambda change: change.__name__)
@@ -84,8 +84,8 @@ def test_nor_does_another_version_of_roofslip_explain_it(tampered, few_sheets, c
 def test_another_drawing_is_never_the_same(tampered, few_sheets, change, software):
     named = [lambda pdf: tampering.of_other_software(pdf, software)] if software else []
     found = tampered(few_sheets, *named, change)
-    assert found.answer in (Answer.PARTLY, Answer.DIFFERS)
-    assert found.answer == Answer.DIFFERS or "drawings not compared" in found.reasons[0]
+    assert found.answer in (Agreement.PARTLY, Agreement.DIFFERS)
+    assert found.answer == Agreement.DIFFERS or "drawings not compared" in found.reasons[0]
 
 
 @pytest.mark.parametrize("kind", [tampering.digit_in_text, tampering.digit_in_results])
@@ -104,7 +104,7 @@ def test_other_versions_that_print_as_such_are_named_and_explain_drawings_only(
     tampered, data, few_sheets
 ):
     found = tampered(data, lambda pdf: tampering.of_other_software(pdf, "llvmlite"))
-    assert found.answer == Answer.DIFFERS  # the sheet prints the version that made it
+    assert found.answer == Agreement.DIFFERS  # the sheet prints the version that made it
     found = tampered(few_sheets, lambda pdf: tampering.of_other_software(pdf, "system"))
     (told,) = found.reasons
     assert told.startswith(
@@ -114,7 +114,7 @@ def test_other_versions_that_print_as_such_are_named_and_explain_drawings_only(
 
 def test_another_version_of_roofslip_is_named_and_numbers_still_count(tampered, few_sheets):
     found = tampered(few_sheets, of_another_version)
-    assert found.answer == Answer.PARTLY
+    assert found.answer == Agreement.PARTLY
     (told,) = found.reasons
     assert told.startswith("Roofslip 0.0.9 made it: install that version")
     assert "words and drawings not compared: read the package made again" in told
@@ -125,13 +125,13 @@ def test_another_version_of_roofslip_is_named_and_numbers_still_count(tampered, 
         tampering.set_file(pdf, "results.json", results.replace(b'"mu": 0.', b'"mu": 0.1'))
         tampering.relisted(pdf)
 
-    assert tampered(few_sheets, changed).answer == Answer.DIFFERS
+    assert tampered(few_sheets, changed).answer == Agreement.DIFFERS
 
 
 def test_an_input_that_does_not_run_differs_unless_another_version_wrote_it(few_sheets):
-    assert failed(opened(few_sheets), ["bad"]).answer == Answer.DIFFERS
+    assert failed(opened(few_sheets), ["bad"]).answer == Agreement.DIFFERS
     found = failed(opened(tampering.rewritten(few_sheets, of_another_version)), ["bad"])
-    assert found.answer == Answer.PARTLY
+    assert found.answer == Agreement.PARTLY
     assert "install that version" in found.reasons[0]
     assert not found.is_to_be_read
 

@@ -20,7 +20,7 @@ from places import ROOT
 from report.cli.main import main
 from report.making import OUTPUTS
 from report.proof.package import opened, take_out
-from report.proof.verdict import Answer
+from report.proof.verdict import Agreement
 from sheets import type_into
 from solver.model import InputError
 
@@ -242,7 +242,7 @@ def test_another_type_of_an_attachment_is_not_the_same(tampered, few_sheets):
     def change(pdf):
         pdf.attachments[RECORD].obj.EF.F.Subtype = pikepdf.Name("/text/plain")
 
-    assert tampered(few_sheets, change).answer == Answer.PARTLY
+    assert tampered(few_sheets, change).answer == Agreement.PARTLY
 
 
 @pytest.mark.parametrize(
