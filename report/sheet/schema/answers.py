@@ -318,12 +318,6 @@ SITE_ANSWERS: Mapping[str, tuple[str, str]] = {
 }
 """Formula and defined name of the answer beside each field of the site."""
 
-LEGACY_ANSWERS: Mapping[str, str] = {
-    "live_i_e": 'IF(ISNUMBER(site_i_e),site_i_e,"")',
-    "live_s_ms": _maximum(*_S_MS),
-}
-"""Formulas of earlier workbooks, by defined name."""
-
 _I_E = f'IF(rule_importance="{IN_DISPLACEMENT}",IF(ISNUMBER(live_i_e),live_i_e,NA()),1)'
 PRESCRIPTIVE_FORMULA_IN = _blank_on_error(
     f"rule_prescriptive_factor_in*MAX(live_s_ds-0.4,0)^2*{_I_E}"

@@ -12,17 +12,20 @@ from dataclasses import dataclass, field
 from itertools import starmap
 from pathlib import Path
 
+from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
 
 from report.sheet.reading.archive import OpenBook, book_of, located, open_book
 from report.sheet.reading.formula_text import references
+from report.sheet.reading.locate_tables import table_area
 from report.sheet.reading.parts import Formula, Value, changed
 from report.sheet.reading.positions import CellPosition, bounds_of
 from report.sheet.reading.read import Sheet, read_book
 from report.sheet.reading.what_if import cells
+from report.sheet.schema import SECTIONS
 from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.fields import DraftRow, Place
-from report.sheet.writing.live import BROKEN, legacy_statuses, live_formulas
+from report.sheet.writing.style import is_answer
 from solver.files import check_plain, locked, write_all
 from solver.model import InputError
 
@@ -94,18 +97,26 @@ def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
     """
     if not cells:
         return book
-    before = _formulas(book)
-    book = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
-    after = _formulas(book)
+    after = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
-    grown = {at: Formula(after[at]) for at in after.keys() - before.keys()}
-    # An earlier workbook lacks columns that the formulas of today refer to.
-    whole = {at: formula for at, formula in grown.items() if BROKEN not in formula}
-    return book_of(book.path, changed(book.data, whole)) if whole else book
+    grown = dict(_in_grown_rows(book, after))
+    return book_of(book.path, changed(after.data, grown)) if grown else after
 
 
-def _formulas(book: OpenBook) -> Mapping[CellPosition, str]:
-    return {**live_formulas(book), **dict(legacy_statuses(book))}
+def _in_grown_rows(before: OpenBook, after: OpenBook) -> Iterator[tuple[CellPosition, Formula]]:
+    """Yield the formulas of the last row that each table had for the rows that it has grown by."""
+    for section in (section for section in SECTIONS if section.is_table):
+        was, now = table_area(before, section), table_area(after, section)
+        if was is None or now is None:
+            continue
+        for heading in was.headings.values():
+            last = CellPosition(was.sheet, was.last, heading.column)
+            formula = before.formula(last.sheet, last.cell)
+            if formula and is_answer(before.book[last.sheet].cell(last.row, last.column)):
+                for row in range(was.last + 1, now.last + 1):
+                    at = CellPosition(was.sheet, row, heading.column)
+                    moved = Translator(formula, last.cell).translate_formula(at.cell)
+                    yield at, Formula(moved)
 
 
 def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:

@@ -6,7 +6,7 @@ Independent of what the sections mean. Read `write_block` and `write_table`; `te
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 
@@ -282,28 +282,18 @@ def _add_table(sheet: Worksheet, place: TablePlace) -> None:
     sheet.add_table(table)
 
 
-def table_formulas(
-    tables: Tables, place: TablePlace, *, is_us: bool
-) -> Mapping[str, tuple[str, str]]:
-    """Return formula, without its equals sign, and number format of each column that computes."""
-    return {
-        answer.name: (answer.written(tables, place.section.key), answer.number_format)
-        for answer in table_answers(place.section.key, is_us=is_us)
-    }
-
-
 def write_answers(book: Workbook, tables: Tables, place: TablePlace, *, is_us: bool) -> None:
     """Write the formulas of a table; in Excel new rows get them by themselves."""
     sheet = book[place.section.sheet]
-    formulas = table_formulas(tables, place, is_us=is_us)
+    answers = {answer.name: answer for answer in table_answers(place.section.key, is_us=is_us)}
     columns = sheet.tables[place.section.table_name].tableColumns
     for count, name in enumerate(place.letters):
-        if name not in formulas:
+        if name not in answers:
             continue
-        formula, number_format = formulas[name]
+        formula = answers[name].written(tables, place.section.key)
         columns[count].calculatedColumnFormula = TableFormula(attr_text=formula)
         for row in range(place.header + 1, place.header + 1 + place.size):
-            style.put_answer(sheet.cell(row, count + FIRST), formula, number_format)
+            style.put_answer(sheet.cell(row, count + FIRST), formula, answers[name].number_format)
 
 
 def heading_of(entry: Entry, units: UnitsFirst) -> str:

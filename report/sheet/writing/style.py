@@ -153,6 +153,11 @@ def make_plain_when_filled(sheet: Worksheet, cells: str) -> None:
     sheet.conditional_formatting.add(cells, filled)
 
 
+def is_answer(cell: Any) -> bool:
+    """Whether a cell is marked as computed."""
+    return bool(cell.has_style and cell.fill.fgColor.rgb == ANSWER_FILL.fgColor.rgb)
+
+
 def put_answer(cell: Any, formula: str, number_format: str = "General") -> None:
     """Write a formula, without its equals sign, and mark its cell as computed."""
     cell.value = f"={formula}"
