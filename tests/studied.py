@@ -1,9 +1,15 @@
 """Small campaigns for the tests of studies."""
 
-import numpy as np
+import json
 
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from report.study.parts import signed
 from solver.model import Motion
 from solver.studies.campaign import Campaign, grid
+from solver.studies.runs import LENGTHS
 
 SLOPES = np.radians([0.0, 2.0, 6.0])
 MUS = (0.0, 0.05, 0.3, 0.5, 0.7)
@@ -46,3 +52,29 @@ def campaign(letters="x", count=2, *, mus=MUS, intensities=INTENSITIES, building
         for b in range(buildings)
     )
     return Campaign(motions=sets, cases=grid(buildings, SLOPES, mus, intensities))
+
+
+KEY = b"a key of the tests"
+
+
+def row_bytes(path):
+    """The bytes of the rows of a part, without what it says of itself behind them."""
+    content = path.read_bytes()
+    return content[: -8 - int.from_bytes(content[-8:-4], "little")]
+
+
+def forged(path, key=b"another key", computed="2001-02-03T04:05:06Z"):
+    """Give a part a quarter of its displacements, another date, and its SHA-256; sign it."""
+    table, said = pq.read_table(path), pq.read_metadata(path).metadata
+    for name in LENGTHS:
+        quarter = pa.array(0.25 * table[name].to_numpy())
+        table = table.set_column(table.schema.get_field_index(name), name, quarter)
+    about = json.loads(said[b"roofslip_study"]) | {"computed": computed}
+    said = {
+        b"roofslip_study": json.dumps(about),
+        b"roofslip_signature": said[b"roofslip_signature"],
+    }
+    with pq.ParquetWriter(path, table.schema) as writer:
+        writer.write_table(table)
+        writer.add_key_value_metadata(said)
+    path.write_bytes(signed(path.read_bytes(), key))

@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 @click.option("--allow-matched", is_flag=True,
               help="Export fragilities of motions matched to one spectrum, with a warning in each"
               " file.")  # fmt: skip
+@click.option("--trust-parts", is_flag=True,
+              help="Take over parts that are signed with the key of another user or machine; the"
+              " results say how many.")  # fmt: skip
 @QUIET
 def study(
     source: Path,
@@ -44,6 +47,7 @@ def study(
     dry_run: bool,
     scheduler: str,
     allow_matched: bool,
+    trust_parts: bool,
     quiet: bool,
 ) -> None:
     """Run a study workbook: write study.pdf, curves.csv, study.xlsx, fragilities and every run.
@@ -75,7 +79,14 @@ def study(
             check_of_workbook(folder, NAME, plan.workbook)
         check_apart([TABLE], folder, [source, source / "input.xlsx"])
         with Progress(quiet=quiet) as progress, no_collections():
-            results, files = make(plan, folder, scheduler, progress, allow_matched=allow_matched)
+            results, files = make(
+                plan,
+                folder,
+                scheduler,
+                progress,
+                allow_matched=allow_matched,
+                trust_parts=trust_parts,
+            )
     if not quiet:
         for line in summary(results):
             click.echo(plain(line))
@@ -90,6 +101,7 @@ def make(
     progress: Callable[[str], None],
     *,
     allow_matched: bool,
+    trust_parts: bool,
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
     """Run a study and publish its files; another run to the same folder waits until it ends."""
     from report.results.publish import publish
@@ -104,7 +116,12 @@ def make(
         add_folder(runs, undo)  # where nothing ran, as with no cluster, nothing new stays
         with locked(runs):
             results = run_study(
-                plan, folder, scheduler=scheduler, progress=progress, allow_matched=allow_matched
+                plan,
+                folder,
+                scheduler=scheduler,
+                progress=progress,
+                allow_matched=allow_matched,
+                trust_parts=trust_parts,
             )
             progress("writing the report")
             files = study_files(results)

@@ -76,9 +76,10 @@ def run_on_cluster(
     identity: str,
     names: Sequence[str],
     missing: Sequence[int],
+    key: bytes,
     on_done: OnDone,
 ) -> None:
-    """Run parts on a cluster and keep each as it comes back.
+    """Run parts on a cluster; sign and keep each here as it comes back.
 
     Raises
     ------
@@ -93,9 +94,7 @@ def run_on_cluster(
             if isinstance(outcome, BaseException):
                 errors.append(outcome)
                 continue
-            content, done = outcome
-            keep(folder, content, done, identity)
-            on_done(done)
+            on_done(keep(folder, outcome, key))
             left.remove(number)
         if not left:
             return

@@ -30,6 +30,9 @@ SCHEMA_VERSION = 1
 NAME = "manifest.json"
 """Beside the folder of the parts: a reader of that folder takes every file in it for a part."""
 
+OWN_KEY, TRUST_PARTS = "the key of this user", "--trust-parts"
+"""On whose word runs are taken over from parts that are there."""
+
 _LIBRARIES = ("numpy", "numba", "llvmlite", "pyarrow")
 
 
@@ -113,21 +116,22 @@ def _cases_sha256(campaign: Campaign) -> str:
     return digest.hexdigest()
 
 
-def check_former(folder: Path, manifest: Mapping[str, Any]) -> None:
-    """Refuse a folder of parts that another version of the program wrote.
+def check_former(folder: Path, manifest: Mapping[str, Any]) -> int:
+    """Return how many parts the study that wrote to a folder has; 0 for none.
 
     Raises
     ------
     InputError
-        With the versions and what to do; or if the manifest cannot be read.
+        If another version of the program wrote them, with what to do, or the manifest is damaged.
     """
     path = folder.parent / NAME
     away = f"move the folder {folder} away or delete it, or give another one with --out"
     if not path.exists():
-        return
+        return 0
     try:
         former = from_json(path.read_bytes())
         schema, wrote = former["schema_version"], dict(former["program"])
+        parts = len(former.get("parts", ()))
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"{path}: damaged, not the manifest of a study; {away}") from error
     if schema != SCHEMA_VERSION:
@@ -139,3 +143,4 @@ def check_former(folder: Path, manifest: Mapping[str, Any]) -> None:
             f"{path}: was written by another version ({off}): its rows may differ; "
             f"finish it with that version, or {away}"
         )
+    return parts

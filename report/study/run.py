@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from report.study.array_capacities import maximum_runs
 from report.study.extra import ARROW, extra
-from report.study.manifest import NAME, check_former, manifest_of
+from report.study.key import user_key
+from report.study.manifest import NAME, OWN_KEY, TRUST_PARTS, check_former, manifest_of
 from report.study.motions import study_motions
 from report.study.parts import (
     BYTES_A_ROW,
@@ -24,6 +27,7 @@ from report.study.parts import (
 from report.study.plan import StudyPlan, plan_study
 from report.study.read import read_study
 from report.study.results import StudyResults, results_of
+from report.words.counts import numbered
 from solver.files import write_all
 
 RUNS = "runs"
@@ -92,6 +96,7 @@ def run_study(
     *,
     scheduler: str = "",
     allow_matched: bool = False,
+    trust_parts: bool = False,
     progress: Callable[[str], None] = lambda _: None,
 ) -> StudyResults:
     """Run what is missing of a study and return its results.
@@ -105,46 +110,82 @@ def run_study(
         Address of a Dask scheduler; empty for the cores of this machine.
     allow_matched : bool
         Export fragilities without a record-to-record dispersion, with a warning.
+    trust_parts : bool
+        Take over parts that are signed with another key; the results say how many.
     progress : callable
         Called with a line of text.
 
     Raises
     ------
     InputError
-        If a package is missing, the folder has the parts of another version, or the cluster cannot
-        be used.
+        If a package is missing, the folder has the parts of another version, the user's key cannot
+        be kept, or the cluster cannot be used.
+
+    Warns
+    -----
+    UserWarning
+        If parts are computed again because they are signed with another key.
     """
     extra(ARROW)
     out = Path(out)
     folder, campaign = out / RUNS, plan.campaign
     check_places(out, folder)
     manifest = manifest_of(campaign, plan.about) | {"workbook": {"name": plan.workbook}}
-    check_former(folder, manifest)
+    former, key = check_former(folder, manifest), user_key()
     identity, names = str(manifest["identity"]), plan.motions.buildings
-    done = done_parts(folder, campaign, identity)
+    done = done_parts(folder, campaign, identity, key)
+    if not trust_parts:
+        done = _own(done)
+    taken_over = _taken_over(done)
     missing = [number for number in range(len(campaign.parts)) if number not in done]
     tell = _meter(plan, missing, progress)
 
     def on_done(part: Done) -> None:
-        done[part.number] = part
+        done[part.about.number] = part
         tell(part)
 
     if scheduler:
         from report.study.cluster import connected, run_on_cluster
 
         with connected(scheduler, manifest) as client:
-            begin(folder, manifest)
-            run_on_cluster(client, folder, campaign, identity, names, missing, on_done)
+            begin(folder, manifest, former)
+            run_on_cluster(client, folder, campaign, identity, names, missing, key, on_done)
     else:
-        begin(folder, manifest)
-        run_missing(folder, campaign, identity, names, missing, on_done)
+        begin(folder, manifest, former)
+        run_missing(folder, campaign, identity, names, missing, key, on_done)
     full = finished(folder, manifest, list(done.values()))
+    full["taken_over"] = taken_over
     full["design_displacement"] = plan.design_rule.about
     progress("computing the curves and the capacities")
     results = results_of(plan, folder, done, full, allow_matched=allow_matched)
     full["capacity_runs"] = results.capacity_runs
     write_all({NAME: json.dumps(full, indent=1).encode() + b"\n"}, out)
     return results
+
+
+def _own(done: Mapping[int, Done]) -> dict[int, Done]:
+    """Return the parts that are signed with the user's key; warn of others."""
+    others = [part for part in done.values() if not part.is_own]
+    if others:
+        warnings.warn(
+            "computed again because signed with the key of another user or machine: "
+            f"{numbered(len(others), 'part')} ({sum(part.rows for part in others):,} runs); "
+            f"{TRUST_PARTS} takes such parts over",
+            stacklevel=3,
+        )
+    return {number: part for number, part in done.items() if part.is_own}
+
+
+def _taken_over(done: Mapping[int, Done]) -> list[dict[str, Any]]:
+    """Return how many runs were there, from when and on whose word, for the manifest."""
+    found = []
+    for is_own, word in ((True, OWN_KEY), (False, TRUST_PARTS)):
+        parts = [part for part in done.values() if part.is_own is is_own]
+        dates = sorted(f"{part.about.computed:%Y-%m-%d}" for part in parts)
+        runs = sum(part.rows for part in parts)
+        if parts:
+            found.append({"runs": runs, "from": dates[0], "to": dates[-1], "on_the_word_of": word})
+    return found
 
 
 def _meter(
@@ -161,7 +202,7 @@ def _meter(
 
     def tell(part: Done) -> None:
         nonlocal ran, cost
-        ran, cost = ran + rows[part.number], cost + costs[part.number]
+        ran, cost = ran + rows[part.about.number], cost + costs[part.about.number]
         seconds = time.monotonic() - started
         left = seconds * (all_costs / cost - 1.0)
         rate = f"{ran / seconds:,.0f} a second"

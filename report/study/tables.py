@@ -18,7 +18,7 @@ from report.entities.marks import UNVERIFIED
 from report.results.sheets import text_workbook
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
-from report.study.words import analysis_words, design_words
+from report.study.words import analysis_words, design_words, taken_over
 from report.words.counts import capitalized
 from report.words.formats import csv_text
 from report.words.units import Unit
@@ -96,6 +96,8 @@ def _about(results: StudyResults) -> Iterator[Row]:
     yield "Title", results.plan.input.study.title
     yield "Runs", manifest["rows"]
     yield "Cases", manifest["cases"]["count"]
+    for line in taken_over(results):
+        yield "Runs taken over", line
     yield "Runs for the capacities", results.capacity_runs
     for title, count in manifest["models"].items():
         yield f"Runs with the model: {title}", count

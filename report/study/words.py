@@ -6,7 +6,7 @@ Read `context`, then `headline`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -16,6 +16,7 @@ from report.entities.marks import UNVERIFIED
 from report.pages.symbols import with_symbols
 from report.study.design import I_E, SDC
 from report.study.dispersion import NOT_DETERMINED, is_refused, is_warned
+from report.study.manifest import TRUST_PARTS
 from report.study.results import MEAN, SLOPE_DECIMALS, StudyResults
 from report.typeset.pdf import TEMPLATES
 from report.words.units import no_less
@@ -43,6 +44,7 @@ def context(results: StudyResults) -> dict[str, Any]:
         "MEAN": MEAN,
         "NOT_DETERMINED": NOT_DETERMINED,
         "SDC": SDC,
+        "TRUST_PARTS": TRUST_PARTS,
         "UNVERIFIED": UNVERIFIED,
     }
 
@@ -78,15 +80,24 @@ def design_words(results: StudyResults) -> str:
 
 
 def warning(results: StudyResults) -> str:
-    """Return what each exported file says of its dispersion; empty without a reason."""
-    return said(TEMPLATES, _SENTENCES, "warning", context(results)) if is_warned(results) else ""
+    """Return what each exported file says of its dispersion and its runs, if anything."""
+    return said(TEMPLATES, _SENTENCES, "warnings", context(results))
+
+
+def taken_over(results: StudyResults) -> list[str]:
+    """Return how many runs are from parts that were there, from when and on whose word."""
+    return _lines("taken_over", context(results))
 
 
 def headline(results: StudyResults) -> list[str]:
     """Return the main results, one line each."""
     levels = results.plan.input.intensities
     more = {"middle": levels[len(levels) // 2], "steepest": list(_steepest(results))}
-    text = said(TEMPLATES, _SENTENCES, "headline", context(results) | more)
+    return _lines("headline", context(results) | more)
+
+
+def _lines(macro: str, given: Mapping[str, Any]) -> list[str]:
+    text = said(TEMPLATES, _SENTENCES, macro, given)
     return [line.strip() for line in text.splitlines() if line.strip()]
 
 

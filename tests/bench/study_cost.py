@@ -30,6 +30,7 @@ from studied import frozen, motion
 SLOPES = np.radians(np.linspace(-7.0, 7.0, 29))
 LEVELS = np.linspace(0.05, 1.5, 16)
 G = 9.80665
+KEY = b"a key of a benchmark"
 RUNS, COUNT = (50_000, 5) if SMOKE else (10_000_000, 200)
 
 
@@ -65,9 +66,9 @@ def stand_ins(count: int) -> Iterator[Motion]:
 def studied(campaign: Campaign, folder: Path) -> float:
     """Run a campaign; return its processor time [s]."""
     manifest, started = manifest_of(campaign, {}), time.process_time()
-    begin(folder, manifest)
+    begin(folder, manifest, former=0)
     numbers = range(len(campaign.parts))
-    run_missing(folder, campaign, manifest["identity"], ["roof"], numbers, lambda done: None)
+    run_missing(folder, campaign, manifest["identity"], ["roof"], numbers, KEY, lambda done: None)
     return time.process_time() - started
 
 
@@ -123,7 +124,7 @@ def one_suite() -> None:
         figure("runs in a second of processor time", campaign.rows / cpu)
         figure("size of a run on disk", size / campaign.rows, "B", digits=3)
         identity = manifest_of(campaign, {})["identity"]
-        found = done_parts(folder, campaign, identity)
+        found = done_parts(folder, campaign, identity, KEY)
         rows = sum(peaks(read_part(folder, done), campaign).prd_m.size for done in found.values())
         assert rows == campaign.rows
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6

@@ -2,6 +2,7 @@
 
 import csv
 import dataclasses
+import html
 import io
 import json
 import math
@@ -34,7 +35,6 @@ from report.study.exports import (
     probabilities_of,
 )
 from report.study.files import study_html
-from report.study.parts import JOURNAL
 from report.study.prescribed import compare
 from report.study.run import estimate, planned, run_study
 from report.study.schema import Intensity, NoValue, StudyArray, StudyBuilding
@@ -46,6 +46,7 @@ from solver import solve
 from solver.files import LOCK, locked
 from solver.model import InputError, coulomb
 from solver.studies.fragility import UNKNOWN, Lognormal
+from studied import forged
 
 
 def small(**changes):
@@ -98,6 +99,11 @@ def other(tmp_path):
         return run_study(planned(folder)[0], tmp_path / "out")
 
     return run
+
+
+def in_one_go(results):
+    """The results of the command that computed every run."""
+    return dataclasses.replace(results, manifest={**results.manifest, "taken_over": []})
 
 
 def peak(plan, motion, building, slope_deg, mu, intensity):
@@ -215,7 +221,7 @@ def test_the_command_writes_every_file_and_prints_the_results(made, results):
     for name in ("study.pdf", "curves.csv", "study.xlsx", "fragility.csv", "fragility.xml"):
         assert (out / name).stat().st_size > 100
         assert str(out / name) in output
-    assert all(line in output for line in headline(results))
+    assert all(line in output for line in headline(in_one_go(results)))
     assert "s of processor time\n" in output
     manifest = json.loads((out / "manifest.json").read_text())
     assert sum(manifest["models"].values()) == manifest["rows"]
@@ -224,10 +230,11 @@ def test_the_command_writes_every_file_and_prints_the_results(made, results):
     assert len(rows) == manifest["rows"]
 
 
-def test_a_second_run_runs_nothing_and_writes_the_same_bytes(made, results, laid_out):
+def test_a_second_run_writes_the_same_bytes_but_for_what_it_took_over(made, results, laid_out):
     """Layout is tested for it in tests/report/proof/test_verify_package.py."""
-    assert [study_html(results)] == laid_out
-    tables = {"curves.csv": curves_csv(results), "study.xlsx": study_xlsx(results)}
+    once = in_one_go(results)
+    assert [study_html(once)] == laid_out
+    tables = {"curves.csv": curves_csv(results), "study.xlsx": study_xlsx(once)}
     for name, content in {**tables, **export_files(results)}.items():
         assert (made[0] / "out" / "study" / name).read_bytes() == content, name
 
@@ -609,7 +616,7 @@ def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monk
     runs.mkdir(parents=True)
     plan, _ = planned(folder)
     with locked(runs), pytest.raises(InputError, match="another command has been writing there"):
-        make(plan, runs.parent, "", lambda _: None, allow_matched=False)
+        make(plan, runs.parent, "", lambda _: None, allow_matched=False, trust_parts=False)
     assert list(runs.iterdir()) == []
 
 
@@ -633,15 +640,90 @@ def test_an_array_has_probabilities_where_each_state_has_a_lognormal_or_all_its_
     assert known_states(array) == ((state,) if is_known else ())
 
 
+# Parts of another user or machine
+
+
+@pytest.fixture
+def forged_study(made, tmp_path):
+    """A plan, the folder of its outputs, and its study after part 0 was forged."""
+    out = shutil.copytree(made[0] / "out" / "study", tmp_path / "out")
+    forged(out / "runs" / "part-00000.parquet")
+    return planned(made[0])[0], out
+
+
+def test_runs_that_are_taken_over_are_stated_with_their_dates(made, results):
+    """The first study took over nothing; that which went on with its parts says so."""
+    today = json.loads((made[0] / "out/study/manifest.json").read_text())["taken_over"]
+    rows = results.manifest["rows"]
+    (one,) = today
+    assert one == {**one, "runs": rows, "on_the_word_of": "the key of this user"}
+    told = (
+        f"{rows:,} of the {rows:,} runs were taken over from parts that are signed with the key of"
+        f" this user and were computed on {one['from']} (UTC)"
+    )
+    assert told in headline(results)
+    assert "taken over" not in made[1]
+    assert {"What": "Runs taken over", "Value": told} in sheet_rows(results, "Study")
+
+
+def test_a_forged_part_is_computed_again_and_the_user_is_told(forged_study, results):
+    plan, out = forged_study
+    with pytest.warns(UserWarning, match=r": 1 part \([0-9,]+ runs\); --trust-parts takes"):
+        found = run_study(plan, out)
+    assert np.array_equal(found.curves.mean_m, results.curves.mean_m, equal_nan=True)
+    (own,) = found.manifest["taken_over"]
+    assert 0 < own["runs"] < found.manifest["rows"]
+
+
+def test_a_forged_part_is_taken_over_on_the_word_of_the_option_and_every_file_says_so(
+    forged_study, results
+):
+    plan, out = forged_study
+    found = run_study(plan, out, trust_parts=True, allow_matched=True)
+    slid = results.curves.mean_m > 0.0
+    shares = found.curves.mean_m[slid] / results.curves.mean_m[slid]
+    assert shares.min() == pytest.approx(0.25)
+    own, other = found.manifest["taken_over"]
+    assert own["runs"] + other["runs"] == found.manifest["rows"]
+    assert other["on_the_word_of"] == "--trust-parts"
+    told = (
+        f"{other['runs']:,} of the {found.manifest['rows']:,} runs were taken over on the word of"
+        " --trust-parts: their parts are signed with another key and state that they were computed"
+        " on 2001-02-03 (UTC)"
+    )
+    assert json.loads((out / "manifest.json").read_text())["taken_over"] == [own, other]
+    assert told in printed.study(found)
+    assert {"What": "Runs taken over", "Value": told} in sheet_rows(found, "Study")
+    exports = export_files(found)
+    assert len(exports) == 4
+    for content in exports.values():
+        text = content.decode() if isinstance(content, bytes) else content
+        assert f"{told}." in html.unescape(text)
+    with pytest.warns(UserWarning, match="computed again"):
+        run_study(plan, out)  # taken over, it is not signed
+
+
+@pytest.mark.filterwarnings("always::UserWarning")  # the command prints them
+def test_the_command_takes_forged_parts_over_only_when_told_to(made, tmp_path):
+    folder = shutil.copytree(made[0], tmp_path / "job")
+    forged(folder / "out/study/runs/part-00000.parquet")
+    done = command(folder, "--trust-parts")
+    assert done.exit_code == 0, done.output
+    assert "on the word of --trust-parts" in done.output
+    done = command(folder)
+    assert done.exit_code == 0, done.output
+    assert "warning: computed again because signed with the key of another user" in done.output
+    assert "on the word of" not in done.output
+
+
 STUDY = ("out", "out/study", "out/study/runs", "out/study/manifest.json", "out/study/study.xlsx",
-         f"out/study/runs/{JOURNAL}", "out/study/runs/part-00000.parquet",
-         f"out/study/runs/{LOCK}")  # fmt: skip
+         "out/study/runs/part-00000.parquet", f"out/study/runs/{LOCK}")  # fmt: skip
 
 
 @pytest.mark.parametrize(
     ("place", "kind"),
     [(place, kind) for place in STUDY for kind in ("link", "dangling link", "pipe", "device")]
-    + [(place, "hard link") for place in STUDY if place.endswith((JOURNAL, LOCK))],
+    + [(place, "hard link") for place in STUDY if place.endswith(LOCK)],
 )
 def test_a_study_is_not_written_through_what_is_in_its_place(tmp_path, place, kind):
     outside = tmp_path / "outside"

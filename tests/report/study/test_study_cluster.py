@@ -11,7 +11,7 @@ from report.study.cluster import connected, run_on_cluster
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, part_name, run_missing
 from solver.model import InputError
-from studied import campaign
+from studied import KEY, campaign, row_bytes
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # of the cluster's own shut-down
 
@@ -34,15 +34,15 @@ NAMES = ["roof"]
 
 
 @pytest.mark.nightly
-def test_a_killed_worker_loses_nothing_and_every_part_has_the_bytes_of_this_machine(
+def test_a_killed_worker_loses_nothing_and_every_row_has_the_bytes_of_this_machine(
     cluster, tmp_path
 ):
     c = campaign("xyz", 2)
     manifest = manifest_of(c, {})
     identity, numbers = manifest["identity"], range(len(c.parts))
     there, here = tmp_path / "there", tmp_path / "here"
-    begin(here, manifest)
-    run_missing(here, c, identity, NAMES, numbers, lambda done: None)
+    begin(here, manifest, former=0)
+    run_missing(here, c, identity, NAMES, numbers, KEY, lambda done: None)
     killed = []
 
     def on_done(done):
@@ -51,12 +51,12 @@ def test_a_killed_worker_loses_nothing_and_every_part_has_the_bytes_of_this_mach
             os.kill(killed[0], signal.SIGKILL)
 
     with connected(cluster.scheduler_address, manifest) as client:
-        begin(there, manifest)
-        run_on_cluster(client, there, c, identity, NAMES, numbers, on_done)
+        begin(there, manifest, former=0)
+        run_on_cluster(client, there, c, identity, NAMES, numbers, KEY, on_done)
     assert killed
-    assert sorted(done_parts(there, c, identity)) == list(numbers)
+    assert sorted(done_parts(there, c, identity, KEY)) == list(numbers)
     for number in numbers:
-        assert (there / part_name(number)).read_bytes() == (here / part_name(number)).read_bytes()
+        assert row_bytes(there / part_name(number)) == row_bytes(here / part_name(number))
 
 
 def test_workers_of_another_version_are_an_error_before_anything_runs(cluster):

@@ -7,15 +7,16 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
+import pyarrow.parquet as pq
 import pytest
 
 from places import ROOT, TESTS
 from report.study.manifest import NAME, check_former, manifest_of
 from report.study.parts import (
-    JOURNAL,
     begin,
     done_parts,
     finished,
@@ -23,11 +24,12 @@ from report.study.parts import (
     peaks,
     read_part,
     run_missing,
+    signed,
 )
 from solver.model import InputError
 from solver.sliding.least_model import Model
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
-from studied import campaign
+from studied import KEY, campaign, forged, row_bytes
 
 NAMES = ["roof"]
 
@@ -35,12 +37,14 @@ NAMES = ["roof"]
 def run(folder, c, about=None):
     """Run what is missing; return the manifest and the numbers of the parts that ran."""
     manifest = manifest_of(c, about or {})
-    check_former(folder, manifest)
-    begin(folder, manifest)
+    begin(folder, manifest, check_former(folder, manifest))
     identity, ran = manifest["identity"], []
-    had = done_parts(folder, c, identity)
+    found = done_parts(folder, c, identity, KEY)
+    had = {number for number, part in found.items() if part.is_own}
     missing = [number for number in range(len(c.parts)) if number not in had]
-    run_missing(folder, c, identity, NAMES, missing, lambda done: ran.append(done.number))
+    run_missing(
+        folder, c, identity, NAMES, missing, KEY, lambda done: ran.append(done.about.number)
+    )
     return manifest, sorted(ran)
 
 
@@ -93,7 +97,7 @@ def test_peaks_are_the_largest_of_the_headings_and_none_without_a_final_value(st
     wanted = rows.groupby(keys, observed=True, sort=False)["prd_m"].apply(
         lambda v: v.max(skipna=False)
     )
-    done = done_parts(folder, c, manifest["identity"])
+    done = done_parts(folder, c, manifest["identity"], KEY)
     found = [peaks(read_part(folder, done[k]), c) for k in sorted(done)]
     prd = np.concatenate([part.prd_m for part in found])
     assert np.array_equal(prd.ravel(), wanted.to_numpy(), equal_nan=True)
@@ -102,13 +106,73 @@ def test_peaks_are_the_largest_of_the_headings_and_none_without_a_final_value(st
     assert np.concatenate([part.slips for part in found]).ravel().tolist() == slips.any().tolist()
 
 
-def test_a_damaged_part_is_found_and_run_again(copy):
+@pytest.mark.parametrize("place", ["rows", "footer", b"roofslip sha256=", b" hmac=", b"computed"])
+def test_a_flipped_byte_is_found_and_the_part_run_again(copy, place):
     folder, c, _ = copy
-    good = (folder / part_name(3)).read_bytes()
-    (folder / part_name(3)).write_bytes(good[:100] + bytes([good[100] ^ 1]) + good[101:])
+    path = folder / part_name(3)
+    good, rows = path.read_bytes(), row_bytes(path)
+    at = {"rows": 100, "footer": len(good) - 12}.get(place)
+    at = good.index(place) + len(place) + 5 if at is None else at
+    path.write_bytes(good[:at] + bytes([good[at] ^ 1]) + good[at + 1 :])
     (folder / part_name(5)).unlink()
     assert run(folder, c)[1] == [3, 5]
-    assert (folder / part_name(3)).read_bytes() == good
+    assert row_bytes(path) == rows
+
+
+@pytest.mark.parametrize("length", [0, 3, 500])
+def test_a_part_that_ends_early_is_run_again(copy, length):
+    folder, c, _ = copy
+    path = folder / part_name(2)
+    path.write_bytes(path.read_bytes()[:length])
+    assert run(folder, c)[1] == [2]
+
+
+def test_a_forged_part_with_a_new_sha_256_is_run_again(copy):
+    """Signed with the key of somebody else, and with the HMAC that the part had."""
+    folder, c, manifest = copy
+    paths = [folder / part_name(number) for number in (1, 4)]
+    rows, had = list(map(row_bytes, paths)), paths[1].read_bytes()
+    for path in paths:
+        forged(path)
+    two = paths[1].read_bytes()
+    at, before = (content.index(b" hmac=") + 6 for content in (two, had))
+    paths[1].write_bytes(two[:at] + had[before : before + 64] + two[at + 64 :])
+    found = done_parts(folder, c, manifest["identity"], KEY)
+    assert [number for number, part in found.items() if not part.is_own] == [1, 4]
+    assert run(folder, c)[1] == [1, 4]
+    assert list(map(row_bytes, paths)) == rows
+
+
+def test_a_part_of_another_key_is_whole_or_not(copy):
+    folder, c, manifest = copy
+    for number, at in ((0, None), (1, 100)):
+        path = folder / part_name(number)
+        forged(path)
+        if at:
+            content = path.read_bytes()
+            path.write_bytes(content[:at] + bytes([content[at] ^ 1]) + content[at + 1 :])
+    found = done_parts(folder, c, manifest["identity"], KEY)
+    assert not found[0].is_own
+    assert found[0].about.computed.year == 2001
+    assert 1 not in found
+
+
+@pytest.mark.parametrize("altered", ["rows", "words", "nothing said"])
+def test_a_part_that_only_looks_like_one_is_run_again(copy, altered):
+    folder, c, manifest = copy
+    path, other = folder / part_name(3), folder / part_name(4)
+    if altered == "rows":
+        table, said = pq.read_table(path).slice(1), pq.read_metadata(path).metadata
+    else:
+        table, said = pq.read_table(path), pq.read_metadata(other).metadata
+    if altered == "nothing said":
+        said = {b"roofslip_signature": said[b"roofslip_signature"]}
+    with pq.ParquetWriter(path, table.schema) as writer:
+        writer.write_table(table)
+        writer.add_key_value_metadata({k: v for k, v in said.items() if k != b"ARROW:schema"})
+    path.write_bytes(signed(path.read_bytes(), KEY))
+    assert 3 not in done_parts(folder, c, manifest["identity"], KEY)
+    assert run(folder, c)[1] == [3]
 
 
 def test_a_part_of_another_manifest_is_run_again(copy, tmp_path_factory):
@@ -124,7 +188,7 @@ def test_other_inputs_run_everything_again_and_leave_no_old_part(copy):
     fewer = campaign("x", mus=(0.3,), intensities=(0.4, 0.8))
     manifest, ran = run(folder, fewer)
     assert ran == list(range(len(fewer.parts)))
-    done = done_parts(folder, fewer, manifest["identity"])
+    done = done_parts(folder, fewer, manifest["identity"], KEY)
     full = finished(folder, manifest, list(done.values()))
     assert len(list(folder.glob("part-*"))) == len(fewer.parts)
     assert sum(full["models"].values()) == fewer.rows
@@ -141,29 +205,11 @@ def test_a_file_with_the_name_of_a_part_is_neither_replaced_nor_removed(tmp_path
         assert (folder / name).read_bytes() == b"mine"
 
 
-def test_a_part_without_its_line_in_the_journal_is_run_again(copy):
-    folder, c, _ = copy
-    journal = folder / JOURNAL
-    journal.write_bytes(b"".join(journal.read_bytes().splitlines(keepends=True)[1:]))
-    assert len(run(folder, c)[1]) == 1
-
-
-def test_a_torn_line_of_the_journal_loses_one_part_only(copy):
-    folder, c, _ = copy
-    lines = (folder / JOURNAL).read_bytes().splitlines(keepends=True)
-    lost = json.loads(lines[-1])["number"]
-    (folder / JOURNAL).write_bytes(b"".join(lines)[:-20] + b"\n" + b"[" * 100_000 + b"\n")
-    assert run(folder, c)[1] == [lost]
-    assert run(folder, c)[1] == []
-
-
 def test_parts_of_several_processor_models_are_stated(copy):
     folder, c, manifest = copy
-    done = done_parts(folder, c, manifest["identity"])
-    text = (folder / JOURNAL).read_text().replace(done[0].machine, "another processor", 1)
-    (folder / JOURNAL).write_text(text)
-    done = done_parts(folder, c, manifest["identity"])
-    assert "1e-12" in finished(folder, manifest, list(done.values()))["agreement"]
+    first, *others = done_parts(folder, c, manifest["identity"], KEY).values()
+    first = replace(first, about=replace(first.about, machine="another processor"))
+    assert "1e-12" in finished(folder, manifest, [first, *others])["agreement"]
 
 
 @pytest.mark.parametrize("change", [{"numba": "0.1"}, {"solver_sha256": "0" * 64}])
@@ -205,17 +251,17 @@ SLOW = """
 import sys
 sys.path.insert(0, {tests!r})
 from pathlib import Path
-from test_study_parts import NAMES, campaign
+from test_study_parts import KEY, NAMES, campaign
 from report.study.manifest import manifest_of
 from report.study.parts import begin, done_parts, run_missing
 c = campaign("xyz", 2)
 manifest = manifest_of(c, {{}})
 folder = Path({folder!r})
-begin(folder, manifest)
-had = done_parts(folder, c, manifest["identity"])
+begin(folder, manifest, 0)
+had = done_parts(folder, c, manifest["identity"], KEY)
 missing = [k for k in range(len(c.parts)) if k not in had]
 print("ready", flush=True)
-run_missing(folder, c, manifest["identity"], NAMES, missing, lambda done: None)
+run_missing(folder, c, manifest["identity"], NAMES, missing, KEY, lambda done: None)
 """
 
 
@@ -237,7 +283,7 @@ def test_a_study_killed_at_any_moment_goes_on_where_it_was(tmp_path):
         process.send_signal(signal.SIGKILL)
         process.wait()
         process.stdout.close()
-        reached = len(done_parts(folder, c, identity))
+        reached = len(done_parts(folder, c, identity, KEY))
     _, ran = run(folder, c)
     assert len(ran) == len(c.parts) - reached
     # Only names that are written are touched: what was staged when it was killed stays, hidden.
@@ -245,13 +291,12 @@ def test_a_study_killed_at_any_moment_goes_on_where_it_was(tmp_path):
     peace = tmp_path / "peace"
     run(peace, c)
     for number in range(len(c.parts)):
-        one, two = ((top / part_name(number)).read_bytes() for top in (folder, peace))
-        assert one == two
+        assert row_bytes(folder / part_name(number)) == row_bytes(peace / part_name(number))
 
 
 def test_a_part_changed_while_it_is_read_is_refused(copy):
     folder, c, manifest = copy
-    done = done_parts(folder, c, manifest["identity"])
+    done = done_parts(folder, c, manifest["identity"], KEY)
     (folder / part_name(0)).write_bytes(b"PAR1")
     with pytest.raises(InputError, match="changed meanwhile"):
         read_part(folder, done[0])
