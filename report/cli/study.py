@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -45,10 +45,8 @@ def study(
     source: Path,
     out: Path | None,
     dry_run: bool,
-    scheduler: str,
-    allow_matched: bool,
-    trust_parts: bool,
     quiet: bool,
+    **options: Any,
 ) -> None:
     """Run a study workbook: write study.pdf, curves.csv, study.xlsx, fragilities and every run.
 
@@ -79,14 +77,7 @@ def study(
             check_of_workbook(folder, NAME, plan.workbook)
         check_apart([TABLE], folder, [source, source / "input.xlsx"])
         with Progress(quiet=quiet) as progress, no_collections():
-            results, files = make(
-                plan,
-                folder,
-                scheduler,
-                progress,
-                allow_matched=allow_matched,
-                trust_parts=trust_parts,
-            )
+            results, files = make(plan, folder, progress, **options)
     if not quiet:
         for line in summary(results):
             click.echo(plain(line))
@@ -97,13 +88,13 @@ def study(
 def make(
     plan: StudyPlan,
     folder: Path,
-    scheduler: str,
     progress: Callable[[str], None],
-    *,
-    allow_matched: bool,
-    trust_parts: bool,
+    **options: Any,
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
-    """Run a study and publish its files; another run to the same folder waits until it ends."""
+    """Run a study and publish its files; another run to the same folder waits until it ends.
+
+    Options are those of `report.study.run.run_study`.
+    """
     from report.results.publish import publish
     from report.study.exports import EXPORTS
     from report.study.files import study_files
@@ -115,14 +106,7 @@ def make(
     with ExitStack() as undo:
         add_folder(runs, undo)  # where nothing ran, as with no cluster, nothing new stays
         with locked(runs):
-            results = run_study(
-                plan,
-                folder,
-                scheduler=scheduler,
-                progress=progress,
-                allow_matched=allow_matched,
-                trust_parts=trust_parts,
-            )
+            results = run_study(plan, folder, progress=progress, **options)
             progress("writing the report")
             files = study_files(results)
             publish(files, folder)

@@ -5,9 +5,9 @@ The workers need no common folder. Read `connected`, then `run_on_cluster`.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +21,8 @@ from solver.studies.runs import Runner
 TIMEOUT_S = 10.0
 """How long a scheduler may take to answer [s]."""
 
-ROUNDS = 4
-"""How often a part is sent out: a worker that dies may take the records of others with it."""
-
-_AHEAD = 2
-"""Parts sent out for each thread of the cluster: no thread waits, and few results do."""
+RETRIES = 2
+"""How often a part that fails is tried again."""
 
 
 @contextmanager
@@ -81,58 +78,21 @@ def run_on_cluster(
 ) -> None:
     """Run parts on a cluster; sign and keep each here as it comes back.
 
+    The records are the result of a task, as the parts are: with a worker that dies both are lost,
+    and both are computed again by another one.
+
     Raises
     ------
     Exception
-        Of a part that fails in every round.
+        Of a part that fails whenever it is tried.
     """
-    left = list(missing)
-    errors: list[BaseException] = []
-    for turn in range(ROUNDS):
-        errors = []
-        for number, outcome in _sent(client, campaign, identity, names, left, turn):
-            if isinstance(outcome, BaseException):
-                errors.append(outcome)
-                continue
-            on_done(keep(folder, outcome, key))
-            left.remove(number)
-        if not left:
-            return
-    raise errors[0]
-
-
-def _sent(
-    client: Any,
-    campaign: Campaign,
-    identity: str,
-    names: Sequence[str],
-    numbers: Sequence[int],
-    turn: int,
-) -> Iterator[tuple[int, Any]]:
-    """Yield each part with its outcome, or with the error that ended it."""
-    waiting = iter(costliest_first(campaign, numbers))
-    runner = client.scatter(Runner(campaign), broadcast=True, hash=False)
-    sent: dict[Any, int] = {}
-
-    def send(count: int) -> list[Any]:
-        futures = []
-        for number in islice(waiting, count):
-            key = f"part-{number}-{turn}-{identity[:16]}"
-            futures.append(
-                client.submit(made_part, runner, number, identity, names, key=key, retries=2)
-            )
-            sent[futures[-1]] = number
-        return futures
-
-    threads = sum(client.nthreads().values())
-    ahead = send(_AHEAD * max(1, threads))
-    completed = extra(DASK).as_completed(ahead, loop=client.loop)
-    for future in completed:
-        number = sent.pop(future)
-        try:
-            yield number, future.result()
-        except Exception as error:  # whatever a worker raises, or its death
-            yield number, error
-        future.release()
-        for more in send(1):
-            completed.add(more)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Sending large graph", UserWarning)
+        runner = client.submit(Runner, campaign, pure=False)
+        parts = [
+            client.submit(made_part, runner, number, identity, names, pure=False, retries=RETRIES)
+            for number in costliest_first(campaign, missing)
+        ]
+    for part in extra(DASK).as_completed(parts, loop=client.loop):
+        on_done(keep(folder, part.result(), key))
+        part.release()

@@ -170,16 +170,12 @@ def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) ->
 
 def signed(content: bytes, key: bytes) -> bytes:
     """Return a part with the SHA-256 and the HMAC of all of its unsigned file in its metadata."""
-    at = _signature_at(content)
+    at = content.rindex(_SHA256)
     before, after = content[:at], content[at + len(_UNSIGNED) :]
     digest = hashlib.sha256(before + _UNSIGNED + after)
     tag = hmac.digest(key, digest.digest(), "sha256").hex()
     said = _SHA256 + digest.hexdigest().encode() + _HMAC + tag.encode()
     return before + said + after
-
-
-def _signature_at(content: bytes) -> int:
-    return content.rindex(_SHA256)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -237,10 +233,9 @@ def _opened(content: bytes, key: bytes) -> Done:
     ValueError
         If it is not whole.
     """
-    at = _signature_at(content)
-    at_hmac, end = at + len(_UNSIGNED) - 64, at + len(_UNSIGNED)
-    wanted = signed(content, key)
-    if content[at:at_hmac] != wanted[at:at_hmac]:
+    end = content.rindex(_SHA256) + len(_UNSIGNED)
+    tag, wanted = slice(end - 64, end), signed(content, key)
+    if content[: tag.start] != wanted[: tag.start]:
         raise ValueError("the SHA-256 is not that of the content")
     pa = extra(ARROW)
     metadata = pa.parquet.read_metadata(pa.BufferReader(content))
@@ -248,7 +243,7 @@ def _opened(content: bytes, key: bytes) -> Done:
         about=_AS_JSON.validate_json(metadata.metadata[_ABOUT]),
         rows=metadata.num_rows,
         sha256=hashlib.sha256(content).hexdigest(),
-        is_own=hmac.compare_digest(content[at_hmac:end], wanted[at_hmac:end]),
+        is_own=hmac.compare_digest(content[tag], wanted[tag]),
     )
 
 

@@ -616,7 +616,7 @@ def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monk
     runs.mkdir(parents=True)
     plan, _ = planned(folder)
     with locked(runs), pytest.raises(InputError, match="another command has been writing there"):
-        make(plan, runs.parent, "", lambda _: None, allow_matched=False, trust_parts=False)
+        make(plan, runs.parent, lambda _: None)
     assert list(runs.iterdir()) == []
 
 
