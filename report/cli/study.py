@@ -38,8 +38,8 @@ if TYPE_CHECKING:
               help="Export fragilities of motions matched to one spectrum, with a warning in each"
               " file.")  # fmt: skip
 @click.option("--trust-parts", is_flag=True,
-              help="Take over parts that are signed with the key of another user or machine; the"
-              " results say how many.")  # fmt: skip
+              help="Take over parts that are not signed with your key, of another user or machine;"
+              " the results say how many.")  # fmt: skip
 @QUIET
 def study(
     source: Path,

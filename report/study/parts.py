@@ -212,7 +212,7 @@ def peaks(content: bytes, campaign: Campaign) -> Peaks:
 
 
 def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> dict[int, Done]:
-    """Return the parts that are whole and of this manifest, those of another key included."""
+    """Return the parts that are whole and of this manifest, those of other keys included."""
     found = {}
     for number, part in enumerate(campaign.parts):
         try:

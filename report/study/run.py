@@ -111,7 +111,7 @@ def run_study(
     allow_matched : bool
         Export fragilities without a record-to-record dispersion, with a warning.
     trust_parts : bool
-        Take over parts that are signed with another key; the results say how many.
+        Take over parts that are not signed with the user's key; the results say how many.
     progress : callable
         Called with a line of text.
 
@@ -124,7 +124,7 @@ def run_study(
     Warns
     -----
     UserWarning
-        If parts are computed again because they are signed with another key.
+        If parts are computed again because they are not signed with the user's key.
     """
     extra(ARROW)
     out = Path(out)
@@ -168,9 +168,9 @@ def _own(done: Mapping[int, Done]) -> dict[int, Done]:
     others = [part for part in done.values() if not part.is_own]
     if others:
         warnings.warn(
-            "computed again because signed with the key of another user or machine: "
-            f"{numbered(len(others), 'part')} ({sum(part.rows for part in others):,} runs); "
-            f"{TRUST_PARTS} takes such parts over",
+            f"computed again: {numbered(len(others), 'part')} "
+            f"({sum(part.rows for part in others):,} runs) without the signature of your key, of "
+            f"another user or machine or changed by hand; {TRUST_PARTS} takes such parts over",
             stacklevel=3,
         )
     return {number: part for number, part in done.items() if part.is_own}

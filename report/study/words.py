@@ -16,7 +16,7 @@ from report.entities.marks import UNVERIFIED
 from report.pages.symbols import with_symbols
 from report.study.design import I_E, SDC
 from report.study.dispersion import NOT_DETERMINED, is_refused, is_warned
-from report.study.manifest import TRUST_PARTS
+from report.study.manifest import OWN_KEY, TRUST_PARTS
 from report.study.results import MEAN, SLOPE_DECIMALS, StudyResults
 from report.typeset.pdf import TEMPLATES
 from report.words.units import no_less
@@ -43,6 +43,7 @@ def context(results: StudyResults) -> dict[str, Any]:
         "I_E": I_E,
         "MEAN": MEAN,
         "NOT_DETERMINED": NOT_DETERMINED,
+        "OWN_KEY": OWN_KEY,
         "SDC": SDC,
         "TRUST_PARTS": TRUST_PARTS,
         "UNVERIFIED": UNVERIFIED,

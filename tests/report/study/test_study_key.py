@@ -83,11 +83,11 @@ def test_a_user_without_a_home_is_told_what_to_do(monkeypatch):
     ("platform", "given", "wanted"),
     [
         ("linux", {"XDG_STATE_HOME": "/theirs"}, "/theirs"),
-        ("linux", {"XDG_STATE_HOME": "relative"}, "/home/ann/.local/state"),
-        ("linux", {}, "/home/ann/.local/state"),
-        ("darwin", {}, "/home/ann/Library/Application Support"),
+        ("linux", {"XDG_STATE_HOME": "relative"}, "/users/ann/.local/state"),
+        ("linux", {}, "/users/ann/.local/state"),
+        ("darwin", {}, "/users/ann/Library/Application Support"),
         ("win32", {"LOCALAPPDATA": "/local"}, "/local"),
-        ("win32", {}, "/home/ann/AppData/Local"),
+        ("win32", {}, "/users/ann/AppData/Local"),
     ],
 )
 def test_the_state_folder_is_that_of_the_platform(monkeypatch, platform, given, wanted):
@@ -96,5 +96,5 @@ def test_the_state_folder_is_that_of_the_platform(monkeypatch, platform, given, 
     for name, value in given.items():
         monkeypatch.setenv(name, value)
     monkeypatch.setattr("sys.platform", platform)
-    monkeypatch.setattr(Path, "home", lambda: Path("/home/ann"))
+    monkeypatch.setattr(Path, "home", lambda: Path("/users/ann"))
     assert state_folder() == Path(wanted)
