@@ -40,13 +40,12 @@ def make(
     out: Path | None,
     since: Path | None,
     progress: Callable[[Step], None],
-    on_assessment: Callable[[Assessment], None] = lambda _: None,
     on_record: Callable[[str], None] | None = None,
 ) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
     """Read a workbook, run its motions, and write the package and the tables.
 
-    `on_assessment` is given the assessment before the package is made, which takes longer. With
-    `on_record`, the workbook gets what its confirmations cover, and `on_record` a line on that.
+    With `on_record`, the workbook gets what its confirmations cover, and `on_record` a line on
+    that.
     """
     from report.assessment.assess import assess
     from report.assessment.cost import cost
@@ -76,7 +75,6 @@ def make(
     assessment = assess(sheet, shaking)
     if former:
         assessment = with_reissue(assessment, former)
-    on_assessment(assessment)
     changes = _changes(former, assessment)
     evidence = support(assessment)
 

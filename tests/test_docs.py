@@ -11,7 +11,6 @@ import shlex
 import shutil
 import subprocess
 import sys
-from contextlib import ExitStack
 from dataclasses import replace
 from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
@@ -26,7 +25,6 @@ import solver.public
 from cells import cell
 from places import ROOT
 from report.cli.main import main
-from report.memoized import clear, new_generation
 from report.results.publish import STAMP
 from report.typeset.pdf import lay_out
 from sheets import edit, make
@@ -100,8 +98,8 @@ def reported(tmp_path_factory):
 def commanded(folder):
     """The folder after the other commands, and what each printed.
 
-    What one command has computed or laid out the next ones are given, as in `watch`. `batch` starts
-    no processes: it does in tests/report/cli/test_batch.py.
+    What one command has laid out the next ones are given. `batch` starts no processes: it does in
+    tests/report/cli/test_batch.py.
     """
     laid_out, printed = {}, {}
 
@@ -111,15 +109,13 @@ def commanded(folder):
             laid_out[html, files] = lay_out(html, files)
         return laid_out[html, files]
 
-    with pytest.MonkeyPatch.context() as patch, ExitStack() as after:
-        after.callback(clear)
+    with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         patch.setattr(report.typeset.pdf, "lay_out", kept)
         for command in COMMANDS:
             words = shlex.split(command)[1:]
             if words in ELSEWHERE:
                 continue
-            new_generation()
             done = CliRunner().invoke(main, words)
             assert done.exit_code == 0, command + done.output
             printed[shlex.join(words)] = done.output

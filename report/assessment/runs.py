@@ -10,7 +10,6 @@ import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from report.memoized import memoized
 from report.sheet.schema.choices import Direction, ModelChoice
 from report.sheet.schema.scene import Array
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
@@ -104,7 +103,7 @@ class MotionRun:
 
     def history(self) -> SlideHistory:
         """Rerun the governing run for its values at the samples, for plotting only."""
-        return _followed(self.governing.scene, self.governing.solution)
+        return least_model.history(self.governing.scene, self.governing.solution)
 
 
 def scene_key(array: Array) -> Hashable:
@@ -160,18 +159,8 @@ def run_oriented(
     """Run one array under one motion at one orientation; the rest as in `run_motion`."""
     forced = REQUESTED_MODELS.get(array.model if model is None else model)
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
-    solution = _solved(scene, Settings(forced=forced))
+    solution = least_model.solve(scene, Settings(forced=forced))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)
-
-
-@memoized
-def _solved(scene: Scene, settings: Settings) -> Solution:
-    return least_model.solve(scene, settings)
-
-
-@memoized
-def _followed(scene: Scene, solution: Solution) -> SlideHistory:
-    return least_model.history(scene, solution)
 
 
 def nan_is_worst(value: float) -> float:

@@ -20,7 +20,6 @@ from report.assessment.clearances import ClearanceCheck
 from report.assessment.friction import SHIFT, with_friction
 from report.assessment.project import Assessment
 from report.assessment.runs import MotionRun
-from report.memoized import memoized
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, SlideResult, Status
 from solver.rivals.methods import METHODS, Method
 from solver.rules.limit import Limit
@@ -96,7 +95,6 @@ class Accuracy:
         )
 
 
-@memoized
 def rivals(array: ArrayAssessment) -> Rivals:
     """Run the governing motion of an array by every method."""
     motion = array.worst

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.assessment.project import Assessment
-from report.memoized import memoized
 from report.motions.targets import TargetSpectrum
 from report.sheet.schema.choices import RecordedAt
 from report.words.units import G_MPS2
@@ -156,7 +155,6 @@ def _scaled(motion: Motion, a_mps2: Floats) -> Record:
     return Record(name=motion.id, dt_s=motion.dt_s, a_mps2=a_mps2 * motion.scale)
 
 
-@memoized
 def _ordinates(a_mps2: Floats, dt_s: float) -> Floats:
     ordinates = np.empty(PERIODS_S.size)
     # The limits have been checked at the same points, of the record before it is scaled.

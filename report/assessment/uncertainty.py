@@ -28,7 +28,6 @@ from report.assessment.trials import (
     trials_of,
     with_mu,
 )
-from report.memoized import memoized
 from report.sheet.schema.scene import Array
 from solver.model import (
     Floats,
@@ -179,7 +178,6 @@ def _cell(array: ArrayAssessment, cell: tuple[float, float]) -> list[SlideResult
     return [_slid(replace(scene, slope_rad=slope, friction=friction)) for scene in scenes]
 
 
-@memoized
 def _slid(scene: Scene) -> SlideResult:
     """Slide with every component of the scene, to the tolerance of the grid."""
     if scene.friction.is_constant and not scene.ay_mps2.any():

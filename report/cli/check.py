@@ -36,10 +36,9 @@ STEPS = 3
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
-@click.option("--repair", is_flag=True, hidden=True)
 @QUIET
 @AS_JSON
-def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
+def check(source: Path, quiet: bool, as_json: bool) -> None:
     """Check the input, and print what is known without a run; write nothing.
 
     An error stops the work. A warning may be intended: give its name, printed in brackets, and a
@@ -47,11 +46,6 @@ def check(source: Path, repair: bool, quiet: bool, as_json: bool) -> None:
     formula of the sheet that was typed over, or a source other than that in suite.json. A note
     needs no answer.
     """
-    if repair:
-        raise click.UsageError(
-            "--repair is gone: nothing is read from the formulas of the workbook; where one was"
-            " typed over, copy it from a fresh workbook (roofslip new FOLDER)"
-        )
     with (
         input_errors(source, as_json=as_json),
         Progress(STEPS, quiet=quiet or as_json) as progress,

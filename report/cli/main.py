@@ -42,12 +42,16 @@ from report.cli.verify import verify
 from report.cli.verify_package import verify_package
 from report.cli.watch import watch
 from report.elsewhere import stay_apart
-from report.words.command import called
+from report.words.command import as_typed, called
 
-_NO_SBOM = (
-    "There is no command 'sbom' any more. Each package lists the versions of the software that "
-    "matters on its page Records and software and in its attachment roofslip.json."
-)
+_FORMER = {
+    "sbom": "Each package lists the versions of the software that matters on its page Records and "
+    "software and in its attachment roofslip.json.",
+    "check --repair": "Nothing is read from the formulas of the workbook. Where one was typed "
+    "over, copy it from a fresh workbook (roofslip new FOLDER).",
+    "watch --once": "Give roofslip report.",
+}
+"""What replaces a command or an option, for one version after it was removed."""
 
 
 class _Commands(SectionedGroup):
@@ -70,8 +74,7 @@ class _Commands(SectionedGroup):
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """Return a command by its name; for one version, what replaces a former one is said."""
-        if name == "sbom":
-            raise click.UsageError(_NO_SBOM, ctx)
+        _replaced(name, ctx)
         return super().get_command(ctx, name)
 
     def invoke(self, ctx: click.Context) -> Any:
@@ -79,6 +82,9 @@ class _Commands(SectionedGroup):
         with interrupts() as received:
             try:
                 return super().invoke(ctx)
+            except click.NoSuchOption as error:
+                _replaced(f"{ctx.invoked_subcommand} {error.option_name}", ctx)
+                raise
             except Exception as error:
                 # Compiled code (pydantic's is) may raise an error of its own for the interrupt.
                 if not received and not isinstance(error, click.Abort):
@@ -87,6 +93,12 @@ class _Commands(SectionedGroup):
                 pass
         click.echo("Interrupted: the work was cut off.", err=True)
         sys.exit(INTERRUPTED)
+
+
+def _replaced(former: str, ctx: click.Context) -> None:
+    """Refuse a command or an option that was removed, with what replaces it."""
+    if former in _FORMER:
+        raise click.UsageError(as_typed(f"'{former}' was removed. {_FORMER[former]}"), ctx)
 
 
 @click.group(

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -111,29 +111,44 @@ def report(
     Beside the date of each confirmation, the workbook gets what it covered, once: where these
     inputs change later, the package has a condition.
     """
-    from report.making import STEPS, make
-
     lines: list[str] = []
-    with (
-        input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
-        Progress(STEPS, quiet=quiet) as progress,
-        no_collections(),
-    ):
-        made = make(source, out, since, progress, on_record=lines.append)
-    warn_of_others(made[1] / "calc-package.pdf")
+    made = package(source, out, since, quiet=quiet, as_json=as_json, on_record=lines.append)
     if as_json:
         print_json(_document(*made))
     elif not quiet:
-        _print(*made)
+        show(*made)
         for line in lines:
             say(line)
     if fail_on_ng and made[0].verdict != "OK":
         sys.exit(NOT_OK)
 
 
-def _print(
+def package(
+    source: Path,
+    out: Path | None,
+    since: Path | None = None,
+    *,
+    quiet: bool = False,
+    as_json: bool = False,
+    on_record: Callable[[str], None] | None = None,
+) -> tuple[Assessment, Path, Mapping[str, bytes], Changes]:
+    """Make a package as `make` does; an input error is printed, and ends with exit code 2."""
+    from report.making import STEPS, make
+
+    with (
+        input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
+        Progress(STEPS, quiet=quiet) as progress,
+        no_collections(),
+    ):
+        made = make(source, out, since, progress, on_record)
+    warn_of_others(made[1] / "calc-package.pdf")
+    return made
+
+
+def show(
     assessment: Assessment, folder: Path, files: Mapping[str, bytes], changed: Changes
 ) -> None:
+    """Print the summary of a package, and its files."""
     from report.pages.summary import summary
 
     for line in summary(assessment):

@@ -15,13 +15,13 @@ import shutil
 import signal
 import sys
 import tempfile
-import threading
 import time
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cached_property
 from pathlib import Path
+from threading import Event, Thread
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
@@ -297,6 +297,15 @@ def no_collections() -> Iterator[None]:
         gc.enable()
 
 
+def collect() -> None:
+    """Free what `no_collections` has exempted."""
+    gc.unfreeze()
+    # In another thread: within a finalizer the main one would lose Ctrl+C.
+    collection = Thread(target=gc.collect)
+    collection.start()
+    collection.join()
+
+
 class Progress:
     """Prints the current step: on a terminal a line with the time left, elsewhere plain lines.
 
@@ -322,8 +331,8 @@ class Progress:
         # Closed, it is None.
         self._terminal = not quiet and sys.stderr is not None and sys.stderr.isatty()
         self._done, self._doing, self._expected_s = 0, "", 0.0
-        self._ended = threading.Event()
-        self._rewriting = threading.Thread(target=self._rewrite, daemon=True)
+        self._ended = Event()
+        self._rewriting = Thread(target=self._rewrite, daemon=True)
 
     def __enter__(self) -> Progress:
         if self._terminal:

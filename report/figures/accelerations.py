@@ -13,7 +13,6 @@ from matplotlib.axes import Axes
 from report.drawing.widths import tick_text
 from report.figures.base import GRAY, INK, Broken, canvas, style, svg_text
 from report.figures.history import envelope
-from report.memoized import memoized
 from report.words.units import G_MPS2, round_below
 from solver.model import Floats, Motion
 
@@ -24,7 +23,6 @@ _BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at l
 _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
-@memoized
 def accelerations(motions: Sequence[Motion]) -> str:
     """Return the scaled accelerations of the motions over time, all at one scale.
 

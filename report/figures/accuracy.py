@@ -13,7 +13,6 @@ from report.assessment.sensitivity import MethodRun, Rivals
 from report.figures.base import ACCENT, framed, labeled, style, svg_text
 from report.figures.methods import LOOKS
 from report.figures.scales import ticks
-from report.memoized import memoized
 from report.words.letters import lettered, power_of_ten
 from solver.rivals.methods import METHODS
 
@@ -21,7 +20,6 @@ FLOOR = 1e-16  # an error of zero is drawn here: the resolution of a double
 _STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 
 
-@memoized
 def work_precision(rivals: Rivals) -> str:
     """Return the error in PRD against steps per sampling interval, one line per method.
 

@@ -17,13 +17,11 @@ from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
 from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
 from report.figures.base import ACCENT, GRAY, INK, framed, style, svg_text
-from report.memoized import memoized
 from report.words.counts import ranged
 from report.words.letters import cut
 from report.words.units import Unit
 
 
-@memoized
 def comparison(groups: Sequence[Sequence[ArrayAssessment]], us_first: bool) -> str:
     """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays."""
     first, second = UnitFormat(us_first).units()

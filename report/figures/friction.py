@@ -24,7 +24,6 @@ from report.figures.base import (
     svg_text,
 )
 from report.figures.levels import dot_name
-from report.memoized import memoized
 from report.sheet.schema.scene import Array
 from report.words.counts import ids_by
 from report.words.units import Quantity, Unit, number
@@ -48,7 +47,6 @@ _LEADER_IN = 0.15
 _LABEL_GAP = 0.12  # least distance of two labels, as a share of the height
 
 
-@memoized
 def friction_by_velocity(
     runs: Sequence[FrictionRun],
     arrays: Sequence[Array],

@@ -25,7 +25,6 @@ from report.figures.base import (
     style,
     svg_text,
 )
-from report.memoized import memoized
 from report.words.units import Unit, number
 from solver.model import Floats, SlideHistory
 
@@ -38,7 +37,6 @@ MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
 
-@memoized
 def histories(
     motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
 ) -> str:

@@ -17,7 +17,6 @@ from report.assessment.runs import MotionRun
 from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
 from report.figures.base import GRAY, INK, WIDTH_IN, canvas, style, svg_text
-from report.memoized import memoized
 from report.words.units import round_below
 from solver.model import Floats, SlideHistory
 
@@ -27,7 +26,6 @@ TITLE_IN, FOOT_IN, APART_IN = 0.2, 0.3, 0.1
 STEP_IN = 0.008  # between points of a path: what print resolves
 
 
-@memoized
 def hodographs(
     motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
 ) -> str:

@@ -12,7 +12,6 @@ from matplotlib.patches import Arc, Polygon
 from report.assessment.friction import mu_words
 from report.drawing.section import drawn_slope_deg
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, canvas, style, svg_text
-from report.memoized import memoized
 from report.sheet.schema.scene import Array
 from report.sheet.schema.shapes import Point
 from report.words.units import Quantity, number, pair
@@ -36,7 +35,6 @@ class _Roof(NamedTuple):
         return self.x + s * c + n * d, self.y - s * d + n * c
 
 
-@memoized
 def array_section(array: Array, us_first: bool) -> str:
     """Return the section with b, c, slope and friction, and the forces during downslope slip."""
     drawn = math.radians(drawn_slope_deg(array))

@@ -16,7 +16,6 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLoca
 
 from report.assessment.spectra import Spectra
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, bare, style, svg_text
-from report.memoized import memoized
 from solver.model import Floats
 
 _ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 1.15, 0.26, 0.5, 0.24
@@ -34,7 +33,6 @@ _DASHES = (0, (5, 1.5))
 _THIN = 2  # the narrow panel shows every second period: the wide one has all of them
 
 
-@memoized
 def spectra(parts: Sequence[Spectra]) -> str:
     """Return a row per component: spectra over period, and their ratio to the target.
 

@@ -18,13 +18,11 @@ from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
 from report.figures.base import GRAY, INK, bare, framed, style, svg_text
 from report.figures.levels import LEAST_M, dot_name, dots, drawn_levels, is_decade
-from report.memoized import memoized
 from solver.model import Floats
 
 TYPE_PT = 9.0  # at smaller sizes the renderer clips the first letter of a label
 
 
-@memoized
 def contours(surface: ResponseSurface, arrays: Sequence[ArrayAssessment], us_first: bool) -> str:
     """Return the contours in the primary unit, with a dot for each array of that friction law."""
     unit = UnitFormat(us_first).units()[0]

@@ -95,7 +95,6 @@ NIGHT = {
     "study": ["study", ROOT / "projects" / "study", "--out", "OUT"],
     "suite": ["motion", "suite", "OUT", "--sds", 1, "--code", "asce7-16", "--count", 1],
     "verify": ["verify", "--quick", "--out", "OUT"],
-    "watch": ["watch", "--once", "PROJECT"],
 }
 
 
@@ -135,6 +134,25 @@ def test_nor_does_a_worker_which_works_in_that_folder(stranger, tmp_path):
     script = tmp_path / "script.py"
     script.write_text(WORKER)
     stranger(script, program=sys.executable)
+
+
+WATCH = """
+import sys
+from report.cli import watch
+from report.cli.main import main
+def interrupted():
+    raise KeyboardInterrupt
+watch.collect = interrupted  # after the first round
+main(["watch", sys.argv[1]])
+"""
+
+
+@pytest.mark.nightly("report/elsewhere.py")
+def test_nor_does_a_watch_until_it_ends(stranger, project, tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(WATCH)
+    told = stranger(script, project, program=sys.executable, code=130)
+    assert f"{project / 'out' / 'calc-package.pdf'}" in told
 
 
 @pytest.mark.nightly("report/elsewhere.py", "report/workers.py")

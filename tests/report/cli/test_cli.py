@@ -174,6 +174,14 @@ def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_pa
     assert not (tmp_path / "out").exists()
 
 
-def test_the_former_command_sbom_says_what_replaces_it():
-    told = " ".join(refused("sbom", "--out", "sbom.json").split())
-    assert "Each package lists the versions of the software that matters" in told
+@pytest.mark.parametrize(
+    ("former", "replacement"),
+    [
+        ("sbom --out sbom.json", "Each package lists the versions of the software that matters"),
+        ("check --repair x", "copy it from a fresh workbook (./roofslip new FOLDER)"),
+        ("watch --once x", "Give ./roofslip report."),
+    ],
+)
+def test_what_was_removed_is_answered_with_what_replaces_it(former, replacement, monkeypatch):
+    monkeypatch.setenv("ROOFSLIP_COMMAND", "./roofslip")
+    assert replacement in " ".join(refused(*former.split()).split())

@@ -19,7 +19,7 @@ TOO_LONG = "File name too long"
         ["check", LONG],
         ["report", LONG],
         ["new", LONG],
-        ["watch", "--once", LONG],
+        ["watch", LONG],
         ["motion", "info", LONG],
         ["motion", "convert", RECORD, LONG],
         ["motion", "info", RECORD, "--plot", f"{LONG}.svg"],

@@ -87,15 +87,6 @@ def test_check_warns_of_each(tmp_path):
         assert f"warning: {at(name)}: " in warned.output
 
 
-def test_repair_is_answered_with_what_takes_its_place(tmp_path):
-    path = make(tmp_path)
-    before = path.read_bytes()
-    done = check("--repair", path)
-    assert done.exit_code == 2
-    assert "copy it from a fresh workbook (roofslip new FOLDER)" in " ".join(done.output.split())
-    assert path.read_bytes() == before
-
-
 def test_a_renamed_sheet_other_units_and_new_rows_give_no_warning(tmp_path):
     def change(book):
         # As Excel does it: what refers to a heading or a sheet follows.
