@@ -6,16 +6,13 @@ happens in either process. Knows nothing of packages. Read `WorkerProcess`.
 
 from __future__ import annotations
 
-import gc
 import json
 import os
 import signal
 import tempfile
 import traceback
-import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from contextlib import contextmanager
 from functools import partial
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection
@@ -31,33 +28,6 @@ _R = TypeVar("_R")
 
 _MOST_JSON = 1 << 27
 _TOLD, _RAISED, _RETURNED = "told", "raised", "returned"
-
-
-def beside() -> None:
-    """Prepare a process that works beside a command."""
-    gc.disable()  # as the command does
-    warnings.filterwarnings("ignore", category=UserWarning)  # the command warns
-
-
-@contextmanager
-def started_worker(prepare: Callable[[], object] = beside) -> Iterator[Executor]:
-    """Yield a worker, or this process where the system does not let another start."""
-    try:
-        worker: Executor = WorkerProcess(prepare)
-    except OSError:
-        worker = SameProcess()
-    with worker:
-        yield worker
-
-
-class SameProcess(Executor):
-    """Runs each function at once, in the process that asks."""
-
-    def submit(self, fn: Callable[_P, _R], /, *args: _P.args, **kwargs: _P.kwargs) -> Future[_R]:
-        """Run a function and return its finished result; an exception is raised here."""
-        done: Future[_R] = Future()
-        done.set_result(fn(*args, **kwargs))
-        return done
 
 
 class WorkerProcess(Executor):

@@ -15,6 +15,7 @@ import report.web.worker  # takes WorkerProcess as it is, before a fixture repla
 import report.workers  # before any test loads openpyxl: the package decides what that reads with
 from browsing import chromium
 from places import RECORDS, SAMPLES
+from processes import SameProcess
 
 G = 9.80665
 
@@ -39,7 +40,7 @@ def one_process():
     """
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(report.workers, "WorkerProcess", lambda _: report.workers.SameProcess())
+        patch.setattr(report.workers, "WorkerProcess", lambda _: SameProcess())
         yield
 
 

@@ -98,8 +98,8 @@ def reported(tmp_path_factory):
 def commanded(folder):
     """The folder after the other commands, and what each printed.
 
-    What one command has laid out the next ones are given. `batch` starts no processes: it does in
-    tests/report/cli/test_batch.py.
+    What one command has laid out the next ones are given. `report` of several projects starts no
+    processes: it does in tests/report/cli/test_several.py.
     """
     laid_out, printed = {}, {}
 

@@ -180,7 +180,7 @@ def test_a_script_of_the_shell_is_posix_sh(name):
 def test_every_command_that_makes_a_pdf_has_its_libraries_looked_after():
     launcher = (ROOT / "roofslip").read_text()
     rooms = ROOT / "report" / "cli"
-    names = ("report", "batch", "watch", "serve", "study", "verify", "verify-package")
+    names = ("report", "watch", "serve", "study", "verify", "verify-package")
     makers = [name for name in names if (rooms / f"{name.replace('-', '_')}.py").is_file()]
     assert makers == list(names)
     assert f"{' | '.join(makers)}) native_libraries" in launcher

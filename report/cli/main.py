@@ -15,7 +15,6 @@ from typing import Any
 
 import click
 
-from report.cli.batch import batch
 from report.cli.check import check
 from report.cli.colors import color_choice
 from report.cli.completion import VARIABLE, completion
@@ -45,6 +44,7 @@ from report.elsewhere import stay_apart
 from report.words.command import as_typed, called
 
 _FORMER = {
+    "batch": "Give its projects to roofslip report.",
     "sbom": "Each package lists the versions of the software that matters on its page Records and "
     "software and in its attachment roofslip.json.",
     "check --repair": "Nothing is read from the formulas of the workbook. Where one was typed "
@@ -128,7 +128,7 @@ def main() -> None:
     stay_apart()
 
 
-main.add_section("Package", report, watch, serve, batch, schema)
+main.add_section("Package", report, watch, serve, schema)
 main.add_section("Sheet", new, check, plan)
 main.add_section("Motions", motion, slide)
 main.add_section("Studies", study)

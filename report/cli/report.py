@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from report.cli.several import report_several
 from report.cli.terminal import (
     AS_JSON,
     FAIL_ON_NG,
@@ -91,7 +92,7 @@ def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) 
 
 
 @click.command()
-@click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
+@click.argument("sources", metavar="DIR|WORKBOOK...", nargs=-1, required=True, type=SOURCE)
 @click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
 @click.option("--since", type=SOURCE, metavar="RESULTS.JSON",
               help="Of a former revision: the package states what changed.")  # fmt: skip
@@ -99,7 +100,7 @@ def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) 
 @QUIET
 @AS_JSON
 def report(
-    source: Path,
+    sources: tuple[Path, ...],
     out: Path | None,
     since: Path | None,
     fail_on_ng: bool,
@@ -110,7 +111,19 @@ def report(
 
     Beside the date of each confirmation, the workbook gets what it covered, once: where these
     inputs change later, the package has a condition.
+
+    Of several projects each has a line in one table; several workbooks of one folder are written to
+    out/NAME/. One with an error stops no other: the exit code is 2 if any input has an error, and 1
+    after an internal error.
     """
+    if len(sources) > 1:
+        if out or since:
+            raise click.UsageError(
+                "--out and --since are of one project; leave them out, and each project is written "
+                "to its own out/, or report each on its own"
+            )
+        report_several(sources, fail_on_ng=fail_on_ng, quiet=quiet, as_json=as_json)
+    (source,) = sources
     lines: list[str] = []
     made = package(source, out, since, quiet=quiet, as_json=as_json, on_record=lines.append)
     if as_json:

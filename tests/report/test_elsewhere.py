@@ -89,7 +89,7 @@ DAY = {
     "slide": ["slide", RECORD, "--slope-deg", 2, "--mu", 0.3],
 }
 NIGHT = {
-    "batch": ["batch", "PROJECT"],
+    "several": ["report", "PROJECT", "PROJECT"],
     "doctor": ["doctor"],
     "serve": ["serve", "--once", "--port", 0],
     "study": ["study", ROOT / "projects" / "study", "--out", "OUT"],
@@ -119,13 +119,13 @@ WORKER = """
 import os, sys
 from importlib import import_module
 from report.cli.main import main
-from report.workers import started_worker
+from report.workers import WorkerProcess
 def tried():
     import_module("ezdxf")
     import_module("matplotlib")
     return os.getcwd()
 if __name__ == "__main__":
-    with started_worker() as worker:
+    with WorkerProcess(str) as worker:
         assert worker.submit(tried).result() == os.getcwd()
 """
 

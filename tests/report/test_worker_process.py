@@ -15,9 +15,8 @@ from pkgutil import iter_modules
 import pytest
 
 import report.assessment
-import report.workers
 from places import ROOT
-from report.workers import SameProcess, WorkerProcess, beside, started_worker, tell
+from report.workers import WorkerProcess, tell
 from solver.model import DefectError, InputError
 
 
@@ -31,7 +30,7 @@ def unpicklable():
 
 @pytest.fixture
 def worker():
-    with WorkerProcess(beside) as process:
+    with WorkerProcess(gc.disable) as process:
         yield process
 
 
@@ -64,7 +63,7 @@ def test_a_process_that_ends_too_soon_is_an_internal_error_and_no_endless_wait(w
 
 
 def fail_while_it_works(asked):
-    with WorkerProcess(beside) as process:
+    with WorkerProcess(gc.disable) as process:
         asked += [process.submit(time.sleep, 300), process.submit(os.getpid)]
         refuse("Site!B5")
 
@@ -80,9 +79,9 @@ def test_an_error_in_the_command_ends_it_in_the_middle_of_a_function():
 
 def test_it_ends_in_the_middle_of_a_function_when_the_command_is_killed():
     code = (
-        "import os, time; from report.workers import WorkerProcess, beside\n"
+        "import gc, os, time; from report.workers import WorkerProcess\n"
         "if __name__ == '__main__':\n"
-        "    worker = WorkerProcess(beside)\n"
+        "    worker = WorkerProcess(gc.disable)\n"
         "    print(worker.submit(os.getpid).result(), flush=True)\n"
         "    worker.submit(time.sleep, 300)\n"
         "    time.sleep(0.5)\n"
@@ -101,18 +100,6 @@ def test_it_ends_in_the_middle_of_a_function_when_the_command_is_killed():
     pytest.fail("the second process is still there")
 
 
-def test_without_a_second_process_the_same_functions_run_in_this_one(monkeypatch):
-    def refused(_):
-        raise OSError("no more processes")
-
-    monkeypatch.setattr(report.workers, "WorkerProcess", refused)
-    with started_worker() as here:
-        assert isinstance(here, SameProcess)
-        assert here.submit(os.getpid).result() == os.getpid()
-        with pytest.raises(InputError):
-            here.submit(refuse, "Site!B5")
-
-
 def tell_twice():
     tell("one")
     tell(2)
@@ -121,7 +108,7 @@ def tell_twice():
 
 def test_a_process_that_is_not_trusted_answers_in_json_and_tells_how_far_it_is():
     heard = []
-    with WorkerProcess(beside, is_trusted=False, told=heard.append) as process:
+    with WorkerProcess(gc.disable, is_trusted=False, told=heard.append) as process:
         assert process.submit(tell_twice).result(timeout=60) == {"done": True}
         assert heard == ["one", 2]
         with pytest.raises(DefectError, match="ended"):
@@ -146,11 +133,11 @@ def send_pickle(folder):
 
 def test_nothing_that_comes_from_a_process_that_is_not_trusted_is_unpickled(tmp_path):
     folder = tmp_path / "unpickled"
-    with WorkerProcess(beside, is_trusted=False) as process:
+    with WorkerProcess(gc.disable, is_trusted=False) as process:
         with pytest.raises(ValueError, match="decode"):
             process.submit(send_pickle, str(folder)).result(timeout=60)
         assert not folder.exists()
-    with WorkerProcess(beside) as process, pytest.raises(TypeError):
+    with WorkerProcess(gc.disable) as process, pytest.raises(TypeError):
         process.submit(send_pickle, str(folder)).result(timeout=60)
     assert folder.exists()
 
@@ -162,13 +149,13 @@ def left_file():
 
 
 def test_what_it_leaves_in_its_temporary_folder_goes_with_it():
-    with WorkerProcess(beside) as process:
+    with WorkerProcess(gc.disable) as process:
         name = process.submit(left_file).result()
         assert os.path.exists(name)
     assert not os.path.exists(os.path.dirname(name))
 
 
-def test_no_part_of_an_assessment_can_change_while_it_is_sent():
+def test_no_part_of_an_assessment_can_change():
     modules = [
         import_module(f"report.assessment.{each.name}")
         for each in iter_modules(report.assessment.__path__)

@@ -14,9 +14,8 @@ import re
 import warnings
 import zipfile
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import ParseError
@@ -65,11 +64,6 @@ class OpenBook:
     # what a package holds, as it was read, by SHA-256: workbook and documents; records
     files: dict[str, bytes] = field(default_factory=dict)
     records: dict[str, bytes] = field(default_factory=dict)
-
-    def __reduce__(self) -> tuple[Callable[[], OpenBook], tuple[()]]:
-        """Reach another process without cells: nothing is read from them once motions run."""
-        same = partial(OpenBook, path=self.path, sha256=self.sha256, calculation=self.calculation)
-        return partial(same, book=Workbook(), scans={}), ()
 
     @property
     def data(self) -> bytes:

@@ -177,6 +177,7 @@ def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_pa
 @pytest.mark.parametrize(
     ("former", "replacement"),
     [
+        ("batch a b", "Give its projects to ./roofslip report."),
         ("sbom --out sbom.json", "Each package lists the versions of the software that matters"),
         ("check --repair x", "copy it from a fresh workbook (./roofslip new FOLDER)"),
         ("watch --once x", "Give ./roofslip report."),

@@ -84,9 +84,9 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     assert "on record" not in done.stdout
 
 
-def test_batch_puts_a_confirmation_on_record(tmp_path):
+def test_a_report_of_several_puts_a_confirmation_on_record(tmp_path):
     path = confirmed(tmp_path)
-    done = run("batch", path)
+    done = run("report", path, path)
     assert f"{path}: {at(PLACES)}: what was confirmed is on record" in done.stdout.splitlines()
     assert read(path).project.options.peer_covered.startswith("2026-03-01: ")
 

@@ -4,7 +4,7 @@ import pytest
 
 from commands import printed, refused
 from places import ROOT
-from report.cli.batch import package
+from report.cli.several import package
 from report.cli.terminal import plain
 from sheets import at, edit, make, type_into
 
@@ -32,7 +32,7 @@ def test_a_name_that_is_too_long_is_an_input_error(arguments, tmp_path, monkeypa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_name_that_is_too_long_is_a_problem_of_its_project_in_a_batch(tmp_path):
+def test_a_name_that_is_too_long_is_a_problem_of_its_project_among_several(tmp_path):
     (problem,) = map(str, package(tmp_path / LONG).problems)
     assert f"the system refuses it ({TOO_LONG})" in problem
 

@@ -3,7 +3,6 @@
 import contextlib
 import io
 import os
-import pickle
 import re
 import zipfile
 from functools import partial
@@ -41,15 +40,6 @@ def rewritten(path, name, change):
 def sheet_part(path, title):
     with zipfile.ZipFile(path) as file:
         return dict(sheet_parts(file))[title]
-
-
-def test_an_open_workbook_reaches_another_process_without_its_cells(tmp_path):
-    book = open_book(make(tmp_path))
-    sent = pickle.dumps(book)
-    assert len(sent) < 10_000
-    arrived = pickle.loads(sent)
-    assert (arrived.path, arrived.sha256) == (book.path, book.sha256)
-    assert arrived.scans == {}
 
 
 def test_openpyxl_reads_with_the_parser_of_python():

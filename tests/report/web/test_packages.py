@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from processes import SameProcess
 from report.making import Step
 from report.web.packages import Packages, State
 from report.web.sessions import Session
 from report.web.worker import in_words, made
-from report.workers import SameProcess
 from solver.model import DefectError, InputError
 
 SESSION = Session(id="s", folder=Path("/nowhere"), used_s=0.0)

@@ -1,4 +1,4 @@
-"""The command `roofslip batch`: the packages of many projects, in as many processes as cores.
+"""`roofslip report` of several projects, in as many processes as cores.
 
 A project that fails stops no other. Read `report.making` first.
 """
@@ -12,24 +12,20 @@ import time
 import traceback
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
 from report.cli.colors import colored
 from report.cli.terminal import (
-    AS_JSON,
-    FAIL_ON_NG,
     INPUT_ERROR,
     INTERNAL_ERROR,
     NOT_OK,
-    QUIET,
     SCHEMA_VERSION,
-    SOURCE,
     Progress,
     no_collections,
     outputs_of,
@@ -48,7 +44,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BatchOutcome:
+class ReportOutcome:
     """What became of one project, as finished text.
 
     Attributes
@@ -92,20 +88,19 @@ class BatchOutcome:
         return tuple(sorted(self.ratios, key=lambda r: (r != r, r))[-1:])
 
 
-@click.command()
-@click.argument("sources", metavar="DIR|WORKBOOK...", nargs=-1, required=True, type=SOURCE)
-@FAIL_ON_NG
-@QUIET
-@AS_JSON
-def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: bool) -> None:
-    """Write the packages of many projects, each to its own out/, and print one table.
-
-    Several workbooks of one folder each have a folder out/NAME/. A project with an error stops no
-    other. The exit code is 2 if any input has an error, and 1 after an internal error.
-    """
+def report_several(
+    sources: Sequence[Path], *, fail_on_ng: bool, quiet: bool, as_json: bool
+) -> NoReturn:
+    """Write the packages, print one table, and end with the exit code of the worst."""
     from report.sheet.checking.grouped import grouped
 
-    outcomes = run(sources, quiet=quiet or as_json)
+    try:
+        outcomes = run(sources, quiet=quiet or as_json)
+    except OSError as error:
+        raise click.UsageError(
+            f"no process can be started beside this one ({error.strerror}): several projects have "
+            "one each; give one project at a time"
+        ) from error
     if as_json:
         print_json(document(outcomes))
     elif not quiet:
@@ -122,7 +117,7 @@ def batch(sources: tuple[Path, ...], fail_on_ng: bool, quiet: bool, as_json: boo
     sys.exit(exit_code(outcomes, fail_on_ng=fail_on_ng))
 
 
-def exit_code(outcomes: Sequence[BatchOutcome], *, fail_on_ng: bool) -> int:
+def exit_code(outcomes: Sequence[ReportOutcome], *, fail_on_ng: bool) -> int:
     """Return the code of the worst outcome."""
     if any(outcome.internal for outcome in outcomes):
         return INTERNAL_ERROR
@@ -132,7 +127,7 @@ def exit_code(outcomes: Sequence[BatchOutcome], *, fail_on_ng: bool) -> int:
     return NOT_OK if fail_on_ng and is_not_ok else 0
 
 
-def document(outcomes: Sequence[BatchOutcome]) -> Mapping[str, Any]:
+def document(outcomes: Sequence[ReportOutcome]) -> Mapping[str, Any]:
     """Return the outcomes for JSON, with null for no value."""
     return {
         "schema_version": SCHEMA_VERSION,
@@ -151,9 +146,9 @@ def document(outcomes: Sequence[BatchOutcome]) -> Mapping[str, Any]:
     }
 
 
-def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
+def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[ReportOutcome]:
     """Make each package once, and return the outcomes in the order given."""
-    from report.workers import started_worker
+    from report.workers import WorkerProcess
     from solver.model import DefectError
 
     books = [workbook_of(source) for source in sources]
@@ -163,10 +158,10 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
     homes = Counter(workbook.parent for workbook in distinct if os.path.isfile(workbook))
     shared = {source for workbook, source in distinct.items() if homes[workbook.parent] > 1}
     count = min(len(distinct), os.cpu_count() or 1)
-    waiting, outcomes = [*distinct.values()][::-1], dict[Path, BatchOutcome]()
-    running: dict[Future[BatchOutcome], tuple[Path, Executor]] = {}
+    waiting, outcomes = [*distinct.values()][::-1], dict[Path, ReportOutcome]()
+    running: dict[Future[ReportOutcome], tuple[Path, WorkerProcess]] = {}
     with Progress(len(distinct), quiet=quiet) as progress, ExitStack() as stack:
-        idle = [stack.enter_context(started_worker(show_warnings)) for _ in range(count)]
+        idle = [stack.enter_context(WorkerProcess(show_warnings)) for _ in range(count)]
         while waiting or running:
             while waiting and idle:
                 source, worker = waiting.pop(), idle.pop()
@@ -178,13 +173,13 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[BatchOutcome]:
                 try:
                     outcomes[source] = future.result()
                 except DefectError as error:
-                    outcomes[source] = BatchOutcome(source=source, internal=str(error))
-                    worker = stack.enter_context(started_worker(show_warnings))
+                    outcomes[source] = ReportOutcome(source=source, internal=str(error))
+                    worker = stack.enter_context(WorkerProcess(show_warnings))
                 idle.append(worker)
     return [outcomes[source] for source in distinct.values()]
 
 
-def package(source: Path, is_shared: bool = False) -> BatchOutcome:
+def package(source: Path, is_shared: bool = False) -> ReportOutcome:
     """Make the package of one project; every error is part of the outcome.
 
     Where its folder is that of others as well, to a folder of its own below out/.
@@ -203,18 +198,18 @@ def package(source: Path, is_shared: bool = False) -> BatchOutcome:
             made = make(source, out, None, lambda _: None, on_record=lines.append)
         assessment, folder, *_ = made
         warn_of_others(folder / "calc-package.pdf")
-        done = BatchOutcome(
+        done = ReportOutcome(
             source=source,
             verdict=assessment.verdict.value,
             ratios=tuple(gap.demand_capacity for gap in assessment.clearances),
             package=str(folder / "calc-package.pdf"),
         )
     except InputError as error:
-        done = BatchOutcome(source=source, problems=error.parts)
+        done = ReportOutcome(source=source, problems=error.parts)
     except OSError as error:
-        done = BatchOutcome(source=source, problems=(system_problem(error),))
+        done = ReportOutcome(source=source, problems=(system_problem(error),))
     except Exception:
-        done = BatchOutcome(source=source, internal=traceback.format_exc())
+        done = ReportOutcome(source=source, internal=traceback.format_exc())
     if not done.verdict:
         left = (outputs_of(source, out), *left)
     return replace(done, lines=tuple(lines), left=left, seconds=time.monotonic() - started)
@@ -223,7 +218,7 @@ def package(source: Path, is_shared: bool = False) -> BatchOutcome:
 _COLUMNS = ("project", "verdict", "D/C", "time", "package")
 
 
-def table(outcomes: Sequence[BatchOutcome]) -> Iterator[str]:
+def table(outcomes: Sequence[ReportOutcome]) -> Iterator[str]:
     """Return the headings and a line for each project."""
     from report.words.formats import aligned
     from report.words.units import ratio
