@@ -40,6 +40,7 @@ from report.cli.terminal import (
 from report.words.counts import numbered
 
 if TYPE_CHECKING:
+    from report.workers import WorkerProcess
     from solver.model import Problem
 
 
@@ -94,13 +95,7 @@ def report_several(
     """Write the packages, print one table, and end with the exit code of the worst."""
     from report.sheet.checking.grouped import grouped
 
-    try:
-        outcomes = run(sources, quiet=quiet or as_json)
-    except OSError as error:
-        raise click.UsageError(
-            f"no process can be started beside this one ({error.strerror}): several projects have "
-            "one each; give one project at a time"
-        ) from error
+    outcomes = run(sources, quiet=quiet or as_json)
     if as_json:
         print_json(document(outcomes))
     elif not quiet:
@@ -148,7 +143,6 @@ def document(outcomes: Sequence[ReportOutcome]) -> Mapping[str, Any]:
 
 def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[ReportOutcome]:
     """Make each package once, and return the outcomes in the order given."""
-    from report.workers import WorkerProcess
     from solver.model import DefectError
 
     books = [workbook_of(source) for source in sources]
@@ -161,7 +155,7 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[ReportOutcome]:
     waiting, outcomes = [*distinct.values()][::-1], dict[Path, ReportOutcome]()
     running: dict[Future[ReportOutcome], tuple[Path, WorkerProcess]] = {}
     with Progress(len(distinct), quiet=quiet) as progress, ExitStack() as stack:
-        idle = [stack.enter_context(WorkerProcess(show_warnings)) for _ in range(count)]
+        idle = [stack.enter_context(_worker()) for _ in range(count)]
         while waiting or running:
             while waiting and idle:
                 source, worker = waiting.pop(), idle.pop()
@@ -174,9 +168,21 @@ def run(sources: Sequence[Path], *, quiet: bool) -> Sequence[ReportOutcome]:
                     outcomes[source] = future.result()
                 except DefectError as error:
                     outcomes[source] = ReportOutcome(source=source, internal=str(error))
-                    worker = stack.enter_context(WorkerProcess(show_warnings))
+                    worker = stack.enter_context(_worker())
                 idle.append(worker)
     return [outcomes[source] for source in distinct.values()]
+
+
+def _worker() -> WorkerProcess:
+    from report.workers import WorkerProcess
+
+    try:
+        return WorkerProcess(show_warnings)
+    except OSError as error:
+        raise click.UsageError(
+            f"the system starts no other process ({error.strerror}), and several projects need"
+            " them; give one project at a time"
+        ) from error
 
 
 def package(source: Path, is_shared: bool = False) -> ReportOutcome:
