@@ -155,7 +155,8 @@ def make_plain_when_filled(sheet: Worksheet, cells: str) -> None:
 
 def is_answer(cell: Any) -> bool:
     """Whether a cell is marked as computed."""
-    return bool(cell.has_style and cell.fill.fgColor.rgb == ANSWER_FILL.fgColor.rgb)
+    # Excel and LibreOffice save the color with another opacity, in its first two digits.
+    return bool(cell.has_style and str(cell.fill.fgColor.rgb)[2:] == ANSWER_FILL.fgColor.rgb[2:])
 
 
 def put_answer(cell: Any, formula: str, number_format: str = "General") -> None:

@@ -10,7 +10,7 @@ from report.cli.main import main
 from report.sheet.reading.archive import open_book
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.live import findings, overwritten
-from sheets import at, edit, formula_cells, make, put, retitle, said, type_into
+from sheets import at, edit, formula_cells, make, pack, parts, put, retitle, said, type_into
 
 
 def lost(path):
@@ -128,3 +128,11 @@ def test_the_formulas_of_158bb098_are_no_reason_to_warn(tmp_path, name):
     assert lost(type_into(path, {"Arrays/A1/Status": "done", "Start/Site": 3})) == [
         at("Site/S_DS/Computed")
     ]
+
+
+def test_a_color_that_a_program_saves_as_opaque_is_that_color(tmp_path):
+    path = edit(make(tmp_path), typed_over)
+    files = parts(path)
+    assert b'rgb="00E3EDF5"' in files["xl/styles.xml"]
+    files["xl/styles.xml"] = files["xl/styles.xml"].replace(b'rgb="00', b'rgb="FF')
+    assert tuple(lost(pack(path, files))) == said(*OVER)
