@@ -49,7 +49,7 @@ _FORMER = {
     "software and in its attachment roofslip.json.",
     "check --repair": "Nothing is read from the formulas of the workbook. Where one was typed "
     "over, copy it from a fresh workbook (roofslip new FOLDER).",
-    "watch --once": "Give roofslip report.",
+    "watch --once": "Run roofslip report in its place.",
 }
 """What replaces a command or an option, for one version after it was removed."""
 

@@ -180,7 +180,7 @@ def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_pa
         ("batch a b", "Give its projects to ./roofslip report."),
         ("sbom --out sbom.json", "Each package lists the versions of the software that matters"),
         ("check --repair x", "copy it from a fresh workbook (./roofslip new FOLDER)"),
-        ("watch --once x", "Give ./roofslip report."),
+        ("watch --once x", "Run ./roofslip report in its place."),
     ],
 )
 def test_what_was_removed_is_answered_with_what_replaces_it(former, replacement, monkeypatch):
