@@ -2,11 +2,13 @@
 
 import os
 import re
+import secrets
 import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 
 import pytest
 
@@ -18,7 +20,9 @@ DESK = {"width": 1280, "height": 720}
 TABLET = {"width": 800, "height": 1100}
 PHONE = {"width": 390, "height": 844}
 ALONE = "http://scripts.test"
-_ANSWERED = re.compile(r"the server responded with a status of (409|412|422|503)|ERR_FAILED")
+_ANSWERED = re.compile(
+    r"the server responded with a status of (401|403|409|412|422|503)|ERR_FAILED"
+)
 _KINDS = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 
 
@@ -44,7 +48,7 @@ def chromium():
 
 @contextmanager
 def quiet_page(browser, **options):
-    """Yield a page of a session of its own; what its console says or its policy refuses fails."""
+    """Yield a tab of its own; what its console says or its policy refuses fails."""
     context = browser.new_context(viewport=DESK, **options)
     context.set_default_timeout(15_000)
     page = context.new_page()
@@ -79,15 +83,21 @@ def serve_scripts(page):
 
 @contextmanager
 def served(root=ROOT):
-    """Yield a server's address with its token, and its process, which ends with the test."""
-    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
-    # Its processes import what it does, whatever version is installed or asks.
-    env = os.environ | {"PYTHONPATH": str(root)}
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=root, env=env) as server:
-        try:
-            yield server.stdout.readline().strip(), server.pid
-        finally:
-            server.terminate()
+    """Yield a server's address, which stays good, and its process, which ends with the test."""
+    with NamedTemporaryFile("w", suffix=".txt") as token:
+        token.write(secrets.token_urlsafe(24))
+        token.flush()
+        command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
+        command += ["--token-file", token.name]
+        # Its processes import what it does, whatever version is installed or asks.
+        env = os.environ | {"PYTHONPATH": str(root)}
+        with subprocess.Popen(
+            command, stdout=subprocess.PIPE, text=True, cwd=root, env=env
+        ) as server:
+            try:
+                yield server.stdout.readline().strip(), server.pid
+            finally:
+                server.terminate()
 
 
 def processes_of(pid):
@@ -97,9 +107,13 @@ def processes_of(pid):
 
 
 def opened(page, address):
-    """Open the page and wait for the first verdict, for which a cold server reads the example."""
+    """Open the example and wait for its verdict, for which a cold server reads it first."""
     page.goto(address, timeout=60_000)
     page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
+    if page.locator("#welcome").is_hidden():  # another page has opened another project
+        page.click("#example")
+        page.wait_for_selector("#welcome:visible")
+        at_rest(page)
 
 
 def at_rest(page):

@@ -1,4 +1,4 @@
-"""The command `roofslip serve`: the page, for the browser of this machine or of others.
+"""The command `roofslip serve`: the page in the browser, for one engineer.
 
 Parses, listens and prints; `report.web` answers. Read `serve`.
 """
@@ -7,19 +7,19 @@ from __future__ import annotations
 
 import errno
 import ipaddress
+import os
 import re
-import secrets
 import signal
 import socket
 import sys
-import tempfile
 import threading
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -28,6 +28,8 @@ from report.cli.values import Existing
 
 if TYPE_CHECKING:
     import uvicorn
+
+    from report.web.access import Keys
 
 LOOPBACK, PORT = "127.0.0.1", 8765
 HTTP_PORT = 80
@@ -38,6 +40,7 @@ _NEEDED = {"starlette": "starlette", "uvicorn": "uvicorn", "python_multipart": "
 _NOT_ENCRYPTED = (
     "warning: the connection is not encrypted; put a reverse proxy with TLS in front of it"
 )
+_MORE = "Press Enter for another address, Ctrl+C to end."
 _STOPPED_S = 3
 _VISIT_S = 120.0
 
@@ -50,7 +53,7 @@ _VISIT_S = 120.0
               "other machines reach the page. Needs --token-file.")  # fmt: skip
 @click.option("--token-file", type=Existing(dir_okay=False),
               help=f"File with the token of the address: {SHORTEST_TOKEN} letters and digits or "
-              "more.")  # fmt: skip
+              "more, which stays good. Without it, an address is good once.")  # fmt: skip
 @click.option("--once", is_flag=True, help="Load the page with the example as a browser does, "
               "print what it took, and end.")  # fmt: skip
 def serve(
@@ -58,27 +61,33 @@ def serve(
 ) -> None:
     """Show the page in the browser: drop a workbook, move the sliders, take the package.
 
-    Prints the address with its token, and serves until Ctrl+C. Without --host, only this machine
-    can reach it. Every visitor has a session, whose files are removed after an hour without use.
-    A reverse proxy must ask for the page under the host and port of the printed address.
+    Prints the address with its token, and serves one engineer until Ctrl+C; then what was uploaded
+    and made is removed. On a terminal, Enter prints another address, for another tab. Without
+    --host, only this machine can reach the page. A reverse proxy must ask for it under the host and
+    port of the printed address.
     """
     _check_packages()
-    from report.web.own_folder import own_folder
+    from report.web.access import Keys
 
     if host is not None and token_file is None:
         raise click.UsageError("--host needs --token-file: a file with the token of the address")
-    token = secrets.token_urlsafe(24) if token_file is None else _token(token_file)
+    lasting = "" if token_file is None else _token(token_file)
+    keys = Keys(lasting)
     with ExitStack() as stack:
         listening = stack.enter_context(listen(host or LOOPBACK, port))
         with input_errors(Path("serve")):
-            folder = stack.enter_context(own_folder(Path(tempfile.gettempdir())))
-        port = listening.getsockname()[1]
-        name, hosts = names_of(host, port)
-        address = f"http://{name}:{port}/?token={token}"
+            temporary = TemporaryDirectory(prefix="roofslip-serve-", ignore_cleanup_errors=True)
+            folder = Path(stack.enter_context(temporary))
+        name, hosts = names_of(host, listening.getsockname()[1])
+        page = f"http://{name}:{listening.getsockname()[1]}/"
+        address = f"{page}?token={lasting or keys.token()}"
         click.echo(address)
         if host is not None:
             click.echo(_NOT_ENCRYPTED, err=True)
-        server = _server(folder, token, hosts, port)
+        if not once and not lasting and sys.stdin is not None and sys.stdin.isatty():
+            click.echo(_MORE, err=True)
+            threading.Thread(target=_print_more, args=(page, keys), daemon=True).start()
+        server = _server(folder, keys, hosts)
         visit = _Visit(server, address)
         if once:
             visit.start()
@@ -94,6 +103,13 @@ def serve(
     if once:
         click.echo(visit.sentence)
         sys.exit(0 if visit.is_answered else INTERNAL_ERROR)
+
+
+def _print_more(page: str, keys: Keys) -> None:
+    """Print an address for each line that is typed."""
+    # Not `sys.stdin`: a thread that waits in it holds up the end of the program.
+    while os.read(sys.stdin.fileno(), 1000):
+        click.echo(f"{page}?token={keys.token()}")
 
 
 def _check_packages() -> None:
@@ -145,20 +161,19 @@ def listen(host: str, port: int) -> socket.socket:
         sys.exit(INPUT_ERROR)
 
 
-def _server(folder: Path, token: str, hosts: Sequence[str], port: int) -> uvicorn.Server:
+def _server(folder: Path, keys: Keys, hosts: Sequence[str]) -> uvicorn.Server:
     import uvicorn
 
-    from report.web.access import Gate
     from report.web.app import made
-    from report.web.connections import TimedProtocol
-    from report.web.sessions import Sessions
+    from report.web.connections import Strangers
 
-    gate = Gate(token=token, hosts=hosts, cookie=f"roofslip-{port}")
+    strangers = Strangers()
     return uvicorn.Server(
         uvicorn.Config(
-            made(gate, Sessions(folder)),
-            http=TimedProtocol,
-            ws="none",  # another protocol has none of its limits
+            made(keys, folder, hosts, strangers),
+            http=strangers.protocol(),
+            ws="none",  # its connections would not be told
+            proxy_headers=False,
             log_level="warning",
             access_log=False,  # the first address has the token
             server_header=False,
@@ -179,16 +194,23 @@ class _Visit(threading.Thread):
     def run(self) -> None:
         """Load the page and its first answer."""
         import json
-        from http.cookiejar import CookieJar
-        from urllib.request import HTTPCookieProcessor, ProxyHandler, build_opener
+        from urllib.request import ProxyHandler, Request, build_opener
+
+        from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER
 
         began = time.monotonic()
         # Only this server is asked, and no proxy of the environment.
-        browser = build_opener(ProxyHandler({}), HTTPCookieProcessor(CookieJar()))
-        page, _, _ = self._address.partition("?")
+        browser = build_opener(ProxyHandler({}))
+        page, _, token = self._address.partition("/?token=")
+
+        def asked(path: str, method: str, **headers: str) -> Any:
+            request = Request(page + path, headers=headers, method=method)
+            return json.load(browser.open(request, timeout=_VISIT_S))
+
         try:
             browser.open(self._address, timeout=_VISIT_S).read()
-            state = json.load(browser.open(f"{page}api/state", timeout=_VISIT_S))
+            key = asked(ENTRY, "POST", **{TOKEN_HEADER: token})["key"]
+            state = asked("/api/state", "GET", **{KEY_HEADER: key})
             verdict = state["answer"]["verdict"]["text"]
             self.sentence = f"the example: {verdict}, after {time.monotonic() - began:.1f} s"
             self.is_answered = True

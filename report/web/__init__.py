@@ -1,1 +1,1 @@
-"""The page of `roofslip serve`: routes, sessions and the answers to them. Read `app`."""
+"""The page of `roofslip serve`: routes, what is open and the answers about it. Read `app`."""

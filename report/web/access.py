@@ -1,21 +1,22 @@
-"""Who may ask: the token of the first address, the cookie of a session, Host and Origin.
+"""Who may ask: a token that is good once, the key it is exchanged for, and tickets of downloads.
 
-Every answer gets the headers that keep a page to its own server. Read `Access`.
+The page keeps the key in its own storage and sends it in a header. A cookie would go to every other
+port of this machine as well. Read `Access`.
 """
 
 from __future__ import annotations
 
 import hmac
+import secrets
 from collections.abc import Collection
-from dataclasses import dataclass, field
+from pathlib import Path
 
 from starlette.datastructures import MutableHeaders
 from starlette.requests import HTTPConnection
-from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
+from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from report.web.limits import FULL, is_full
-from report.web.sessions import Session, Sessions
+from report.web.connections import Strangers
 
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
@@ -28,38 +29,78 @@ HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
-_NO_SESSION = "Open the address that roofslip serve printed, with its token."
+KEY_HEADER, TOKEN_HEADER = "Roofslip-Key", "Roofslip-Token"
+ENTRY = "/api/key"
+"""Where the page exchanges the token of its address for the key."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Gate:
-    """What a request must show.
+class Keys:
+    """What opens a server: its key, its tokens and the tickets of its downloads.
+
+    Parameters
+    ----------
+    lasting : str
+        A token that stays good, as that of a file; empty for none.
 
     Attributes
     ----------
-    token : str
-    hosts : collection of str
-        Values of Host that are answered; empty for any, where the server listens on all addresses.
-    cookie : str
-        Name of the cookie: browsers do not tell ports apart.
+    key : str
+        What every request must show, but for the page itself.
     """
 
-    token: str = field(repr=False)
-    hosts: Collection[str]
-    cookie: str
+    def __init__(self, lasting: str = "") -> None:
+        self.key = secrets.token_urlsafe(32)
+        self._lasting = lasting
+        self._tokens: set[str] = set()
+        self._tickets: dict[str, Path] = {}
+
+    def token(self) -> str:
+        """Return a new token, which is good once."""
+        token = secrets.token_urlsafe(24)
+        self._tokens.add(token)
+        return token
+
+    def is_good(self, token: str) -> bool:
+        """Whether a token can be exchanged for the key."""
+        known = [*self._tokens, self._lasting]
+        return bool(token) and any(_is_same(token, each) for each in known)
+
+    def exchange(self, token: str) -> str | None:
+        """Return the key for a token that is good; unless it lasts, it is used then."""
+        if not self.is_good(token):
+            return None
+        self._tokens.discard(token)
+        return self.key
+
+    def ticket(self, file: Path) -> str:
+        """Return a ticket of a file, which is good once."""
+        ticket = secrets.token_urlsafe(24)
+        self._tickets[ticket] = file
+        return ticket
+
+    def redeem(self, ticket: str) -> Path | None:
+        """Return the file of a ticket that is good, which is used then."""
+        return self._tickets.pop(ticket, None)
 
 
 class Access:
-    """Answers requests that may not pass, and gives each of the others its session."""
+    """Answers requests that may not pass.
 
-    def __init__(self, app: ASGIApp, gate: Gate, sessions: Sessions) -> None:
-        self._app, self._gate, self._sessions = app, gate, sessions
+    Parameters
+    ----------
+    hosts : collection of str
+        Values of Host that are answered; empty for any, where the server listens on all addresses.
+    strangers : Strangers
+        The connections that have not shown the key.
+    """
+
+    def __init__(
+        self, app: ASGIApp, keys: Keys, hosts: Collection[str], strangers: Strangers
+    ) -> None:
+        self._app, self._keys, self._hosts, self._strangers = app, keys, hosts, strangers
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request."""
-        if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
 
         async def with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -68,54 +109,23 @@ class Access:
                     headers.setdefault(name, value)
             await send(message)
 
-        try:
-            found = self._admitted(HTTPConnection(scope))
-        except OSError as error:
-            if not is_full(error):
-                raise
-            found = PlainTextResponse(FULL, 507)
-        if isinstance(found, Response):
-            await found(scope, receive, with_headers)
-            return
-        scope.setdefault("state", {})["session"] = found
-        await self._app(scope, receive, with_headers)
+        refusal = self._refusal(HTTPConnection(scope)) if scope["type"] == "http" else None
+        await (refusal or self._app)(scope, receive, with_headers)
 
-    def _admitted(self, request: HTTPConnection) -> Session | Response:
-        """Return the session of a request, or the answer to one that may not pass."""
+    def _refusal(self, request: HTTPConnection) -> Response | None:
+        """Return the answer to a request that may not pass; the page itself has no secret."""
         path = request.scope["path"]
-        if self._gate.hosts and request.headers.get("host", "") not in self._gate.hosts:
+        if self._hosts and request.headers.get("host", "") not in self._hosts:
             return PlainTextResponse("This server does not answer to that name.", 421)
-        if request.scope["method"] not in ("GET", "HEAD") and not _is_of_same_origin(request):
-            return JSONResponse({"error": "A request of another site is not answered."}, 403)
-        token = request.query_params.get("token", "")
-        session = self._sessions.find(request.cookies.get(self._gate.cookie, ""))
-        if path == "/" and token:
-            return self._let_in(request.scope, token, session)
-        if session is not None:
-            return session
-        if path.startswith("/api/"):
-            return JSONResponse({"error": f"This session has ended. {_NO_SESSION}"}, 401)
-        return PlainTextResponse(_NO_SESSION, 403)
-
-    def _let_in(self, scope: Scope, token: str, session: Session | None) -> Response:
-        """Exchange the token for the cookie of a session, and leave it out of the address."""
-        if not hmac.compare_digest(token.encode(), self._gate.token.encode()):
-            return PlainTextResponse(f"The token is not that of this server. {_NO_SESSION}", 403)
-        response = RedirectResponse("/", 303)
-        response.set_cookie(
-            self._gate.cookie,
-            (session or self._sessions.begin()).id,
-            httponly=True,
-            samesite="strict",
-            secure=scope["scheme"] == "https",
-        )
-        return response
+        if not path.startswith("/api/") or path == ENTRY:
+            return None
+        if not _is_same(request.headers.get(KEY_HEADER, ""), self._keys.key):
+            return JSONResponse({"error": "This page has no key of this server."}, 401)
+        if request.client:
+            self._strangers.forget(request.client)
+        return None
 
 
-def _is_of_same_origin(request: HTTPConnection) -> bool:
-    """Whether a page of this server sent a request, as its browser tells."""
-    site = request.headers.get("sec-fetch-site", "")
-    if site:
-        return site == "same-origin"
-    here = f"{request.scope['scheme']}://{request.headers.get('host', '')}"
-    return request.headers.get("origin", "") == here
+def _is_same(given: str, known: str) -> bool:
+    """Compare secrets in a time that tells nothing of them."""
+    return hmac.compare_digest(given.encode(), known.encode())

@@ -5,11 +5,9 @@ Computes nothing (`workers`) and admits nobody (`access`). Read `made`.
 
 from __future__ import annotations
 
-import asyncio
 import mimetypes
-import os
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping, Sequence
-from contextlib import asynccontextmanager, suppress
+from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping, Sequence
+from contextlib import asynccontextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,15 +21,22 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from report.web.access import Access, Gate
-from report.web.desk import Desk, RefusedError, desk_of, session_of
-from report.web.downloads import package_routes, workbook
-from report.web.limits import FULL, is_full
+from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
+from report.web.connections import Strangers
+from report.web.desk import (
+    EXAMPLE,
+    Desk,
+    LostError,
+    OtherProjectError,
+    RefusedError,
+    StaleError,
+    desk_of,
+)
+from report.web.downloads import keys_of, package_routes, workbook
 from report.web.packages import copied
 from report.web.receiving import receive_json, received
-from report.web.sessions import EXAMPLE, OtherProjectError, Sessions
 from report.web.uploads import is_alone, remove
-from report.web.workers import LostError, Rank, StaleError
+from report.web.worker import FULL, is_full
 from solver.model import InputError
 
 _HERE = Path(__file__).resolve().parent
@@ -43,39 +48,34 @@ FONTS = next(
     for path in (_REPORT / "templates" / "fonts", _REPORT.parent / "templates" / "fonts")
     if path.is_dir()
 )
-CLEANING_S = 60.0
 
 # Windows takes the type of a file from its registry, where scripts may be plain text.
 mimetypes.add_type("text/javascript", ".js")
 mimetypes.add_type("image/svg+xml", ".svg")
 
 
-def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
-    """Return the application.
+def made(keys: Keys, folder: Path, hosts: Collection[str], strangers: Strangers) -> Starlette:
+    """Return the application, with what is uploaded and made in a folder.
 
     Parameters
     ----------
-    processes : int
-        That compute; 0 for one for each core, and two at least.
+    hosts, strangers
+        As `Access` has them.
     """
-    desk = Desk(sessions, processes or max(os.cpu_count() or 1, 2))
+    desk = Desk(folder)
 
     @asynccontextmanager
     async def lifespan(app: Starlette) -> AsyncIterator[None]:
-        app.state.desk = desk
+        app.state.desk, app.state.keys = desk, keys
         desk.start()
-        cleaning = asyncio.create_task(_clean(desk))
-        try:
-            yield
-        finally:
-            cleaning.cancel()
-            with suppress(asyncio.CancelledError):
-                await cleaning
-            await desk.stop()
+        yield
+        await desk.stop()
 
     return Starlette(
         routes=[
             Route("/", _index),
+            Route(ENTRY, _key, methods=["POST"]),
+            Route("/api/token", _token, methods=["POST"]),
             Route("/api/state", _state),
             Route("/api/example", _example, methods=["POST"]),
             Route("/api/upload", partial(_open_new, store=received), methods=["POST"]),
@@ -86,7 +86,7 @@ def made(gate: Gate, sessions: Sessions, processes: int = 0) -> Starlette:
             Mount("/static/fonts", StaticFiles(directory=FONTS)),
             Mount("/static", StaticFiles(directory=STATIC)),
         ],
-        middleware=[Middleware(Access, gate=gate, sessions=sessions)],
+        middleware=[Middleware(Access, keys=keys, hosts=hosts, strangers=strangers)],
         exception_handlers={
             InputError: _refused,
             RefusedError: _refused,
@@ -107,23 +107,31 @@ _JOBS = {"assess": (), "slide": ("array", "motion"), "contour": ("array",), "pat
 """What the page has computed, each with what must be named; a run may be."""
 
 
-async def _clean(desk: Desk) -> None:
-    """End the sessions that are not used, again and again."""
-    while True:
-        await asyncio.sleep(CLEANING_S)
-        await desk.clean()
+async def _index(request: Request) -> Response:
+    """Return the page, which says how to get another address where its token is not good."""
+    token = request.query_params.get("token")
+    is_good = token is None or keys_of(request).is_good(token)
+    return FileResponse(STATIC / "index.html", 200 if is_good else 403)
 
 
-async def _index(_: Request) -> Response:
-    return FileResponse(STATIC / "index.html")
+async def _key(request: Request) -> Response:
+    key = keys_of(request).exchange(request.headers.get(TOKEN_HEADER, ""))
+    return (
+        JSONResponse({"key": key}) if key else _error("The token of this address is not good.", 403)
+    )
+
+
+async def _token(request: Request) -> Response:
+    """Return a token for another tab."""
+    return JSONResponse({"token": keys_of(request).token()})
 
 
 async def _state(request: Request) -> Response:
-    return JSONResponse(await _whole_state(request, session_of(request).workbook))
+    return JSONResponse(await _whole_state(request, desk_of(request).workbook))
 
 
 async def _example(request: Request) -> Response:
-    await _open(request, EXAMPLE)
+    desk_of(request).open(EXAMPLE)
     return JSONResponse(await _whole_state(request, EXAMPLE))
 
 
@@ -134,11 +142,11 @@ async def _clearances(request: Request) -> Response:
 
 
 async def _with_clearances(request: Request, folder: Path) -> Path:
-    given = session_of(request).workbook
+    desk = desk_of(request)
+    given = desk.workbook
     workbook = folder / "project" / given.name
     await run_in_threadpool(copied, given, workbook.parent)
-    job = {"do": "add_clearances", "workbook": str(given), "to": str(workbook)}
-    await desk_of(request).ask(session_of(request), job, Rank.AT_REST)
+    await desk.ask({"do": "add_clearances", "workbook": str(given), "to": str(workbook)})
     return workbook
 
 
@@ -146,12 +154,12 @@ async def _open_new(
     request: Request, store: Callable[[Request, Path], Awaitable[Path]]
 ) -> Response:
     """Open a workbook stored in a new folder, unless it has errors or another was opened."""
-    session = session_of(request)
-    folder = session.new_folder()
+    desk = desk_of(request)
+    folder = desk.new_folder()
     try:
         workbook = await store(request, folder)
         found = await _whole_state(request, workbook)
-        if not session.is_newest(folder):
+        if not desk.is_newest(folder):
             raise InputError("Another project was opened meanwhile; open this one again.")
     except BaseException:
         await run_in_threadpool(remove, folder)
@@ -160,27 +168,15 @@ async def _open_new(
         found["is_alone"] = await run_in_threadpool(is_alone, workbook, folder)
         await run_in_threadpool(remove, folder)
     else:
-        await _open(request, workbook)
-    return JSONResponse(found | {"opened": session.opened, "package": None})
-
-
-async def _open(request: Request, workbook: Path) -> None:
-    """Open a workbook in place of another project, and end what is being made."""
-    session = session_of(request)
-    former = session.open(workbook)
-    await desk_of(request).packages.cancel_unfinished(session)
-    await run_in_threadpool(remove, former)
+        desk.open(workbook)
+    return JSONResponse(found | {"opened": desk.opened, "package": None})
 
 
 async def _whole_state(request: Request, workbook: Path) -> dict[str, Any]:
-    session, desk = session_of(request), desk_of(request)
-    package = desk.packages.last(session)
-    about = {
-        "opened": session.opened,
-        "package": desk.packages.about(package) if package else None,
-    }
-    job = {"do": "state", "workbook": str(workbook)}
-    found = {**about, **await desk.ask(session, job, Rank.READ)}
+    desk = desk_of(request)
+    package = desk.packages.last(desk.opened)
+    about = {"opened": desk.opened, "package": package.about if package else None}
+    found = {**about, **await desk.ask({"do": "state", "workbook": str(workbook)})}
     if found["project"]:
         found["project"] |= {"file": workbook.name, "is_example": workbook == EXAMPLE}
     return found
@@ -191,11 +187,8 @@ async def _job(request: Request) -> Response:
     kind, asked = request.url.path.rpartition("/")[2], await receive_json(request)
     if missing := [name for name in _JOBS[kind] if getattr(asked, name) is None]:
         raise InputError(f"the request lacks {' and '.join(missing)}; name what is to be shown")
-    rank = Rank.VIEW
-    if kind == "assess":
-        rank = Rank.MOVING if asked.moving else Rank.AT_REST
     job = {"do": kind, **asked.model_dump()}
-    return JSONResponse(await desk_of(request).ask(session_of(request), job, rank, asked))
+    return JSONResponse(await desk_of(request).ask(job, asked))
 
 
 async def _refused(_: Request, error: Exception) -> Response:

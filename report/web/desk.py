@@ -1,23 +1,34 @@
-"""What the routes ask: the sessions, the processes that compute and the packages, together.
+"""The desk of one engineer: what is open, and the two processes that answer about it.
 
-Read `Desk.ask`.
+One process answers sliders that move, the other all else, and moves where it alone is free; one
+that ends or takes too long is replaced. Knows no route and no physics. Read `Desk.ask`.
 """
 
 from __future__ import annotations
 
+import asyncio
 import os
+import shutil
 from collections.abc import Mapping, Sequence
-from functools import partial
+from concurrent.futures import Executor
+from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
 
+from report.sheet.writing import shipped
 from report.web.packages import Packages
 from report.web.plan import USUAL_PX
-from report.web.sessions import EXAMPLE, Session, Sessions
-from report.web.worker import computing
-from report.web.workers import JobOrigin, Rank, Workers
+from report.web.worker import answered, computing
+
+EXAMPLE = shipped.EXAMPLE / "input.xlsx"
+
+LONGEST_S = 120.0
+"""Longest time of an answer [s]; then its process is ended."""
+
+_TRIES = 2
 
 
 class RefusedError(Exception):
@@ -26,6 +37,18 @@ class RefusedError(Exception):
     def __init__(self, sentence: str, problems: Sequence[Mapping[str, Any]]) -> None:
         super().__init__(sentence)
         self.problems = problems
+
+
+class StaleError(Exception):
+    """A newer request of the same page came before this one was begun."""
+
+
+class LostError(Exception):
+    """The process that was asked ended, or was ended for the time it took."""
+
+
+class OtherProjectError(Exception):
+    """A page asks about a project that is no longer open."""
 
 
 class Asked(BaseModel):
@@ -49,40 +72,78 @@ class Asked(BaseModel):
 
 
 class Desk:
-    """The sessions, processes and packages of a server."""
+    """What is open, the processes that compute, and the packages.
 
-    def __init__(self, sessions: Sessions, processes: int) -> None:
-        self.sessions, self.packages = sessions, Packages()
-        self.workers = Workers(processes, partial(computing, sessions.folder))
-        self._asked = 0
+    Attributes
+    ----------
+    folder : Path
+        Of uploads and packages; it ends with the server.
+    workbook : Path
+        What is open: the example, or the last upload that could be read.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.workbook, self.packages = folder, EXAMPLE, Packages()
+        self._openings = 0
+        self._processes: dict[bool, Executor] = {}
+        self._busy: set[bool] = set()
+        self._turns = asyncio.Condition()
+        self._newest: dict[tuple[object, ...], Asked] = {}
+        self._warming: asyncio.Task[None] | None = None
+
+    @property
+    def opened(self) -> str:
+        """Name of what is open, which no other upload has."""
+        is_example = self.workbook == EXAMPLE
+        return "example" if is_example else self.workbook.relative_to(self.folder).parts[0]
+
+    def new_folder(self) -> Path:
+        """Return an empty folder for an upload."""
+        self._openings += 1
+        folder = self.folder / f"upload-{self._openings}"
+        folder.mkdir()
+        return folder
+
+    def is_newest(self, folder: Path) -> bool:
+        """Whether nothing was opened, and no upload begun, after that of a folder."""
+        return folder.name == f"upload-{self._openings}"
+
+    def open(self, workbook: Path) -> None:
+        """Open a workbook in place of another one, and end what is being made."""
+        self.packages.cancel()
+        former = self.folder / self.opened
+        self.workbook = workbook
+        self._openings += 1
+        shutil.rmtree(former, ignore_errors=True)
 
     def start(self) -> None:
-        """Start the processes, each with the example."""
-        self.workers.start({"do": "state", "workbook": str(EXAMPLE)})
+        """Start the processes, each with the example, as the page will ask first."""
+        self._busy = {True, False}
+        self._warming = asyncio.create_task(self._warm())
+
+    async def _warm(self) -> None:
+        job = {"do": "state", "workbook": str(EXAMPLE)}
+        for is_quick in (False, True):  # the first answer comes sooner from one that starts alone
+            with suppress(LostError):
+                await self._answer(job, is_quick, longest_s=None)  # it may compile the solver
+            await self._end_turn(is_quick)
 
     async def stop(self) -> None:
-        """End every process."""
+        """End every process, in the middle of a job if need be."""
+        if self._warming is not None:
+            self._warming.cancel()
+            await asyncio.gather(self._warming, return_exceptions=True)
         await self.packages.stop()
-        await self.workers.stop()
+        for is_quick in list(self._processes):
+            self._end(is_quick)
 
-    async def clean(self) -> None:
-        """End the sessions that are not used, with their packages."""
-        self.sessions.end_unused()
-        await self.packages.keep({session.id for session in self.sessions.alive})
-
-    async def ask(
-        self,
-        session: Session,
-        job: Mapping[str, Any],
-        rank: Rank,
-        asked: Asked | None = None,
-    ) -> Mapping[str, Any]:
-        """Return the answer to a job of a session, about what it has open if it names no workbook.
+    async def ask(self, job: Mapping[str, Any], asked: Asked | None = None) -> Mapping[str, Any]:
+        """Return the answer to a job, about what is open if it names no workbook.
 
         Parameters
         ----------
         asked : Asked, optional
-            Request whose page and number tell which of two jobs is the newer one.
+            Request of a page; none for what no newer request replaces.
 
         Raises
         ------
@@ -90,10 +151,14 @@ class Desk:
         OSError
             If the disk is full.
         """
-        self._asked += 1
-        page, number = (asked.page, asked.n) if asked else (str(self._asked), 0)
-        origin = JobOrigin((session.id, str(job["do"]), page), number)
-        found = await self.workers.ask({"workbook": str(session.workbook), **job}, rank, origin)
+        job = {"workbook": str(self.workbook), **job}
+        if asked:
+            self._note(job["do"], asked)
+        is_quick = await self._turn(job["do"], asked)
+        try:
+            found = await self._answer(job, is_quick, LONGEST_S)
+        finally:
+            await self._end_turn(is_quick)
         if "answer" in found:
             answer: Mapping[str, Any] = found["answer"]
             return answer
@@ -102,11 +167,64 @@ class Desk:
         first = found["refused"] if "refused" in found else found["problems"][0]["text"]
         raise RefusedError(first, found["problems"])
 
+    async def _turn(self, kind: str, asked: Asked | None) -> bool:
+        """Wait until a process is free, and return whether it is the quick one."""
+        async with self._turns:
+            self._turns.notify_all()  # what this one replaces ends at once: a browser waits for six
+            await self._turns.wait_for(lambda: self._is_stale(kind, asked) or self._free(asked))
+            if self._is_stale(kind, asked):
+                raise StaleError
+            is_quick = self._free(asked)[0]
+            self._busy.add(is_quick)
+            return is_quick
 
-def session_of(request: Request) -> Session:
-    """Return the session that `report.web.access` found."""
-    session: Session = request.state.session
-    return session
+    async def _end_turn(self, is_quick: bool) -> None:
+        self._busy.discard(is_quick)
+        async with self._turns:
+            self._turns.notify_all()
+
+    def _free(self, asked: Asked | None) -> Sequence[bool]:
+        """Return which processes may do a job now: either of them, for a move."""
+        able = (True, False) if asked and asked.moving else (False,)
+        return [each for each in able if each not in self._busy]
+
+    def _note(self, kind: str, asked: Asked) -> None:
+        for key in ((asked.page, kind, asked.moving), (asked.page,)):
+            if key not in self._newest or self._newest[key].n <= asked.n:
+                self._newest[key] = asked
+
+    def _is_stale(self, kind: str, asked: Asked | None) -> bool:
+        """Whether its page asked the same anew since, or is at other values; a script never."""
+        if asked is None or not asked.page:
+            return False
+        is_asked_anew = self._newest[asked.page, kind, asked.moving].n > asked.n
+        is_elsewhere = self._newest[asked.page,].values != asked.values
+        return is_asked_anew or (is_elsewhere and not asked.moving)
+
+    async def _answer(
+        self, job: Mapping[str, Any], is_quick: bool, longest_s: float | None
+    ) -> Mapping[str, Any]:
+        """Have a process do a job; where it ends, another one does it, once."""
+        for _ in range(_TRIES):
+            try:
+                if is_quick not in self._processes:
+                    self._processes[is_quick] = computing(self.folder)
+                # Not `wait_for`: it drops a cancellation that comes with the answer.
+                async with asyncio.timeout(longest_s):
+                    asking = self._processes[is_quick].submit(answered, job)
+                    return await asyncio.wrap_future(asking)
+            except TimeoutError as error:
+                self._end(is_quick)
+                told = f"This took longer than {longest_s:.0f} s and was stopped."
+                raise LostError(told) from error
+            except Exception as error:  # it ended, sent what is no answer, or does not start
+                self._end(is_quick)
+                lost = error
+        raise LostError from lost
+
+    def _end(self, is_quick: bool) -> None:
+        if process := self._processes.pop(is_quick, None):
+            process.shutdown()
 
 
 def desk_of(request: Request) -> Desk:

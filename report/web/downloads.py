@@ -15,64 +15,64 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from report.making import OUTPUTS
-from report.web.desk import RefusedError, desk_of, session_of
+from report.web.access import Keys
+from report.web.desk import RefusedError, desk_of
 from report.web.packages import TYPES, Package, State, copied
 from report.web.receiving import receive_json, received
 from report.web.uploads import remove
 from report.web.worker import PROJECT, motions_made
-from report.web.workers import Rank
 from solver.model import InputError
 
 
 def package_routes() -> list[Route]:
-    """Return the routes of packages."""
+    """Return the routes of packages and of their files."""
     return [
         Route("/api/package", _begin, methods=["POST"]),
         Route("/api/motions", _motions, methods=["POST"]),
-        Route("/api/package/{ticket}", _about, methods=["GET"]),
-        Route("/api/package/{ticket}", _cancel, methods=["DELETE"]),
-        Route("/api/package/{ticket}/{name}", _file, methods=["GET"]),
+        Route("/api/package/{id}", _about, methods=["GET"]),
+        Route("/api/package/{id}", _cancel, methods=["DELETE"]),
+        Route("/api/package/{id}/{name}", _ticket, methods=["POST"]),
+        Route("/file/{ticket}", _file, methods=["GET"]),
     ]
 
 
 async def workbook(request: Request) -> Response:
     """Return the workbook with the values written into its cells."""
-    session, values = session_of(request), (await receive_json(request)).values
-    path = session.folder / f"written-{secrets.token_hex(8)}.xlsx"
+    desk, values = desk_of(request), (await receive_json(request)).values
+    name = desk.workbook.name
+    path = desk.folder / f"written-{secrets.token_hex(8)}.xlsx"
     try:
-        await desk_of(request).ask(session, _writing(values, str(path)), Rank.AT_REST)
+        await desk.ask(_writing(values, str(path)))
         data = await run_in_threadpool(path.read_bytes)
     finally:
         await run_in_threadpool(path.unlink, missing_ok=True)
-    return _attached(Response(data, media_type=TYPES[".xlsx"]), session.workbook.name)
+    return _attached(Response(data, media_type=TYPES[".xlsx"]), name)
 
 
 async def _begin(request: Request) -> Response:
-    session, desk = session_of(request), desk_of(request)
-    values = (await receive_json(request)).values
-    opened = session.workbook
-    path = session.folder / f"package-{secrets.token_hex(8)}" / opened.name
-    writing = _writing(values, str(path)) | {"workbook": str(opened)}
+    desk, values = desk_of(request), (await receive_json(request)).values
+    opened, workbook = desk.opened, desk.workbook
+    path = desk.folder / f"package-{secrets.token_hex(8)}" / workbook.name
     try:
-        await run_in_threadpool(copied, opened, path.parent)
-        await desk.ask(session, writing, Rank.AT_REST)
+        await run_in_threadpool(copied, workbook, path.parent)
+        await desk.ask(_writing(values, str(path)) | {"workbook": str(workbook)})
     except (OSError, RefusedError):
         await run_in_threadpool(remove, path.parent)
-        if session.workbook == opened:
+        if desk.workbook == workbook:
             raise
-    if session.workbook != opened:
+    if desk.workbook != workbook:
         raise InputError("Another workbook was opened meanwhile; make the package again.")
-    return JSONResponse(desk.packages.about(desk.packages.begin(session, path, values)))
+    return JSONResponse(desk.packages.begin(opened, path, values).about)
 
 
 async def _motions(request: Request) -> Response:
     """Begin a suite of motions for a workbook without any, which is sent again for it."""
-    session, packages = session_of(request), desk_of(request).packages
-    folder = session.folder / f"package-{secrets.token_hex(8)}"
+    desk = desk_of(request)
+    folder = desk.folder / f"package-{secrets.token_hex(8)}"
     folder.mkdir()
     workbook = await received(request, folder)
-    await packages.cancel_unfinished(session, [motions_made])
-    return JSONResponse(packages.about(packages.begin(session, workbook, {}, motions_made)))
+    desk.packages.cancel(motions_made)
+    return JSONResponse(desk.packages.begin(desk.opened, workbook, {}, motions_made).about)
 
 
 def _writing(values: Any, to: str) -> dict[str, Any]:
@@ -80,22 +80,29 @@ def _writing(values: Any, to: str) -> dict[str, Any]:
 
 
 async def _about(request: Request) -> Response:
-    return JSONResponse(desk_of(request).packages.about(_package(request)))
+    return JSONResponse(_package(request).about)
 
 
 async def _cancel(request: Request) -> Response:
     package = _package(request)
-    await desk_of(request).packages.cancel(package)
-    return JSONResponse(desk_of(request).packages.about(package))
+    package.cancel()
+    return JSONResponse(package.about)
 
 
-async def _file(request: Request) -> Response:
+async def _ticket(request: Request) -> Response:
+    """Return an address of a file that is good once: a link has no header for the key."""
     package, name = _package(request), request.path_params["name"]
     path = package.out / name
     if package.state is not State.DONE or name not in (*OUTPUTS, PROJECT) or not path.is_file():
         raise HTTPException(404, "There is no such file of this package")
-    response = FileResponse(path, media_type=TYPES[path.suffix])
-    return response if "view" in request.query_params else _attached(response, name)
+    return JSONResponse({"url": f"/file/{keys_of(request).ticket(path)}"})
+
+
+async def _file(request: Request) -> Response:
+    path = keys_of(request).redeem(request.path_params["ticket"])
+    if path is None:
+        raise HTTPException(404, "A link to a file is good once; save it from the page again")
+    return _attached(FileResponse(path, media_type=TYPES[path.suffix]), path.name)
 
 
 def _attached(response: Response, name: str) -> Response:
@@ -106,7 +113,13 @@ def _attached(response: Response, name: str) -> Response:
 
 
 def _package(request: Request) -> Package:
-    found = desk_of(request).packages.find(session_of(request), request.path_params["ticket"])
+    found = desk_of(request).packages.find(request.path_params["id"])
     if found is None:
-        raise HTTPException(404, "There is no such package in this session")
+        raise HTTPException(404, "There is no such package")
     return found
+
+
+def keys_of(request: Request) -> Keys:
+    """Return the keys of the server."""
+    keys: Keys = request.app.state.keys
+    return keys

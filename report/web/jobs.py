@@ -1,6 +1,6 @@
 """What is computed for the page: each job from a workbook and values to data for JSON.
 
-Knows no session and no request. Read `perform`, then `answer_at`.
+Knows no request. Read `perform`, then `answer_at`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from report.web.problems import problems
 from report.web.values import Values, typed
 from solver.model import InputError
 
-KEPT_PROJECTS, KEPT_ANSWERS = 16, 8
+KEPT_PROJECTS, KEPT_ANSWERS = 3, 8
 """Projects with their assessments that a process keeps, and assessments at other values."""
 
 _CLEARANCE = "clearance"  # the slider that changes no run
@@ -46,17 +46,6 @@ def perform(job: Json) -> Json:
     Workbooks that are wrong, and values that no workbook can have, are problems; anything else is
     an internal error and is raised.
     """
-    try:
-        return _performed(job)
-    except MemoryError:
-        pass  # out of here, where the error no longer holds what was begun
-    # What is kept may be all that fills the memory.
-    for function in (_open, _given, _as_typed, _assessment):
-        function.cache_clear()
-    return _performed(job)
-
-
-def _performed(job: Json) -> Json:
     workbook = Path(job["workbook"])
     try:
         return {"answer": _JOBS[job["do"]](workbook, job)}

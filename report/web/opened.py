@@ -1,4 +1,4 @@
-"""A workbook with its records, read once: what every answer of a session starts from.
+"""A workbook with its records, read once: what every answer starts from.
 
 Read `opened`, then `with_values`.
 """

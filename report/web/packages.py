@@ -1,7 +1,6 @@
-"""Packages of the sessions: one at a time, the others in a queue with their place.
+"""The packages and suites that the page has made, each by a process of its own.
 
-Each is made by a process of its own (`report.web.worker.made`), which ends with its canceling. Read
-`Packages.begin`.
+Canceling one ends its process (`report.web.worker`). Read `Packages.begin`.
 """
 
 from __future__ import annotations
@@ -10,24 +9,19 @@ import asyncio
 import os
 import secrets
 import shutil
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
 from report.making import OUTPUTS, STEPS
-from report.web.sessions import Session
 from report.web.values import Values
 from report.web.worker import MOTIONS, made, making, motions_made
 
 LONGEST_S = 900.0
 """Longest time of a package [s]; then its process is ended."""
-
-KEPT = 5
-"""Packages that a session keeps; older ones are removed."""
-
 
 TYPES = {
     ".pdf": "application/pdf",
@@ -47,38 +41,31 @@ _STEPS: Mapping[Task, int] = {made: len(STEPS), motions_made: MOTIONS + 2}
 class State(StrEnum):
     """What becomes of a package."""
 
-    QUEUED = "queued"
     RUNNING = "running"
     DONE = "done"
     FAILED = "failed"
     CANCELED = "canceled"
 
-    @property
-    def is_over(self) -> bool:
-        """Whether nothing more happens."""
-        return self not in (State.QUEUED, State.RUNNING)
-
 
 @dataclass(slots=True, eq=False)
 class Package:
-    """A package or suite of a session: the workbook as written, beside it its records and out/.
+    """A package or suite: the workbook as written, beside it its records and out/.
 
     Attributes
     ----------
     opened : str
-        What the session had open.
+        What was open.
     values : mapping
         Those of the page that were written into the workbook.
     """
 
-    ticket: str
-    owner: str
     opened: str
     workbook: Path
     values: Values
     task: Task
-    state: State = State.QUEUED
-    words: str = "Waiting"
+    id: str = field(default_factory=lambda: secrets.token_hex(12))
+    state: State = State.RUNNING
+    words: str = "Beginning"
     step: int = 0
     worker: Executor | None = None
 
@@ -87,131 +74,97 @@ class Package:
         """Where its files are."""
         return self.workbook.parent / "out"
 
+    @property
+    def about(self) -> Mapping[str, Any]:
+        """How far it is, or what became of it."""
+        return {
+            "id": self.id,
+            "values": self.values,
+            "state": self.state.value,
+            "is_over": self.state is not State.RUNNING,
+            "words": self.words,
+            "files": [name for end in TYPES for name in OUTPUTS if name.endswith(end)],
+            "part": self.step / (_STEPS[self.task] + 1),
+        }
+
     def begin_step(self, words: str) -> None:
         """Take note of the next step."""
         self.words, self.step = words, self.step + 1
 
+    def cancel(self) -> None:
+        """End it, and the process that makes it."""
+        if self.state is State.RUNNING:
+            self.state, self.words = State.CANCELED, "The package was canceled."
+            if self.worker is not None:
+                self.worker.shutdown()
+
+    async def make(self) -> None:
+        """Have a process make it, unless it is canceled by then."""
+        if self.state is State.RUNNING:
+            problem = await self._problem()
+        if self.state is State.RUNNING:
+            self.begin_step(problem or "done")
+            self.state = State.FAILED if problem else State.DONE
+
+    async def _problem(self) -> str:
+        """Have a process make it; return why there is none, empty if there is."""
+        try:
+            with making(self.workbook.parent, self.begin_step) as self.worker:
+                asked = self.worker.submit(self.task, self.workbook, self.out)
+                async with asyncio.timeout(LONGEST_S):
+                    return await asyncio.wrap_future(asked)
+        except TimeoutError:
+            return f"It took longer than {LONGEST_S / 60:.0f} minutes and was stopped."
+        except Exception:  # it ended, or sent what is no answer
+            return "The process that made the package ended. Try it again."
+
 
 class Packages:
-    """The packages of all sessions."""
+    """The packages and suites of a server."""
 
     def __init__(self) -> None:
         self._all: dict[str, Package] = {}
         self._tasks: set[asyncio.Task[None]] = set()
-        self._turn = asyncio.Lock()
 
-    def begin(self, session: Session, workbook: Path, values: Values, task: Task = made) -> Package:
-        """Queue the package of a workbook that has a folder of its own, with its records.
+    def begin(self, opened: str, workbook: Path, values: Values, task: Task = made) -> Package:
+        """Begin the package of a workbook that has a folder of its own, with its records.
 
-        While another one of the session waits or is made, that one is returned.
+        While another one is made, that one is returned.
         """
-        if (unfinished := self.unfinished(session, task)) is not None:
-            shutil.rmtree(workbook.parent, ignore_errors=True)
-            return unfinished
-        own = self._of(session)
-        for old in own[: max(len(own) - KEPT + 1, 0)]:
-            del self._all[old.ticket]
-            shutil.rmtree(old.workbook.parent, ignore_errors=True)
-        package = Package(
-            ticket=secrets.token_hex(12),
-            owner=session.id,
-            opened=session.opened,
-            workbook=workbook,
-            values=values,
-            task=task,
-        )
-        self._all[package.ticket] = package
-        running = asyncio.create_task(self._make(package))
+        for other in self._all.values():
+            if other.task is task and other.state is State.RUNNING:
+                shutil.rmtree(workbook.parent, ignore_errors=True)
+                return other
+        package = Package(opened, workbook, values, task)
+        self._all[package.id] = package
+        running = asyncio.create_task(package.make())
         self._tasks.add(running)
         running.add_done_callback(self._tasks.discard)
         return package
 
-    def unfinished(self, session: Session, task: Task = made) -> Package | None:
-        """Return the package of a session that waits or is made."""
-        own = (each for each in self._of(session) if each.task is task)
-        return next((each for each in own if not each.state.is_over), None)
+    def find(self, name: str) -> Package | None:
+        """Return a package by its ID."""
+        return self._all.get(name)
 
-    def last(self, session: Session) -> Package | None:
-        """Return the last package of what a session has open, unless it was canceled."""
-        own = (each for each in self._of(session) if each.task is made)
-        found = [each for each in own if each.opened == session.opened]
-        return found[-1] if found and found[-1].state is not State.CANCELED else None
+    def last(self, opened: str) -> Package | None:
+        """Return the last package of what is open, unless it was canceled."""
+        own = [each for each in self._all.values() if each.task is made and each.opened == opened]
+        return own[-1] if own and own[-1].state is not State.CANCELED else None
 
-    def find(self, session: Session, ticket: str) -> Package | None:
-        """Return a package of a session."""
-        package = self._all.get(ticket)
-        return package if package is not None and package.owner == session.id else None
-
-    def about(self, package: Package) -> Mapping[str, Any]:
-        """Return how far a package is, or what became of it; no part while it waits in line."""
-        queued = [each for each in self._all.values() if each.state is State.QUEUED]
-        is_queued = package in queued
-        return {
-            "ticket": package.ticket,
-            "values": package.values,
-            "state": package.state.value,
-            "is_over": package.state.is_over,
-            "words": f"In line, place {queued.index(package) + 1}" if is_queued else package.words,
-            "files": [name for end in TYPES for name in OUTPUTS if name.endswith(end)],
-            "part": None if is_queued else package.step / (_STEPS[package.task] + 1),
-        }
-
-    async def cancel(self, package: Package) -> None:
-        """End a package, and the process that makes it."""
-        if package.state.is_over:
-            return
-        package.state, package.words = State.CANCELED, "The package was canceled."
-        if package.worker is not None:
-            package.worker.shutdown()
-
-    async def cancel_unfinished(self, session: Session, tasks: Iterable[Task] = _STEPS) -> None:
-        """Cancel what waits or is made for a session: its package, its suite."""
-        for task in tasks:
-            if (package := self.unfinished(session, task)) is not None:
-                await self.cancel(package)
-
-    async def keep(self, owners: Collection[str]) -> None:
-        """End and forget the packages of other sessions."""
-        for package in [each for each in self._all.values() if each.owner not in owners]:
-            await self.cancel(package)
-            del self._all[package.ticket]
+    def cancel(self, task: Task | None = None) -> None:
+        """End what is being made: all, or packages or suites alone."""
+        for package in self._all.values():
+            if task in (None, package.task):
+                package.cancel()
 
     async def stop(self) -> None:
         """End every package."""
-        for package in self._all.values():
-            await self.cancel(package)
+        self.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
-
-    def _of(self, session: Session) -> list[Package]:
-        return [each for each in self._all.values() if each.owner == session.id]
-
-    async def _make(self, package: Package) -> None:
-        async with self._turn:
-            if package.state is not State.QUEUED:
-                return
-            package.state = State.RUNNING
-            problem = await self._problem(package)
-            if package.state is State.RUNNING:
-                package.begin_step(problem or "done")
-                package.state = State.FAILED if problem else State.DONE
-
-    async def _problem(self, package: Package) -> str:
-        """Have a process make a package; return why there is none, empty if there is."""
-        with making(package.workbook.parent, package.begin_step) as worker:
-            package.worker = worker
-            asked = worker.submit(package.task, package.workbook, package.out)
-            try:
-                async with asyncio.timeout(LONGEST_S):
-                    return await asyncio.wrap_future(asked)
-            except TimeoutError:
-                return f"It took longer than {LONGEST_S / 60:.0f} minutes and was stopped."
-            except Exception:  # it ended, or sent what is no answer
-                return "The process that made the package ended. Try it again."
 
 
 def copied(workbook: Path, folder: Path) -> None:
     """Give a folder the files beside a workbook, without another copy where the system links."""
-
     here = workbook.parent
     not_copied = {here / name for name in ("out", "pages", workbook.name)}
     folder.mkdir()

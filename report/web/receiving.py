@@ -14,8 +14,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.types import Message
 
-from report.web.desk import Asked, session_of
-from report.web.sessions import OtherProjectError
+from report.web.desk import Asked, OtherProjectError, desk_of
 from report.web.uploads import MB, MOST_FILES, MOST_SENT, remove, store
 from solver.model import InputError
 
@@ -37,7 +36,7 @@ async def receive_json(request: Request) -> Asked:
         asked = Asked.model_validate_json(await capped.body())
     except ValidationError as error:
         raise InputError("the request is not one of the page; load the page again") from error
-    if asked.opened not in (None, session_of(request).opened):
+    if asked.opened not in (None, desk_of(request).opened):
         raise OtherProjectError
     return asked
 

@@ -1,4 +1,4 @@
-"""What the processes of the page do, within which limits: jobs of the sessions, and packages.
+"""What the processes of the page do: jobs about what is open, and packages.
 
 They read untrusted files: what they return is JSON, and is never unpickled. Read `answered`,
 then `made`.
@@ -6,23 +6,22 @@ then `made`.
 
 from __future__ import annotations
 
-import gc
+import errno
+import os
 import tempfile
 import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 from report.making import Step
-from report.web.limits import FULL, INTERNAL, confine, is_full
 from report.words.counts import capitalized
 from report.workers import WorkerProcess, tell
 
-NICE = 5
-"""How far the others give way to the process of quick jobs, as the command nice has it."""
+FULL = "The disk is full. Make room there, then try it again."
+INTERNAL = "An internal error; see what roofslip serve printed."
 
 MOTIONS, SEED = 7, 1
 """Number and seed of the motions that are made for a workbook without any."""
@@ -30,31 +29,24 @@ MOTIONS, SEED = 7, 1
 PROJECT = "project.zip"
 """The workbook with its motions and all files beside it."""
 
-_OF_JOBS = {"RLIMIT_AS": 6 << 30}
-_OF_PACKAGES = {"RLIMIT_AS": 8 << 30, "RLIMIT_FSIZE": 1 << 30, "RLIMIT_CPU": 900}
-_NICE_OF_PACKAGES = 10
-_TOO_LARGE = "this needs more memory than a session may use; drop fewer or shorter records"
 
-
-def computing(folder: Path, is_quick: bool) -> WorkerProcess:
-    """Start a process that computes; the others give way to that of quick jobs."""
-    limits = partial(confine, 0 if is_quick else NICE, **_OF_JOBS)
-    return WorkerProcess(limits, is_trusted=False, within=folder)
+def computing(folder: Path) -> WorkerProcess:
+    """Start a process that computes."""
+    return WorkerProcess(_prepare, is_trusted=False, within=folder)
 
 
 def making(folder: Path, told: Callable[[str], object]) -> WorkerProcess:
     """Start a process that makes a package, with what it leaves behind in a folder."""
-    limits = partial(confine, _NICE_OF_PACKAGES, **_OF_PACKAGES)
-    return WorkerProcess(limits, is_trusted=False, told=told, within=folder)
+    return WorkerProcess(_prepare, is_trusted=False, told=told, within=folder)
 
 
-def warmed(job: Mapping[str, Any]) -> None:
-    """Do a first job, whose answer nobody waits for."""
-    answered(job)
-    # What it loaded stays: searching it for garbage would hold up an answer now and then by a
-    # tenth of a second.
-    gc.collect()
-    gc.freeze()
+def _prepare() -> None:
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"  # the matrices are small; read as NumPy is loaded
+
+
+def is_full(error: BaseException | None) -> bool:
+    """Whether there is no room for what was to be written."""
+    return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
 def answered(job: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -63,17 +55,11 @@ def answered(job: Mapping[str, Any]) -> Mapping[str, Any]:
         from report.web.jobs import perform
 
         return perform(job)
-    except MemoryError:
-        return _refused(_TOO_LARGE)
     except Exception as error:
         if isinstance(error, OSError) and is_full(error):
             return {"errno": error.errno}
         traceback.print_exc()
-        return _refused(INTERNAL)
-
-
-def _refused(why: str) -> Mapping[str, Any]:
-    return {"problems": [], "refused": why}
+        return {"problems": [], "refused": INTERNAL}
 
 
 def made(workbook: Path, out: Path) -> str:
@@ -116,8 +102,6 @@ def _failure(do: Callable[[], object]) -> str:
     """Do something; return why it failed, in the words of the page."""
     try:
         do()
-    except MemoryError:
-        return "It needs more memory than a package may use."
     except Exception as error:
         from solver.model import InputError
 

@@ -1,9 +1,8 @@
-"""Claim: the page follows a slider at once, for one user in the browser and for many at the server.
+"""Claim: the page follows a slider at once.
 
 In the browser, from the event to the drawn answer: one axis while a slider moves; two axes from
 when it is let go, once the answer in one axis is drawn. Each move is to another value, half a
-second after the answer before. At the server, users move a slider once a second; at rest a newer
-move of a session replaces what waits. Wall time: other programs on the same cores slow it down.
+second after the answer before. Wall time: other programs on the same cores slow it down.
 
 `page_speed.py --beside TREE` compares with another version instead: both open the campus, 30
 arrays, and are moved in turns, from a step of a slider, as by a key, to the answer at rest.
@@ -12,23 +11,16 @@ arrays, and are moved in turns, from a step of a slider, as by a key, to the ans
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import statistics
-import threading
-import time
-import urllib.error
-import urllib.request
 from contextlib import ExitStack
-from http.cookiejar import CookieJar
 
 import numpy as np
 from measure import ROOT, SMOKE, figure
 
 from browsing import chromium, opened, quiet_page, served
 
-MOVES, USERS, SECONDS = (2, 2, 3.0) if SMOKE else (30, 20, 15.0)
-WAIT_S, STALE = 120.0, 409
+MOVES = 2 if SMOKE else 30
 COMPILED_S = 600.0  # a version that has not run before compiles the solver first
 STEPS = {"friction": (0.69, 0.01), "slope": (0.1, 0.1), "intensity": (0.7, 0.02),
          "clearance": (-8.0, 1.0)}  # fmt: skip
@@ -75,66 +67,6 @@ def in_the_browser() -> None:
             half, most = np.percentile(every, [50, 95])
             figure(f"a move drawn in {name}, median", float(half), "ms")
             figure(f"a move drawn in {name}, 95th percentile", float(most), "ms")
-
-
-class User(threading.Thread):
-    """A session that moves the slider of friction once a second, and lets it rest each time."""
-
-    def __init__(self, number: int, address: str, until: float) -> None:
-        super().__init__()
-        self._number, self._until = number, until
-        self._page = address.partition("?")[0]
-        self._browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(CookieJar()))
-        self._browser.open(address, timeout=WAIT_S).read()
-        self.moving: list[float] = []
-        self.at_rest: list[float] = []
-
-    def run(self) -> None:
-        """Move until the end."""
-        time.sleep(self._number / 20.0 % 1.0)
-        move = 0
-        while (began := time.monotonic()) < self._until:
-            move += 1
-            self.ask(self.moving, 2 * move, is_moving=True)
-            resting = threading.Thread(target=self.ask, args=(self.at_rest, 2 * move + 1))
-            resting.start()
-            time.sleep(max(began + 1.0 - time.monotonic(), 0.0))
-        resting.join()
-
-    def ask(self, times: list[float], n: int, *, is_moving: bool = False) -> None:
-        """Move to a friction coefficient of its own, and add the time of an answer."""
-        friction = 0.6 + 0.4 * ((n * 37 + self._number * 11) % 97) / 97
-        values = {"friction": round(friction, 4)}
-        body = json.dumps({"page": "p", "n": n, "moving": is_moving, "values": values})
-        request = urllib.request.Request(
-            f"{self._page}api/assess",
-            body.encode(),
-            {"Content-Type": "application/json", "Origin": self._page[:-1]},
-        )
-        began = time.monotonic()
-        try:
-            self._browser.open(request, timeout=WAIT_S).read()
-            times.append(time.monotonic() - began)
-        except urllib.error.HTTPError as error:
-            if error.code != STALE:
-                raise
-
-
-def at_the_server() -> None:
-    """Let users move, once the server has answered one."""
-    with served() as (address, _):
-        User(0, address, 0.0).ask([], 1)
-        until = time.monotonic() + SECONDS
-        everyone = [User(number, address, until) for number in range(USERS)]
-        for user in everyone:
-            user.start()
-        for user in everyone:
-            user.join()
-    figure("users at once", USERS)
-    moving, resting = ([t for u in everyone for t in getattr(u, name)]
-                       for name in ("moving", "at_rest"))  # fmt: skip
-    figure("their answers in one axis, 95th percentile", float(np.percentile(moving, 95)), "s")
-    figure("their answers at rest, 95th percentile", float(np.percentile(resting, 95)), "s")
 
 
 RESTED = """
@@ -201,4 +133,3 @@ if __name__ == "__main__":
         beside(other)
     else:
         in_the_browser()
-        at_the_server()

@@ -1,4 +1,5 @@
-// Asks the server. Requests of one kind are numbered, and the reply to an older one is dropped.
+// Asks the server, with the key of this tab. Requests of one kind are numbered, and the reply to an
+// older one is dropped.
 
 /** An error whose message says to the user what to do. */
 export class ApiError extends Error {
@@ -9,13 +10,20 @@ export class ApiError extends Error {
   }
 }
 
-const ENDED = 401; // the session
-const OTHER_PROJECT = 412; // is open in the session
+const NO_KEY = 401;
+const NOT_GOOD = 403; // a token
+const OTHER_PROJECT = 412; // is open
 const UNREACHED = 0;
+const KEY = "roofslip-key";
+
+/** Whether this tab has no key of the server: another address opens it. */
+export function lacksKey({ status }) {
+  return status === NO_KEY;
+}
 
 /** Whether nothing but loading the page again helps. */
 export function needsReload({ status }) {
-  return status === ENDED || status === OTHER_PROJECT;
+  return status === OTHER_PROJECT;
 }
 
 /** Whether no server answered. */
@@ -73,6 +81,8 @@ export function createApi(announce, room) {
 
   return {
     announce,
+    enter,
+    newToken: () => asked("/api/token", { method: "POST" }),
     state: () => open("/api/state"),
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
@@ -80,12 +90,26 @@ export function createApi(announce, room) {
     assess: (moving, values) => computed("assess", { moving, values, room: room() }, moving ? "moving" : "assess"),
     computed,
     startPackage: (values) => asked("/api/package", about({ values })),
-    packageState: (ticket) => asked(`/api/package/${ticket}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),
-    cancelPackage: (ticket) => asked(`/api/package/${ticket}`, { method: "DELETE" }),
+    packageState: (id) => asked(`/api/package/${id}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),
+    cancelPackage: (id) => asked(`/api/package/${id}`, { method: "DELETE" }),
+    file: (id, name) => asked(`/api/package/${id}/${name}`, { method: "POST" }),
     startMotions: (files) => asked("/api/motions", { method: "POST", body: form(files) }),
-    project: (url) => downloaded(url),
+    downloaded,
     workbook: (values) => downloaded("/api/workbook", about({ values })),
   };
+}
+
+// Exchange the token of the address, which is good once, for the key that this tab keeps.
+async function enter() {
+  const token = new URLSearchParams(location.search).get("token");
+  if (token === null) return;
+  history.replaceState(null, "", location.pathname + location.hash);
+  try {
+    const { key } = await asked("/api/key", { method: "POST", headers: { "Roofslip-Token": token } });
+    sessionStorage.setItem(KEY, key);
+  } catch (error) {
+    if (error.status !== NOT_GOOD) throw error; // a key that this tab has may still do
+  }
 }
 
 function form(files) {
@@ -117,7 +141,8 @@ async function downloaded(url, options) {
 async function sent(url, options) {
   let reply;
   try {
-    reply = await fetch(url, options);
+    const headers = { ...options?.headers, "Roofslip-Key": sessionStorage.getItem(KEY) ?? "" };
+    reply = await fetch(url, { ...options, headers });
   } catch {
     throw new ApiError(UNREACHABLE, UNREACHED);
   }

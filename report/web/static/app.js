@@ -1,6 +1,6 @@
 // Starts the page and joins its parts. Read session.js for what happens when a slider moves.
 
-import { createApi, isUnreached, needsReload, reload } from "./api.js";
+import { createApi, isUnreached, lacksKey, needsReload, reload } from "./api.js";
 import { showBars } from "./bars.js";
 import { changes } from "./changes.js";
 import { fromFragment, toFragment } from "./link.js";
@@ -60,10 +60,10 @@ part("example").addEventListener("click", () => {
 part("add-clearances").addEventListener("click", () => opening(api.addClearances, true));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
 addEventListener("hashchange", () => state?.project && restore());
-opening(api.state, true);
+opening(() => api.enter().then(api.state), true);
 
-// Fetch a state and show it: the example, an upload, or what the session holds. Only what the
-// session holds belongs to the values in the address.
+// Fetch a state and show it: the example, an upload, or what is open. Only what the
+// server holds belongs to the values in the address.
 function take(files) {
   dropped = files;
   showBusy(`Sending and checking ${files.length} file${files.length === 1 ? "" : "s"} …`);
@@ -246,9 +246,20 @@ function failAnswer(error, moving) {
 }
 
 function fail(error, what = "Close", act = hideError) {
+  if (lacksKey(error)) {
+    askForAddress();
+    return;
+  }
   const [label, action] = needsReload(error) ? ["Reload", reload] : [what, act];
   replace(part("error"), html("p", {}, error.message), button(label, action));
   part("error").hidden = false;
+}
+
+// Nothing is answered without a key: all that the page can do is say how to get one.
+function askForAddress() {
+  for (const id of ["desk", "welcome", "problems", "no-motions"]) part(id).hidden = true;
+  part("no-key").hidden = false;
+  named("This tab needs a new address");
 }
 
 function hideError() {

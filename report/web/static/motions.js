@@ -1,8 +1,9 @@
 // Offers motions for a workbook that has none: they are made for its site, and the page goes on with them.
 
 import { button, html, note, replace, words } from "./make.js";
-import { follow, say, showProgress } from "./package.js";
+import { follow, saveFile, say, showProgress } from "./package.js";
 
+const PROJECT = "project.zip";
 const BASIS = "Their target is AC156 with S_DS, z/h and the rule set of the sheet Site.";
 
 /** Offer motions in an element; `open` opens what a promise gives, `fail` gets an error. */
@@ -13,12 +14,12 @@ export function mountMotions(element, api, { open, fail }) {
     turn += 1;
     const mine = turn;
     const begun = await api.startMotions(files);
-    const cancel = () => api.cancelPackage(begun.ticket).catch(fail);
+    const cancel = () => api.cancelPackage(begun.id).catch(fail);
     const show = (told) => told.is_over || showProgress(element, api, told, cancel);
     const isWanted = () => mine === turn;
     const made = await follow(api, begun, { isWanted, show }).catch((error) => ({ words: error.message }));
     if (!isWanted()) return;
-    if (made.state === "done") await goOn(`/api/package/${begun.ticket}/project.zip`);
+    if (made.state === "done") await goOn(begun.id);
     else {
       offer(files);
       element.append(note(made.words));
@@ -26,11 +27,12 @@ export function mountMotions(element, api, { open, fail }) {
     }
   }
 
-  async function goOn(url) {
-    const { name, blob } = await api.project(url);
-    await open(() => api.upload([{ file: blob, path: name }]));
+  async function goOn(id) {
+    const { url } = await api.file(id, PROJECT);
+    const { blob } = await api.downloaded(url);
+    await open(() => api.upload([{ file: blob, path: PROJECT }]));
     say(element, api, "The motions are made and listed in the workbook.");
-    element.append(html("a", { href: url, download: name }, "Save workbook and records (zip)"));
+    element.append(button("Save workbook and records (zip)", () => saveFile(api, id, PROJECT).catch(fail)));
     element.hidden = false;
   }
 

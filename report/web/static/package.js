@@ -1,4 +1,4 @@
-// Follows the making of a package: place in line, progress, cancel, and its files.
+// Follows the making of a package: progress, cancel, and its files.
 
 import { isSame } from "./changes.js";
 import { button, html, note, replace } from "./make.js";
@@ -44,11 +44,11 @@ export function mountPackage({ make, status }, api, { values, words, guarded }) 
 
   function show(told, keepsFocus) {
     shown = told;
-    showPackage(status, api, told, { cancel, keepsFocus });
+    showPackage(status, api, told, { cancel, keepsFocus, guarded });
     compare();
   }
 
-  const cancel = guarded(() => track(() => api.cancelPackage(shown.ticket)));
+  const cancel = guarded(() => track(() => api.cancelPackage(shown.id)));
 
   // Nothing is made, and nothing can be saved.
   function offer() {
@@ -83,19 +83,19 @@ export async function follow(api, told, { isWanted, show }) {
     await new Promise((done) => {
       setTimeout(done, POLL_MS);
     });
-    if (isWanted()) latest = await api.packageState(told.ticket);
+    if (isWanted()) latest = await api.packageState(told.id);
   }
   return latest;
 }
 
 // How far a package is, its files, or what became of it.
-function showPackage(status, api, told, { cancel, keepsFocus }) {
+function showPackage(status, api, told, { cancel, keepsFocus, guarded }) {
   if (!told.is_over) {
     showProgress(status, api, told, cancel);
     if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
   } else if (told.state === "done") {
-    showFiles(status, told);
-    if (keepsFocus && hasLostFocus()) status.querySelector("a").focus();
+    showFiles(status, api, told, guarded);
+    if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
     api.announce("The package is made. Its files can be saved.");
   } else {
     say(status, api, told.words);
@@ -117,13 +117,18 @@ export function showProgress(status, api, { words, part }, cancel) {
     api.announce(words);
   }
   const bar = status.querySelector("progress");
-  if (part === null) bar.removeAttribute("value");
-  else bar.value = part;
+  bar.value = part;
 }
 
-function showFiles(status, { ticket, files }) {
-  const made = files.map((name) => html("a", { href: `/api/package/${ticket}/${name}`, download: name }, name.endsWith(".pdf") ? "Calc package" : name));
+function showFiles(status, api, { id, files }, guarded) {
+  const made = files.map((name) => button(name.endsWith(".pdf") ? "Calc package" : name, guarded(() => saveFile(api, id, name)), { class: "link" }));
   replace(status, html("p", { class: "made" }, made, madeWith()));
+}
+
+/** Save a file of a package: its address is good once. */
+export async function saveFile(api, id, name) {
+  const { url } = await api.file(id, name);
+  html("a", { href: url, download: name }).click();
 }
 
 function madeWith() {

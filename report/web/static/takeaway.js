@@ -3,7 +3,7 @@
 import { html, note, replace } from "./make.js";
 import { mountPackage, say } from "./package.js";
 
-const COPIED = "The link is copied. It restores these values in this browser, as long as the session lives.";
+const COPIED = "The link is copied. It opens these values once, in another tab, as long as roofslip serve runs.";
 
 /**
  * Make the buttons work: `values` gives those of the sliders, `words` says what values change, `fail`
@@ -22,11 +22,13 @@ export function mountTakeaway({ make, workbook, copy, status }, api, { values, w
   }
 
   async function copyLink() {
+    const { token } = await api.newToken();
+    const link = `${location.origin}/?token=${token}${location.hash}`;
     try {
-      await navigator.clipboard.writeText(location.href);
+      await navigator.clipboard.writeText(link);
       say(status, api, COPIED);
     } catch {
-      showLink(status); // no clipboard: not a secure context, or not allowed
+      showLink(status, link); // no clipboard: not a secure context, or not allowed
     }
   }
 
@@ -35,10 +37,10 @@ export function mountTakeaway({ make, workbook, copy, status }, api, { values, w
   return mountPackage({ make, status }, api, { values, words, guarded });
 }
 
-function showLink(status) {
-  const link = html("input", { type: "text", readonly: true, value: location.href, "aria-label": "Link that restores these values" });
-  replace(status, link, note("Copy this link."));
-  link.select();
+function showLink(status, link) {
+  const field = html("input", { type: "text", readonly: true, value: link, "aria-label": "Link that opens these values" });
+  replace(status, field, note("Copy this link; it is good once."));
+  field.select();
 }
 
 function save(name, blob) {

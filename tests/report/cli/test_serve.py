@@ -2,21 +2,22 @@
 
 import json
 import os
+import pty
 import re
 import signal
 import socket
 import subprocess
 import sys
+import urllib.error
 import urllib.request
-from contextlib import ExitStack
-from http.cookiejar import CookieJar
+from subprocess import PIPE
 
 import pytest
 
 from commands import hearing, printed, refused
 from places import ROOT
 from report.cli.serve import listen, names_of
-from report.web.connections import TimedProtocol
+from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER
 
 WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
@@ -62,18 +63,12 @@ def test_a_missing_package_is_named(monkeypatch):
     assert "install roofslip[web]" in refused("serve", "--no-browser")
 
 
-def assert_connections_are_limited(page):
-    port = int(page.rpartition(":")[2].rstrip("/"))
-    with ExitStack() as stack:
-        for _ in range(TimedProtocol.most + 1):
-            last = stack.enter_context(socket.create_connection(("127.0.0.1", port)))
-        last.settimeout(WAIT_S)
-        assert last.recv(100).startswith(b"HTTP/1.1 503")
+def asked(url, method, **headers):
+    request = urllib.request.Request(url, headers=headers, method=method)
+    return json.load(urllib.request.urlopen(request, timeout=WAIT_S))
 
 
 @pytest.mark.parametrize("end", ["SIGTERM", "SIGHUP"])
-@pytest.mark.by_day(1)
-@pytest.mark.nightly("report/web/", "report/cli/serve.py")
 def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     token = tmp_path / "token"
     token.write_text(f"{TOKEN}\n")
@@ -91,17 +86,16 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     try:
         address = server.stdout.readline().strip()
         match = re.fullmatch(
-            r"(http://127\.0\.0\.1:\d+/)\?token=a-token-of-twenty-letters", address
+            r"(http://127\.0\.0\.1:\d+)/\?token=a-token-of-twenty-letters", address
         )
-        browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(CookieJar()))
-        page = browser.open(address, timeout=WAIT_S)
-        assert page.url == match[1]
+        page = urllib.request.urlopen(address, timeout=WAIT_S)
         assert b"<title>" in page.read()
-        state = json.load(browser.open(f"{match[1]}api/state", timeout=WAIT_S))
+        for _ in range(2):  # the token of a file stays good
+            key = asked(match[1] + ENTRY, "POST", **{TOKEN_HEADER: TOKEN})["key"]
+        state = asked(f"{match[1]}/api/state", "GET", **{KEY_HEADER: key})
         assert state["answer"]["verdict"]["text"] == "OK with conditions"
         assert "server" not in {name.lower() for name in page.headers}
         assert len(list(tmp_path.glob("roofslip-serve-*"))) == 1
-        assert_connections_are_limited(match[1])
     finally:
         server.send_signal(getattr(signal, end))
         _, warned = server.communicate(timeout=30)
@@ -110,6 +104,31 @@ def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     )
     assert server.returncode == 0
     assert not list(tmp_path.glob("roofslip-serve-*"))
+
+
+@pytest.mark.nightly
+def test_on_a_terminal_enter_prints_another_address_and_an_interrupt_ends_all():
+    there, here = pty.openpty()
+    command = [sys.executable, "-m", "report.cli", "serve", "--port", "0", "--no-browser"]
+    server = subprocess.Popen(command, cwd=ROOT, stdin=here, stdout=PIPE, stderr=PIPE, text=True)
+    try:
+        first = server.stdout.readline().strip()
+        os.write(there, b"\n")
+        second = server.stdout.readline().strip()
+        page, _, token = first.partition("/?token=")
+        keys = [asked(page + ENTRY, "POST", **{TOKEN_HEADER: each.partition("=")[2]})["key"]
+                for each in (first, second)]  # fmt: skip
+        assert keys[0] == keys[1]
+        assert first != second
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            asked(page + ENTRY, "POST", **{TOKEN_HEADER: token})
+    finally:
+        server.send_signal(signal.SIGINT)
+        _, told = server.communicate(timeout=30)
+        os.close(here)
+        os.close(there)
+    assert told.strip() == "Press Enter for another address, Ctrl+C to end."
+    assert server.returncode == 0
 
 
 def test_a_short_answer_is_sent_at_once():
@@ -122,7 +141,7 @@ def test_a_short_answer_is_sent_at_once():
         assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
 
 
-@pytest.mark.nightly("report/cli/serve.py", "report/web/")
+@pytest.mark.nightly
 def test_once_says_the_verdict_of_the_example():
     told = printed("serve", "--once", "--no-browser", "--port", 0)
     assert re.search(r"^the example: OK with conditions, after \d+\.\d s$", told, re.MULTILINE)

@@ -1,43 +1,46 @@
-"""A server without a socket, asked as a browser on this machine would ask it."""
+"""A server without a socket, asked as the page on this machine would ask it."""
 
 import pytest
 from starlette.testclient import TestClient
 
-from report.web.access import Gate
+from report.web.access import KEY_HEADER, Keys
 from report.web.app import made
-from report.web.sessions import Sessions
+from report.web.connections import Strangers
+from report.web.desk import Desk
 
-HOST, TOKEN = "127.0.0.1:8765", "a-token-of-this-server"
-
-
-@pytest.fixture(scope="session")
-def sessions(tmp_path_factory):
-    return Sessions(tmp_path_factory.mktemp("sessions"))
+HOST = "127.0.0.1:8765"
 
 
 @pytest.fixture(scope="session")
-def served(sessions):
-    """The server with one process that computes, ended with the tests."""
-    gate = Gate(token=TOKEN, hosts=[HOST], cookie="roofslip-8765")
-    with browser(made(gate, sessions, processes=1)) as client:
-        yield client
+def keys():
+    return Keys()
 
 
-def browser(app):
-    client = TestClient(app, base_url=f"http://{HOST}", follow_redirects=False)
-    client.headers["origin"] = f"http://{HOST}"
-    return client
-
-
-@pytest.fixture
-def visitor(served):
-    """A browser before it opens the address."""
-    served.cookies.clear()
-    return served
+@pytest.fixture(scope="session")
+def serving(keys, tmp_path_factory):
+    """The server, ended with the tests."""
+    app = made(keys, tmp_path_factory.mktemp("served"), [HOST], Strangers())
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Desk, "start", lambda _: None)  # one process less
+        with TestClient(app, base_url=f"http://{HOST}", follow_redirects=False) as client:
+            yield client
 
 
 @pytest.fixture
-def client(visitor):
-    """A browser that has opened the address."""
-    assert visitor.get(f"/?token={TOKEN}").status_code == 303
+def visitor(serving):
+    """A tab without the key."""
+    serving.headers.pop(KEY_HEADER, None)
+    return serving
+
+
+@pytest.fixture
+def client(visitor, keys):
+    """A tab that has the key, with the example open."""
+    visitor.headers[KEY_HEADER] = keys.key
+    visitor.post("/api/example")
     return visitor
+
+
+@pytest.fixture
+def desk(serving):
+    return serving.app.state.desk

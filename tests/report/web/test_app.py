@@ -10,20 +10,17 @@ from multiprocessing import active_children
 from pathlib import Path
 
 import pytest
-from starlette.testclient import TestClient
 
 from inputs import HEAD
 from places import ROOT
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource
 from report.web import receiving
-from report.web.access import Gate
-from report.web.app import made
-from report.web.sessions import Sessions
+from report.web.access import KEY_HEADER
+from report.web.packages import State
 from report.web.worker import answered
 from sheets import SECTIONS, at, make, type_into
 
-TOKEN = "a-token-of-this-server"
 EXAMPLE = ROOT / "projects" / "example"
 CONDITIONS = ROOT / "projects" / "conditions"
 JSON = {"content-type": "application/json"}
@@ -49,13 +46,9 @@ def begun(client, **values):
     return client.post("/api/package", json={"values": values}).json()
 
 
-def folder_of_session(client, sessions):
-    return sessions.find(client.cookies["roofslip-8765"]).folder
-
-
-def another_visitor(client):
-    client.cookies.clear()
-    client.get(f"/?token={TOKEN}")
+def uploads(desk):
+    """The folders of uploads."""
+    return [each.name for each in desk.folder.glob("upload-*")]
 
 
 def test_a_first_visit_shows_the_example_with_its_answer(client):
@@ -190,15 +183,14 @@ def test_of_two_uploads_the_last_is_open_whichever_arrives_first(client, monkeyp
     assert state["answer"]["verdict"]["text"] == "NG"
 
 
-def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, sessions):
+def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, desk):
     before = sent(client, folder_of(EXAMPLE)).json()["opened"]
     assert len(sent(client, [("input.xlsx", b"no workbook")]).json()["problems"]) == 1
     assert sent(client, [("records/x.csv", b"0")]).status_code == 422
     state = state_of(client)
     assert state["opened"] == before
     assert state["answer"]["verdict"]["text"] == "OK with conditions"
-    folder = folder_of_session(client, sessions)
-    assert [each.name for each in folder.iterdir()] == [before]
+    assert uploads(desk) == [before]
 
 
 def test_more_files_than_a_project_has_are_refused_in_the_words_of_the_page(client):
@@ -210,7 +202,7 @@ def full(*_, **__):
     raise OSError(errno.ENOSPC, "No space left on device")
 
 
-IS_FULL = "The disk of the server is full"
+IS_FULL = "The disk is full"
 
 
 @pytest.mark.parametrize(
@@ -224,39 +216,26 @@ IS_FULL = "The disk of the server is full"
     ],
     ids=["upload", "package"],
 )
-def test_a_full_disk_is_said(client, sessions, monkeypatch, fails, ask):
+def test_a_full_disk_is_said(client, desk, monkeypatch, fails, ask):
+    left = set(desk.folder.iterdir())
     with monkeypatch.context() as patch:
         for name in fails:
             patch.setattr(name, full)
         assert error_of(ask(client), 507).startswith(IS_FULL)
     assert state_of(client)["project"]
-    assert list(folder_of_session(client, sessions).iterdir()) == []
+    assert set(desk.folder.iterdir()) == left
 
 
-class FullSessions(Sessions):
-    """Sessions without room for another one."""
-
-    def begin(self):
-        full()
-
-
-def test_a_full_disk_is_said_to_a_visitor_who_comes(tmp_path):
-    gate = Gate(token=TOKEN, hosts=[], cookie="c")
-    found = TestClient(made(gate, FullSessions(tmp_path))).get(f"/?token={TOKEN}")
-    assert found.status_code == 507
-    assert found.text.startswith(IS_FULL)
-
-
-def test_a_full_disk_is_said_where_another_process_writes(client, sessions, monkeypatch):
+def test_a_full_disk_is_said_where_another_process_writes(client, desk, monkeypatch):
     async def ask(_, job, *__):
         Path(job["to"]).write_bytes(b"half")
         return answered(job)
 
     monkeypatch.setattr("report.web.jobs.perform", full)
-    monkeypatch.setattr("report.web.workers.Workers.ask", ask)
+    monkeypatch.setattr("report.web.desk.Desk._answer", ask)
     answer = client.post("/api/workbook", json={"values": {}})
     assert error_of(answer, 507).startswith(IS_FULL)
-    assert not list(folder_of_session(client, sessions).glob("written-*"))
+    assert not list(desk.folder.glob("written-*"))
 
 
 def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_path):
@@ -287,14 +266,6 @@ def test_a_page_that_shows_another_project_than_is_open_is_told(client, name):
         assert client.post(f"/api/{name}", json=body | {"opened": opened}).status_code == 200
 
 
-def test_sessions_cannot_see_each_other(client):
-    sent(client, folder_of(EXAMPLE))
-    mine = dict(client.cookies)
-    another_visitor(client)
-    assert state_of(client)["project"]["is_example"]
-    assert dict(client.cookies) != mine
-
-
 def test_the_workbook_with_the_values_is_read_back_as_what_was_assessed(client, tmp_path):
     values = {"friction": 0.93, "slope": 0.7, "intensity": 1.06, "clearance": -3.0}
     answer = client.post("/api/workbook", json={"values": values})
@@ -307,45 +278,62 @@ def test_the_workbook_with_the_values_is_read_back_as_what_was_assessed(client, 
     assert shown["friction"].startswith("0.465 (A1, A2)")
 
 
-def test_a_package_is_queued_and_canceled(client):
+def test_a_package_is_begun_and_canceled(client):
     package = begun(client, friction=0.9)
-    ticket = package["ticket"]
+    made = package["id"]
     assert package["values"] == {"friction": 0.9}
     # Another tab gets the one that is being made, and a page that is loaded finds it.
     again = begun(client)
-    assert (again["ticket"], again["values"]) == (ticket, {"friction": 0.9})
-    assert state_of(client)["package"]["ticket"] == ticket
-    assert client.get(f"/api/package/{ticket}/calc-package.pdf").status_code == 404
-    assert client.delete(f"/api/package/{ticket}").json()["state"] == "canceled"
+    assert (again["id"], again["values"]) == (made, {"friction": 0.9})
+    assert state_of(client)["package"]["id"] == made
+    assert client.post(f"/api/package/{made}/calc-package.pdf").status_code == 404
+    assert client.delete(f"/api/package/{made}").json()["state"] == "canceled"
     assert state_of(client)["package"] is None
-    another_visitor(client)
-    assert client.get(f"/api/package/{ticket}").status_code == 404
+    assert client.get("/api/package/another").status_code == 404
+
+
+def test_a_file_of_a_package_is_saved_by_a_link_that_is_good_once(client, monkeypatch):
+    made = begun(client)["id"]
+    package = client.app.state.desk.packages.find(made)
+    package.cancel()
+    package.out.mkdir()
+    (package.out / "results.json").write_text("{}")
+    package.state = State.DONE
+    links = [client.post(f"/api/package/{made}/results.json").json()["url"] for _ in range(2)]
+    assert len(set(links)) == 2
+    client.headers.pop(KEY_HEADER)  # a link shows none
+    for link in links:
+        saved = client.get(link)
+        assert (saved.status_code, saved.text) == (200, "{}")
+        assert saved.headers["content-disposition"] == 'attachment; filename="results.json"'
+        assert error_of(client.get(link), 404).startswith("A link to a file is good once")
+    assert client.post(f"/api/package/{made}/results.json").status_code == 401
 
 
 def test_opening_another_project_cancels_the_package_that_is_made(client):
-    ticket = begun(client)["ticket"]
+    made = begun(client)["id"]
     assert sent(client, folder_of(CONDITIONS)).json()["package"] is None
-    assert client.get(f"/api/package/{ticket}").json()["state"] == "canceled"
+    assert client.get(f"/api/package/{made}").json()["state"] == "canceled"
     assert state_of(client)["package"] is None
 
 
-def over(client, ticket):
+def over(client, made):
     for _ in range(300):
-        about = client.get(f"/api/package/{ticket}").json()
-        if about["state"] not in ("queued", "running"):
+        about = client.get(f"/api/package/{made}").json()
+        if about["is_over"]:
             return about
         time.sleep(0.1)
     raise AssertionError(about)
 
 
-def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, sessions):
+def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, desk):
     files = dict(folder_of(EXAMPLE))
     content = files.pop("example/input.xlsx")
     others = [(f"example/{name}.xlsx", b"not a workbook") for name in ("a", "input 2", "z")]
     sent(client, [*others, ("example/Input.XLSX", content), *files.items()])
     # Without one of its records the package fails early, in words that name its workbook.
-    next(folder_of_session(client, sessions).rglob("records/*")).unlink()
-    about = over(client, begun(client)["ticket"])
+    next((desk.folder / desk.opened).rglob("records/*")).unlink()
+    about = over(client, begun(client)["id"])
     assert about["state"] == "failed"
     assert about["words"].startswith("Motions!")
 
@@ -360,12 +348,14 @@ def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, mon
     assert told.startswith("Another workbook was opened meanwhile")
 
 
-@pytest.mark.nightly("report/web/workers.py")
+@pytest.mark.nightly
 def test_a_process_that_is_killed_is_replaced(client):
-    (before,) = active_children()
-    before.kill()
-    assert asked(client, {"friction": 0.97}, moving=True).status_code == 200
-    assert before not in active_children()
+    assert asked(client, {"friction": 0.97}).status_code == 200
+    before = active_children()
+    for process in before:
+        process.kill()
+    assert asked(client, {"friction": 0.97}).status_code == 200
+    assert not set(before) & set(active_children())
 
 
 def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(client, tmp_path):

@@ -10,6 +10,7 @@ import pytest
 
 from places import ROOT
 from report.web import receiving
+from report.web.access import KEY_HEADER
 from sheets import type_into
 
 EXAMPLE = ROOT / "projects" / "example"
@@ -34,11 +35,10 @@ def test_a_body_that_is_too_long_is_not_read_to_its_end(client, monkeypatch):
     assert client.post("/api/upload", content=body(), headers=headers).status_code == 413
 
 
-def test_a_visitor_who_leaves_while_files_arrive_is_no_internal_error(client, sessions):
+def test_a_tab_that_is_closed_while_files_arrive_is_no_internal_error(client, desk):
     headers = {
         "host": client.base_url.netloc.decode(),
-        "origin": client.headers["origin"],
-        "cookie": "; ".join(f"{name}={value}" for name, value in client.cookies.items()),
+        KEY_HEADER.lower(): client.headers[KEY_HEADER],
         "content-type": "multipart/form-data; boundary=x",
     }
     scope = {
@@ -49,6 +49,7 @@ def test_a_visitor_who_leaves_while_files_arrive_is_no_internal_error(client, se
         "query_string": b"",
         "headers": [(name.encode(), value.encode()) for name, value in headers.items()],
     }
+    left = set(desk.folder.iterdir())
     messages = [{"type": "http.request", "body": b"--x", "more_body": True}]
     answers = []
 
@@ -60,7 +61,7 @@ def test_a_visitor_who_leaves_while_files_arrive_is_no_internal_error(client, se
 
     client.portal.call(client.app, scope, receive, send)
     assert answers[0]["status"] == 400
-    assert list(sessions.find(client.cookies["roofslip-8765"]).folder.iterdir()) == []
+    assert set(desk.folder.iterdir()) == left
 
 
 def test_a_request_that_is_too_long_is_refused(client):
@@ -96,5 +97,5 @@ def test_static_files_are_those_of_the_page_alone(client, path):
 def test_no_answer_names_a_folder_of_the_server(client):
     asked = (client.post(f"/api/{name}", json={"values": {}}) for name in ("assess", "workbook"))
     for answer in (sent(client, ("input.xlsx", b"x")), *asked):
-        assert "sessions" not in answer.text
+        assert "served" not in answer.text
         assert "/tmp" not in answer.text

@@ -1,4 +1,4 @@
-"""Packages of a session, with processes that only wait."""
+"""Packages of the page, with processes that only wait."""
 
 import asyncio
 import errno
@@ -11,11 +11,8 @@ import pytest
 from processes import SameProcess
 from report.making import Step
 from report.web.packages import Packages, State
-from report.web.sessions import Session
 from report.web.worker import in_words, made
 from solver.model import DefectError, InputError
-
-SESSION = Session(id="s", folder=Path("/nowhere"), used_s=0.0)
 
 
 class Making(SameProcess):
@@ -38,15 +35,40 @@ def test_a_package_that_is_canceled_while_it_is_made_leaves_no_process(monkeypat
 
     async def run():
         packages = Packages()
-        package = packages.begin(SESSION, Path("/nowhere/p/input.xlsx"), {})
+        package = packages.begin("example", Path("/nowhere/p/input.xlsx"), {})
+        # Another tab gets the one that is made.
+        assert packages.begin("example", Path("/nowhere/q/input.xlsx"), {}) is package
         async with asyncio.timeout(20.0):
             while package.worker is None:
                 await asyncio.sleep(0.01)
-            await packages.cancel(package)
+            packages.cancel()
         await packages.stop()
+        assert packages.last("example") is None
         return package.state, package.words, process.result.done()
 
     assert asyncio.run(run()) == (State.CANCELED, "The package was canceled.", True)
+
+
+def test_a_package_is_the_last_of_what_is_open_alone(monkeypatch):
+    class AtOnce(SameProcess):
+        """A process that makes a package at once."""
+
+        def submit(self, fn, *args):
+            return super().submit(str)
+
+    monkeypatch.setattr("report.web.packages.making", lambda *_: AtOnce())
+
+    async def run():
+        packages = Packages()
+        made = []
+        for opened in ("example", "upload-1", "example"):
+            made.append(packages.begin(opened, Path("/nowhere/p/input.xlsx"), {}))
+            await asyncio.sleep(0.01)
+        assert {one.state for one in made} == {State.DONE}
+        assert packages.last("upload-2") is None
+        return [made.index(packages.last(opened)) for opened in ("example", "upload-1")]
+
+    assert asyncio.run(run()) == [2, 1]
 
 
 def test_a_step_is_named_in_a_sentence_without_what_compiles():
@@ -72,27 +94,5 @@ def full_folder():
 @pytest.mark.parametrize("fails", [full, full_folder])
 def test_a_full_disk_is_the_reason_that_a_package_failed(fails, capsys, monkeypatch):
     monkeypatch.setattr("report.making.make", lambda *_: fails())
-    assert made(Path("p/input.xlsx"), Path("p/out")).startswith("The disk of the server is full")
+    assert made(Path("p/input.xlsx"), Path("p/out")).startswith("The disk is full")
     assert capsys.readouterr().err == ""
-
-
-def test_the_last_five_packages_of_a_session_are_kept(monkeypatch):
-    class AtOnce(SameProcess):
-        """A process that makes a package at once."""
-
-        def submit(self, fn, *args):
-            return super().submit(str)
-
-    monkeypatch.setattr("report.web.packages.making", lambda *_: AtOnce())
-
-    async def run():
-        packages = Packages()
-        found = []
-        for k in range(7):
-            found.append(packages.begin(SESSION, Path(f"/nowhere/{k}/input.xlsx"), {}))
-            while not found[-1].state.is_over:
-                await asyncio.sleep(0.01)
-        assert {one.state for one in found} == {State.DONE}
-        return [packages.find(SESSION, one.ticket) is not None for one in found]
-
-    assert asyncio.run(run()) == [False] * 2 + [True] * 5

@@ -170,8 +170,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("how", CHANGES)
-@pytest.mark.by_day(1)
-@pytest.mark.nightly("report/web/")
+@pytest.mark.nightly
 def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, how):
     """However late the answer is, no verdict stands beside values that it is not of."""
     moved(page, "slope", 1.5)  # some clearances are NG
@@ -213,6 +212,29 @@ def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, addres
     page.get_by_label("Slope: back to the workbook's value").click()
     page.wait_for_url(re.compile(r"/$"))
     assert numbers(page, "arrays", 3) != shown
+
+
+def test_an_address_is_good_once_and_the_page_gives_another_one(page, browser, address):
+    moved(page, "slope", 1.0)
+    page.wait_for_url("**/#slope=1")
+    page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(); }")
+    page.click("#copy-link")
+    link = page.locator("#package-status input").input_value()
+    with quiet_page(browser) as other:
+        other.goto(link)
+        at_rest(other)
+        assert other.url == page.url  # the token has left the address
+        assert other.locator("#slider-slope").input_value() == "1"
+        assert other.context.cookies() == []
+        other.reload()
+        at_rest(other)
+    for used in (link, link.partition("?")[0]):
+        with quiet_page(browser) as third:
+            assert third.goto(used).status == (403 if used == link else 200)
+            third.wait_for_selector("#no-key:visible")
+            assert "press Enter in the terminal" in third.inner_text("#no-key")
+            assert third.inner_text("h1") == "This tab needs a new address"
+            assert third.locator("#desk").is_hidden()
 
 
 def test_the_page_works_with_the_keyboard_alone(page):
@@ -278,7 +300,7 @@ def test_of_a_workbook_that_is_sent_alone_the_page_says_first_that_its_records_a
     assert page.inner_text("#problems p").startswith("The workbook came alone. Drop its folder")
 
 
-@pytest.mark.nightly("report/web/")
+@pytest.mark.nightly
 def test_what_is_sent_is_told_before_the_server_answers_and_the_example_as_well(page, tmp_path):
     held = []
     page.route("**/api/upload", lambda route: held.append(route))
@@ -292,7 +314,7 @@ def test_what_is_sent_is_told_before_the_server_answers_and_the_example_as_well(
     page.wait_for_selector("#busy", state="hidden")
 
 
-@pytest.mark.nightly("report/web/")
+@pytest.mark.nightly
 def test_names_of_40_characters_are_cut_with_the_whole_as_a_tooltip(page, tmp_path):
     long = {name: f"{name} of the roof north of the expansion jt" for name in ("A1", "A2")}
     rows = {
@@ -387,7 +409,7 @@ def test_a_package_that_is_canceled_leaves_the_page_as_it_was(page):
     assert page.locator("#make-package").is_enabled()
 
 
-@pytest.mark.nightly("report/web/")
+@pytest.mark.nightly
 def test_on_a_tablet_or_phone_nothing_is_cut_off_and_in_print_no_control_is_left(page):
     for size in (TABLET, PHONE):
         page.set_viewport_size(size)
@@ -456,10 +478,11 @@ def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back
         page.wait_for_selector("#error", state="hidden")
 
 
-def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(page, tmp_path):
+def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(
+    page, address, tmp_path
+):
     other = page.context.new_page()
-    other.goto(page.url)
-    at_rest(other)
+    opened(other, address)
     sent(other, CONDITIONS, tmp_path / "other")
     other.wait_for_selector("h1:has-text('Small Warehouse')")
     before = numbers(page, "arrays", 3)

@@ -215,28 +215,6 @@ def test_a_polarity_without_the_governing_heading_runs_all_that_it_has():
         assert {orientation.polarity for orientation in orientations} == {-1}
 
 
-@pytest.mark.parametrize("shortages", [1, 2])
-def test_where_memory_ends_what_is_kept_goes_and_the_job_is_done_again_once(shortages, monkeypatch):
-    at_rest("school")
-    begun = []
-
-    def short_at_first(*given):
-        begun.append(given)
-        if len(begun) <= shortages:
-            raise MemoryError
-        return assess(*given)
-
-    monkeypatch.setattr(jobs, "assess", short_at_first)
-    friction = 1.0 - 0.01 * shortages
-    if shortages == 1:
-        assert at_rest("school", friction=friction)
-        assert len(begun) == 3  # cut off, then as typed once more, then at these values
-    else:
-        with pytest.raises(MemoryError):
-            at_rest("school", friction=friction)
-        assert len(begun) == 2
-
-
 def test_s_ds_that_changes_leaves_the_table_of_its_coefficient_behind():
     """Of a school with S_S 0.55 g and F_a 1.28: at a smaller S_S the table gives a larger F_a."""
     given = start("school")

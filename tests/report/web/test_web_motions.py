@@ -82,25 +82,25 @@ def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(cli
     files = [("files", ("p/input.xlsx", path.read_bytes()))]
     began = client.post("/api/motions", files=files).json()
     assert client.get("/api/state").json()["package"] is None
-    ticket = began["ticket"]
+    made = began["id"]
     deadline = time.monotonic() + 60.0
-    while (told := client.get(f"/api/package/{ticket}").json())["state"] in ("queued", "running"):
+    while (told := client.get(f"/api/package/{made}").json())["state"] == "running":
         assert time.monotonic() < deadline
         time.sleep(0.1)
     assert told["state"] == "failed"
     assert "missing or cannot be read" in told["words"]
-    assert client.get(f"/api/package/{ticket}/{PROJECT}").status_code == 404
+    assert client.post(f"/api/package/{made}/{PROJECT}").status_code == 404
     assert client.post("/api/motions", files=[("files", ("../x.xlsx", b""))]).status_code == 422
 
 
 def test_a_suite_that_is_being_made_ends_where_another_project_is_opened(client, tmp_path):
     files = [("files", ("p/input.xlsx", without_motions(tmp_path).read_bytes()))]
-    ticket = client.post("/api/motions", files=files).json()["ticket"]
+    made = client.post("/api/motions", files=files).json()["id"]
     client.post("/api/example")
-    assert client.get(f"/api/package/{ticket}").json()["state"] == "canceled"
+    assert client.get(f"/api/package/{made}").json()["state"] == "canceled"
 
 
-@pytest.mark.nightly("report/web/")
+@pytest.mark.nightly
 def test_motions_are_offered_again_where_the_server_no_longer_tells_of_them(browser, tmp_path):
     path = without_motions(tmp_path)
     with served() as (address, _), quiet_page(browser) as page:
@@ -113,7 +113,7 @@ def test_motions_are_offered_again_where_the_server_no_longer_tells_of_them(brow
         assert page.locator("#no-motions button").inner_text().startswith("No motions?")
 
 
-@pytest.mark.nightly("report/web/")
+@pytest.mark.nightly
 def test_the_page_makes_motions_and_goes_on_with_them(browser, tmp_path):
     path = without_motions(tmp_path)
     with served() as (address, _), quiet_page(browser) as page:
@@ -122,11 +122,11 @@ def test_the_page_makes_motions_and_goes_on_with_them(browser, tmp_path):
         page.set_input_files("#files", [str(path)])
         page.click("#no-motions button")
         page.wait_for_selector("#no-motions progress")
-        page.wait_for_selector("#no-motions a", timeout=600_000)
+        page.wait_for_selector("#no-motions button:has-text('Save')", timeout=600_000)
         page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
         assert page.inner_text("h1") == "Alameda Warehouse"
         with page.expect_download() as download:
-            page.click("#no-motions a")
+            page.click("#no-motions button")
         content = io.BytesIO(download.value.path().read_bytes())
         assert len([n for n in zipfile.ZipFile(content).namelist() if n.endswith(".csv")]) == 21
         page.click("#example")
