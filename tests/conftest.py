@@ -3,6 +3,7 @@
 import gc
 import os
 import resource
+import signal
 from contextlib import contextmanager
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are small: as in ./roofslip
@@ -18,6 +19,9 @@ from places import RECORDS, SAMPLES
 from processes import SameProcess
 
 G = 9.80665
+
+# A run in the background of a shell ignores interrupts, and so would all that the tests start.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 pytest_plugins = ("selection",)
 
