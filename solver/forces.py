@@ -52,26 +52,13 @@ def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
 
 def forces(scene: Scene) -> Forces:
     """Return the forces on a block (Eqs. 6-9 of the paper, with vertical acceleration added)."""
-    sn, cs = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
-    ax, gravity = _accelerations(scene)
-    across = -scene.scale * scene.ay_mps2 if scene.ay_mps2.size else 0.0 * ax
-    return Forces(
-        down_mps2=gravity * sn - ax * cs,
-        across_mps2=across,
-        normal_mps2=_normal(scene, ax, gravity),
-    )
+    ax, ay, az = map(scene.scaled, components(scene))
+    down = (scene.g_mps2 + az) * math.sin(scene.slope_rad) - ax * math.cos(scene.slope_rad)
+    return Forces(down_mps2=down, across_mps2=-ay, normal_mps2=normal_mps2(scene))
 
 
 def normal_mps2(scene: Scene) -> Floats:
-    """Return N / m alone, as `forces` has it [m/s2], shape (n,)."""
-    return _normal(scene, *_accelerations(scene))
-
-
-def _normal(scene: Scene, ax: Floats, gravity: Floats) -> Floats:
-    return gravity * math.cos(scene.slope_rad) + ax * math.sin(scene.slope_rad)
-
-
-def _accelerations(scene: Scene) -> tuple[Floats, Floats]:
-    """Return horizontal acceleration along the slope, and gravity with the vertical [m/s2]."""
-    ax = scene.scale * scene.ax_mps2
-    return ax, scene.g_mps2 + (scene.scale * scene.az_mps2 if scene.az_mps2.size else 0.0 * ax)
+    """Return N / m alone [m/s2], shape (n,)."""
+    ax, _, az = components(scene)
+    gravity = scene.g_mps2 + scene.scaled(az)
+    return gravity * math.cos(scene.slope_rad) + scene.scaled(ax) * math.sin(scene.slope_rad)

@@ -318,34 +318,55 @@ def coulomb(mu: float) -> Friction:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Scene:
-    """One block under one motion, checked.
+class Accelerations:
+    """The acceleration of a roof, evenly sampled, with a factor on all its components.
 
     Attributes
     ----------
-    ax_mps2, ay_mps2 : array, shape (n,)
-        Horizontal roof acceleration along the slope and cross-slope [m/s2]; read-only, like all
-        records.
-    az_mps2 : array, shape (n,) or (0,)
-        Vertical acceleration, positive up [m/s2]; empty for none.
-    dt_s, slope_rad, g_mps2 : float
-        As in `solver.slide`.
+    dt_s : float
+        Sampling interval [s].
+    ax_mps2, ay_mps2, az_mps2 : array, shape (n,)
+        Horizontal acceleration, that across it and vertical (positive up), unscaled [m/s2],
+        read-only; ay or az has shape (0,) if there is none.
     scale : float
-        Factor on all components.
-    friction : Friction
+        What `scaled` applies. Kernels take it beside the arrays: scenes of any scale share them.
     """
 
+    dt_s: float
     ax_mps2: Floats
     ay_mps2: Floats
     az_mps2: Floats
-    dt_s: float
+    scale: float
+
+    @property
+    def components(self) -> dict[str, Floats]:
+        """The components that there are by the names x, y and z, unscaled [m/s2]."""
+        arrays = {"x": self.ax_mps2, "y": self.ay_mps2, "z": self.az_mps2}
+        return {name: a for name, a in arrays.items() if len(a)}
+
+    def scaled(self, unscaled: Floats) -> Floats:
+        """Return a component as run, or what is proportional to one, such as its spectrum."""
+        return self.scale * unscaled
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene(Accelerations):
+    """One block under one motion, checked; ax is along the slope, ay cross-slope.
+
+    Attributes
+    ----------
+    Those of `Accelerations`, and
+    slope_rad, g_mps2 : float
+        As in `solver.slide`.
+    friction : Friction
+    """
+
     slope_rad: float
     friction: Friction
-    scale: float
     g_mps2: float
 
     def __repr__(self) -> str:
-        axes = 1 + (self.ay_mps2.size > 0) + (self.az_mps2.size > 0)
+        axes = len(self.components)
         return (
             f"Scene({axes} component{'s' if axes > 1 else ''} of {self.ax_mps2.size} samples at "
             f"{self.dt_s:g} s, slope {math.degrees(self.slope_rad):.4g} deg, mu "
@@ -390,30 +411,19 @@ class Orientation:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Motion:
-    """A roof motion ready to run: in m/s2, evenly sampled, with its scale factor, arrays read-only.
+class Motion(Accelerations):
+    """A roof motion ready to run; ax is the horizontal record, ay the transverse component.
 
     Attributes
     ----------
+    Those of `Accelerations`, and
     id, source : str
-    dt_s : float
-        Sampling interval [s].
-    ax_mps2, ay_mps2, az_mps2 : array, shape (n,)
-        Horizontal record, the other horizontal component (transverse) and vertical (positive up)
-        acceleration, unscaled [m/s2]; ay or az has shape (0,) if there is none.
-    scale : float
-        Factor on all components.
     signs : tuple of int
         Polarities in which each horizontal component is run, from {+1, -1}.
     """
 
     id: str
     source: str
-    dt_s: float
-    ax_mps2: Floats
-    ay_mps2: Floats
-    az_mps2: Floats
-    scale: float
     signs: tuple[int, ...]
     # The horizontal components reversed. Scenes share all their arrays with the motion: a package
     # has hundreds of scenes, and gives them to another process.
@@ -429,12 +439,6 @@ class Motion:
         samples = f"{len(self.ax_mps2)} samples of {self.dt_s:g} s"
         names = " and ".join(self.components)
         return f"Motion: {self.id}, {names}, {samples}, scale {self.scale:g}"
-
-    @property
-    def components(self) -> dict[str, Floats]:
-        """The components that there are by the names x, y and z, unscaled [m/s2]."""
-        arrays = {"x": self.ax_mps2, "y": self.ay_mps2, "z": self.az_mps2}
-        return {name: a for name, a in arrays.items() if len(a)}
 
     @property
     def has_vertical(self) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from operator import attrgetter
 
 from report.sheet.schema.choices import Direction, ModelChoice
 from report.sheet.schema.scene import Array
@@ -16,7 +17,7 @@ from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, 
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
 from solver.sliding.least_model import Model, Settings, Solution
-from solver.sliding.uplift import Uplift, minimum_normal_mps2, uplift
+from solver.sliding.uplift import Uplift, uplift
 
 REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
     ModelChoice.ONE_AXIS: Model.ONE_AXIS,
@@ -84,8 +85,8 @@ class MotionRun:
     _peaks_m: Mapping[Direction, float] = field(init=False)
 
     def __post_init__(self) -> None:
-        lightest = min((run.scene for run in self.runs), key=minimum_normal_mps2)
-        object.__setattr__(self, "uplift", uplift(lightest))
+        uplifts = (uplift(run.scene) for run in self.runs)
+        object.__setattr__(self, "uplift", min(uplifts, key=attrgetter("n_min_g")))
         peaks_m = {
             direction: max((run.excursion_m(direction) for run in self.runs), key=nan_is_worst)
             for direction in Direction

@@ -152,7 +152,7 @@ def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
 
 
 def _scaled(motion: Motion, a_mps2: Floats) -> Record:
-    return Record(name=motion.id, dt_s=motion.dt_s, a_mps2=a_mps2 * motion.scale)
+    return Record(name=motion.id, dt_s=motion.dt_s, a_mps2=motion.scaled(a_mps2))
 
 
 def _ordinates(a_mps2: Floats, dt_s: float) -> Floats:

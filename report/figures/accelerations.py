@@ -28,7 +28,7 @@ def accelerations(motions: Sequence[Motion]) -> str:
 
     All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
-    scaled = [[m.scale / G_MPS2 * a for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
+    scaled = [[m.scaled(a) / G_MPS2 for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
     reach = max(float(np.abs(a_g).max()) for row in scaled for a_g in row if a_g.size) or 1.0
     seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)
     height = _ROW_IN * len(motions) + _TOP_IN + _BOTTOM_IN

@@ -70,7 +70,7 @@ def _shake(
     scale = _scale(data, row, components.records)
     motion, roof = _motion(data, row, components.records, scale)
     scaled = {
-        LABELS[field]: replace(record, name=row.id, a_mps2=read_only(scale * record.a_mps2))
+        LABELS[field]: replace(record, name=row.id, a_mps2=read_only(motion.scaled(record.a_mps2)))
         for field, record in components.records.items()
     }
     bare = components.unfiltered

@@ -57,9 +57,9 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> Table:
         (words("Motion", 0.9), lambda row: row[0].id),
         *([source] if has_sources else []),
         *([place] if package.has_ground else []),
-        (plain("Peak [g]", 3, "record"), lambda row: _peak_g(row[0].ax_mps2, row[0].scale)),
-        (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0].ay_mps2, row[0].scale)),
-        (plain("Peak [g]", 3, "vertical", 1.1), lambda row: _peak_g(row[0].az_mps2, row[0].scale)),
+        (plain("Peak [g]", 3, "record"), lambda row: _peak_g(row[0], row[0].ax_mps2)),
+        (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0], row[0].ay_mps2)),
+        (plain("Peak [g]", 3, "vertical", 1.1), lambda row: _peak_g(row[0], row[0].az_mps2)),
         (text("Step", "s", 1.1), lambda row: f"{row[0].dt_s:.3g}"),
         (plain("Duration", 2, "s", 1.1), lambda row: (len(row[0].ax_mps2) - 1) * row[0].dt_s),
         (words("Scaling", 1.35), lambda row: row[1].scaling),
@@ -70,8 +70,8 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> Table:
     return listed(rows, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 
 
-def _peak_g(values: Floats, scale: float) -> float:
-    return float(np.abs(values).max() * abs(scale) / G_MPS2) if len(values) else math.nan
+def _peak_g(motion: Motion, a_mps2: Floats) -> float:
+    return float(np.abs(motion.scaled(a_mps2)).max() / G_MPS2) if len(a_mps2) else math.nan
 
 
 def _polarity(motion: Motion) -> str:

@@ -186,7 +186,7 @@ def results_of(
     prd, slip = np.concatenate(kept), np.concatenate(slips)
     ppa = np.array(
         [
-            np.mean([np.abs(m.ax_mps2).max() * m.scale / G_MPS2 for m in motions])
+            np.mean([np.abs(m.scaled(m.ax_mps2)).max() / G_MPS2 for m in motions])
             for motions in plan.motions.motions
         ]
     )

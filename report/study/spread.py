@@ -59,7 +59,7 @@ def _deviations(motions: Sequence[Motion]) -> Floats:
         return np.array([math.nan])
     spectra = np.array(
         [
-            [motion.scale * response_spectrum(a, motion.dt_s, 1.0 / FREQ_HZ) for a in parts]
+            [motion.scaled(response_spectrum(a, motion.dt_s, 1.0 / FREQ_HZ)) for a in parts]
             for motion in motions
             for parts in [motion.components.values()]
         ]

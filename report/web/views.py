@@ -222,11 +222,10 @@ def _prd(prd_m: float, said: Callable[[float], str]) -> str:
 
 def _roof(scene: Scene) -> tuple[Record, ...]:
     """Return the roof motion as run: downslope, cross-slope and vertical, as far as it has them."""
-    components = scene.ax_mps2, scene.ay_mps2, scene.az_mps2
+    names = {"x": "down", "y": "cross", "z": "vertical"}
     return tuple(
-        Record(name=name, dt_s=scene.dt_s, a_mps2=scene.scale * a_mps2)
-        for name, a_mps2 in zip(("down", "cross", "vertical"), components, strict=True)
-        if a_mps2.size
+        Record(name=names[axis], dt_s=scene.dt_s, a_mps2=scene.scaled(a))
+        for axis, a in scene.components.items()
     )
 
 

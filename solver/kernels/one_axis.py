@@ -7,6 +7,7 @@ Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
     ax, az   horizontal (right) and vertical (up) acceleration of the plane     [m/s2]
     x, z     bounds of ax and of az over blocks of samples                      [m/s2]
     g        acceleration of gravity                                            [m/s2]
+    scale    factor on ax and az (`solver.model.Accelerations`)
     sn, cs   sine and cosine of the roof slope theta, positive down to the right
     mu       friction coefficient, static and kinetic
     s, w     distance slid downslope [m]; speed in the direction of sliding, >= 0 [m/s]

@@ -17,6 +17,7 @@ has its own axes: along the motion (or along the drive), and across, 90 deg to t
 Letters:
     ax, ay, az  acceleration of the plane: horizontal (right), cross-slope, vertical (up) [m/s2]
     x, y, z     `one_axis.bounds` of ax, ay and az
+    scale       factor on ax, ay and az (`solver.model.Accelerations`)
     g, sn, cs   acceleration of gravity; sine and cosine of theta, positive down to the right
     sx, sy      distance slid downslope and cross-slope; in plan (sx cos(theta), sy)      [m]
     vx, vy, w   their rates, and the speed                                                [m/s]

@@ -117,7 +117,7 @@ def acceptance(
 def motion_strength(motion: Motion, hold_s: float) -> MotionStrength:
     """Measure the strong motion and the correlations of a motion as run."""
     records = {
-        name: Record(name=name, dt_s=motion.dt_s, a_mps2=motion.scale * a)
+        name: Record(name=name, dt_s=motion.dt_s, a_mps2=motion.scaled(a))
         for name, a in motion.components.items()
     }
     return MotionStrength(

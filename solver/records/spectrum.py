@@ -107,7 +107,7 @@ def spectrum(
 def _components(shaking: Record | Motion) -> dict[str, Floats]:
     if isinstance(shaking, Record):
         return {shaking.name: shaking.a_mps2}
-    return {name: shaking.scale * a for name, a in shaking.components.items()}
+    return {name: shaking.scaled(a) for name, a in shaking.components.items()}
 
 
 def response_spectrum(

@@ -106,8 +106,7 @@ def spectrum_ratios(
         SpectrumRatio(
             motion=motion.id,
             component=name,
-            ratio=abs(motion.scale)
-            * (spectrum_mps2(a.tobytes(), motion.dt_s) / UNITS["g"])
+            ratio=np.abs(motion.scaled(spectrum_mps2(a.tobytes(), motion.dt_s) / UNITS["g"]))
             / goals[name],
         )
         for motion in motions

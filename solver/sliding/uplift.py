@@ -57,11 +57,6 @@ def uplift(scene: Scene) -> Uplift:
     )
 
 
-def minimum_normal_mps2(scene: Scene) -> float:
-    """Return the minimum of N / m [m/s2], by which the scene nearest to uplift is found."""
-    return float(normal_mps2(scene).min())
-
-
 def _below(normal: Floats) -> Floats:
     """Return the fraction of each interval in which N, linear between samples, is below zero."""
     first, last = normal[:-1], normal[1:]

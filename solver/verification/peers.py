@@ -16,6 +16,7 @@ from functools import partial
 
 import numpy as np
 
+from solver.forces import components
 from solver.model import STANDARD_GRAVITY_MPS2, Motion, Scene, coulomb
 from solver.records.record import Record
 from solver.sliding import checked, one_axis, two_axes
@@ -119,8 +120,7 @@ def _opensees(scene: Scene) -> float:
     """Run a flatSliderBearing in the axes of the roof: dead load, then uniform excitation."""
     ops = importlib.import_module("openseespy.opensees")
     sine, cosine = math.sin(scene.slope_rad), math.cos(scene.slope_rad)
-    level, dt = scene.scale * scene.ax_mps2, scene.dt_s
-    vertical = scene.scale * scene.az_mps2 if scene.az_mps2.size else np.zeros_like(level)
+    (level, _, vertical), dt = map(scene.scaled, components(scene)), scene.dt_s
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
     for node in (1, 2):
@@ -174,7 +174,7 @@ def _pyslammer(scene: Scene) -> float:
     Downslope s'' = (cos(theta) + mu sin(theta)) (-a - g tan(phi - theta)).
     """
     pyslammer = importlib.import_module("pyslammer")
-    mu, a = scene.friction.mu_slow, scene.scale * scene.ax_mps2
+    mu, a = scene.friction.mu_slow, scene.scaled(scene.ax_mps2)
     travels_m = []
     for theta, way in ((scene.slope_rad, -a), (-scene.slope_rad, a)):
         motion = pyslammer.GroundMotion(way / _G, scene.dt_s)

@@ -1,12 +1,15 @@
 """The records of the solver: a motion and its scenes."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from solver.forces import friction_demand
 from solver.model import Motion, coulomb
 from solver.records.record import read_only
+from solver.sliding import one_axis, two_axes
 
 
 @pytest.fixture
@@ -34,3 +37,12 @@ def test_each_component_is_along_the_slope_as_recorded_and_reversed(motion):
 def test_all_scenes_of_a_motion_share_their_arrays(motion):
     for one, other in zip(scenes(motion), scenes(motion), strict=True):
         assert one.ax_mps2 is other.ax_mps2
+
+
+@pytest.mark.parametrize("solve", [one_axis.run, two_axes.run, friction_demand])
+def test_a_kernel_takes_the_scale_as_scaled_applies_it(motion, solve):
+    scaled = {f"a{axis}_mps2": read_only(motion.scaled(a)) for axis, a in motion.components.items()}
+    for scene, alike in zip(
+        scenes(motion), scenes(replace(motion, **scaled, scale=1.0)), strict=True
+    ):
+        assert solve(scene) == solve(alike) != solve(replace(scene, scale=1.0))
