@@ -5,7 +5,7 @@ Templates print these. Owns no content. Read `table_of`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import itemgetter
@@ -17,6 +17,7 @@ from report.assessment.verdict import Verdict
 from report.entities.columns import TableColumn, UnitFormat
 from report.entities.shown import Entity, Shown, shown_by
 from report.words.counts import grouped_by, joined, name_order, ranged
+from report.words.units import Unit
 from solver.model import DefectError
 
 PLAIN = UnitFormat(us_first=True, none="—")
@@ -67,10 +68,10 @@ class Table:
         )
 
     @property
-    def body(self) -> tuple[tuple[str, tuple[tuple[str, str, int, str], ...]], ...]:
+    def body(self) -> Sequence[tuple[str, Sequence[tuple[str, str, int, str]]]]:
         """Rows as style and cells: text, marks after it, columns spanned, alignment."""
         aligns = [column.align for column in self.columns]
-        return tuple((row.kind, tuple(_placed(row.cells, aligns))) for row in self.rows)
+        return [(row.kind, _placed(row.cells, aligns)) for row in self.rows]
 
     @property
     def hold(self) -> str:
@@ -80,19 +81,20 @@ class Table:
 
 def _placed(
     cells: Sequence[str | Wide], aligns: Sequence[str]
-) -> Iterator[tuple[str, str, int, str]]:
-    at = 0
+) -> Sequence[tuple[str, str, int, str]]:
+    placed, at = [], 0
     for cell in cells:
         if isinstance(cell, Wide):
-            yield cell.text, "", cell.span, "left"
+            placed.append((cell.text, "", cell.span, "left"))
             at += cell.span
             continue
         # Marks after a number hang outside the column, so that the digits stay aligned.
         text = cell.rstrip("†‡") if aligns[at] == "right" else cell
-        yield text, cell[len(text) :], 1, aligns[at]
+        placed.append((text, cell[len(text) :], 1, aligns[at]))
         at += 1
     if at != len(aligns):
         raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
+    return placed
 
 
 def stamp(value: Verdict, text: str = "") -> Markup:
@@ -124,17 +126,15 @@ def table_of(
         for name, shown in fields
         for column in shown.columns(fmt, heads.get(name, shown.head), shares.get(name, shown.share))
     ]
-    return Table(
-        columns=tuple(columns),
-        rows=tuple(
-            TableRow(
-                cells=tuple(cell for name, _ in fields for cell in _cells(row, name, fmt)),
-                kind=row.style,
-            )
-            for row in rows
-        ),
-        kind=kind,
-    )
+    units, made = {name: shown.units(fmt) for name, shown in fields}, []
+    for row in rows:
+        cells: list[str] = []
+        for name, shown in fields:
+            value, mark, show = getattr(row, name), row.marks.get(name, ""), row.rounds.get(name)
+            text = stamp(value) if isinstance(value, Verdict) else value
+            cells += shown.cells(text, fmt.none, units[name], mark, show)
+        made.append(TableRow(cells=tuple(cells), kind=row.style))
+    return Table(columns=tuple(columns), rows=tuple(made), kind=kind)
 
 
 _Value = Callable[[Any], Any]
@@ -181,6 +181,7 @@ def listed(
     style : callable, optional
         Gives the style of the row of an item.
     """
+    units = [shown.units(fmt) for shown, *_ in columns]
     return Table(
         columns=tuple(
             column
@@ -188,12 +189,31 @@ def listed(
             for column in shown.columns(fmt, shown.head, shown.share)
         ),
         rows=tuple(
-            TableRow(cells=tuple(_listed_cells(columns, item, fmt)), kind=style(item))
+            TableRow(cells=_listed_cells(item, columns, units, fmt.none), kind=style(item))
             for item in items
         ),
         kind=kind,
         whole_rows=whole_rows,
     )
+
+
+def _listed_cells(
+    item: Any, columns: Sequence[Column], units: Sequence[Sequence[Unit]], none: str
+) -> tuple[str | Wide, ...]:
+    cells: list[str | Wide] = []
+    covered = 0
+    for (shown, value_of, *mark_of), of_column in zip(columns, units, strict=True):
+        if covered:
+            covered -= len(of_column)
+            continue
+        value = value_of(item)
+        if isinstance(value, Wide):
+            covered = value.span - len(of_column)
+            cells.append(value)
+        else:
+            mark = mark_of[0](item) if mark_of else ""
+            cells += shown.cells(value, none, of_column, mark)
+    return tuple(cells)
 
 
 def grouped(groups: Mapping[str, Iterable[Any]], columns: Sequence[Column]) -> Table:
@@ -240,25 +260,3 @@ def merged(table: Table, *fields: str) -> Table:
             columns[k] = replace(columns[k], share=max(columns[k].share, room))
         rows.append(replace(alike[0], cells=tuple(cells)))
     return replace(table, columns=tuple(columns), rows=tuple(rows))
-
-
-def _listed_cells(columns: Sequence[Column], item: Any, fmt: UnitFormat) -> Iterator[str | Wide]:
-    covered = 0
-    for shown, value_of, *marks in columns:
-        width = 2 if shown.quantity else 1
-        if covered:
-            covered -= width
-            continue
-        value = value_of(item)
-        if isinstance(value, Wide):
-            covered = value.span - width
-            yield value
-        else:
-            yield from shown.cells(value, fmt, "".join(mark(item) for mark in marks))
-
-
-def _cells(row: Entity, name: str, fmt: UnitFormat) -> tuple[str, ...]:
-    value = getattr(row, name)
-    if isinstance(value, Verdict):
-        return (stamp(value) + row.marks.get(name, ""),)
-    return row.cells(name, fmt)

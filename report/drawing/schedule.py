@@ -40,7 +40,7 @@ def alike_arrays(assessment: Assessment, fmt: UnitFormat) -> Sequence[AlikeArray
     """Return the arrays of an assessment, those alike together."""
 
     def key(array: ArrayAssessment) -> tuple[str, str, str, str]:
-        design = fmt.cells(array.permitted_m, mark=array.design_mark, show=no_less)[0]
+        design = fmt.first(array.permitted_m, mark=array.design_mark, show=no_less)
         keep = keep_clear(keep_clear_m(assessment, array), fmt.us_first).partition(" ")[0]
         keep += keep_clear_mark(assessment, array)
         slope = f"{number(math.degrees(array.array.slope_rad), 2)}°"

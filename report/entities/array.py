@@ -38,7 +38,7 @@ from report.entities.shown import (
     words,
 )
 from report.sheet.schema.choices import Direction, ModelChoice
-from report.words.units import Quantity, Show, beside, measured, no_less, number, ratio
+from report.words.units import Quantity, Show, beside, measured, no_less, ratio
 from solver.model import Friction
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
@@ -262,7 +262,7 @@ class ArrayResult(LowVelocityResult):
     cause: str = printed("")
     """Of a verdict that the D/C beside it does not show."""
 
-    @unwritten(Shown(head="Slope", unit="deg", share=0.8, text=lambda deg: number(deg, 2)))
+    @unwritten(plain("Slope", 2, "deg", 0.8))
     def slope_deg(self) -> float:
         """Roof slope [deg]."""
         return math.degrees(self.slope_rad)

@@ -51,19 +51,16 @@ class UnitFormat:
         unit = self.units(quantity)[0]
         return self.none if math.isnan(value_si) else f"{show(value_si, unit)} {unit.symbol}"
 
-    def cells(
+    def first(
         self,
         value_si: float,
         quantity: Quantity = Quantity.DISPLACEMENT,
         *,
         mark: str = "",
         show: Show = measured,
-    ) -> tuple[str, ...]:
-        """Return the value in each system, for as many columns; `none` for NaN."""
-        units = self.units(quantity)[: self.systems]
-        if math.isnan(value_si):
-            return (self.none,) * len(units)
-        return tuple(show(value_si, unit) + mark for unit in units)
+    ) -> str:
+        """Return a value in the preferred system, without its unit; `none` for NaN."""
+        return self.none if math.isnan(value_si) else show(value_si, self.units(quantity)[0]) + mark
 
     def units(self, quantity: Quantity = Quantity.DISPLACEMENT) -> tuple[Unit, Unit]:
         """Return the units of a quantity, the preferred one first."""

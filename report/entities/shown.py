@@ -7,7 +7,7 @@ The value of a field is that of the attribute of the assessment with its name, o
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import Annotated, Any, ClassVar, Self, TypeVar
@@ -27,7 +27,7 @@ from pydantic.json_schema import GenerateJsonSchema, SkipJsonSchema
 from report.entities.cells import Column
 from report.entities.columns import TableColumn, UnitFormat
 from report.sheet.schema.fields import Cell, docstrings
-from report.words.units import Quantity, Show, measured, no_less, number
+from report.words.units import Quantity, Show, Unit, measured, no_less, number
 
 _Mark = TypeVar("_Mark")
 
@@ -46,49 +46,51 @@ RangeOfUnit = Annotated[tuple[Number, Number], _IF_GIVEN]
 """The ends of a range, likewise."""
 
 
-def _as_it_is(value: Any) -> str:
-    return value if isinstance(value, str) else str(value)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shown:
-    """How a field is shown: a quantity in both systems of units, or else as text."""
+    """How a field is shown: a quantity in both systems of units, or else as text.
+
+    A text is shown as it is, also in place of a quantity.
+    """
 
     head: str
     unit: str = ""
     quantity: Quantity | None = None
-    text: Callable[[Any], str] = _as_it_is
+    text: Callable[[Any], str] = str
     align: str = "right"
     share: float = 1.0
     show: Show = measured  # how a quantity is rounded
 
+    def units(self, fmt: UnitFormat) -> tuple[Unit, ...]:
+        """Return the unit of its column, or of one for each system of units."""
+        of_text = Unit(self.unit, 1.0, 0)
+        return fmt.units(self.quantity)[: fmt.systems] if self.quantity else (of_text,)
+
     def columns(self, fmt: UnitFormat, head: str, share: float) -> tuple[TableColumn, ...]:
         """Return its column, or one for each system of units."""
-        if self.quantity:
-            units = fmt.units(self.quantity)[: fmt.systems]
-            return tuple(TableColumn(head=head, unit=unit.symbol, share=share) for unit in units)
-        return (TableColumn(head=head, unit=self.unit, align=self.align, share=share),)
+        return tuple(
+            TableColumn(head=head, unit=unit.symbol, align=self.align, share=share)
+            for unit in self.units(fmt)
+        )
 
     def cells(
-        self, value: Any, fmt: UnitFormat, mark: str = "", show: Show | None = None
-    ) -> tuple[str, ...]:
-        """Return a value for print: one text, or one for each system of units.
-
-        A text in place of a quantity is that of both systems.
-        """
-        if self.quantity and isinstance(value, str):
-            return (value,) * fmt.systems
-        if self.quantity:
-            return fmt.cells(value, self.quantity, mark=mark, show=show or self.show)
+        self, value: Any, none: str, units: Sequence[Unit], mark: str = "", show: Show | None = None
+    ) -> list[str]:
+        """Return a value for print in each of its units, or `none` for NaN."""
         if isinstance(value, float) and math.isnan(value):
-            return (fmt.none,)
-        text = self.text(value)
-        return (text + mark if mark else text,)
+            return [none] * len(units)
+        if isinstance(value, str) or not self.quantity:
+            text = value if isinstance(value, str) else self.text(value)
+            return [text + mark if mark else text] * len(units)
+        cells, show = [], show or self.show
+        for unit in units:
+            cells.append(show(value, unit) + mark)
+        return cells
 
 
 def words(head: str, share: float = 1.0) -> Shown:
     """Return how a field of words is shown."""
-    return Shown(head=head, align="left", share=share, text=_as_it_is)
+    return Shown(head=head, align="left", share=share)
 
 
 def length(head: str, share: float = 1.0, show: Show = measured) -> Shown:
@@ -102,7 +104,7 @@ required = partial(length, show=no_less)
 
 def text(head: str, unit: str = "", share: float = 1.0) -> Shown:
     """Return how a finished text is shown, aligned as numbers are."""
-    return Shown(head=head, unit=unit, share=share, text=_as_it_is)
+    return Shown(head=head, unit=unit, share=share)
 
 
 def plain(head: str, decimals: int = 2, unit: str = "", share: float = 1.0) -> Shown:
@@ -112,7 +114,7 @@ def plain(head: str, decimals: int = 2, unit: str = "", share: float = 1.0) -> S
 
 def centered(head: str, share: float = 1.0) -> Shown:
     """Return how a verdict is shown."""
-    return Shown(head=head, align="center", share=share, text=_as_it_is)
+    return Shown(head=head, align="center", share=share)
 
 
 def at(path: str) -> Any:
@@ -168,11 +170,6 @@ class Entity(BaseModel):
         written = write(self)
         return {name: written[name] for name in (*self.first, *written)}
 
-    def cells(self, name: str, fmt: UnitFormat) -> tuple[str, ...]:
-        """Return a field for print: one text, or one for each system of units."""
-        shown, show = shown_by(type(self), name), self.rounds.get(name)
-        return shown.cells(getattr(self, name), fmt, self._mark(name), show)
-
     def both(self, name: str, fmt: UnitFormat) -> str:
         """Return a field in a sentence: a quantity in both systems of units."""
         return self._said(name, fmt, fmt.both)
@@ -183,13 +180,11 @@ class Entity(BaseModel):
 
     def _said(self, name: str, fmt: UnitFormat, said: Callable[..., str]) -> str:
         shown, value = shown_by(type(self), name), getattr(self, name)
+        mark = self.marks.get(name, "")
         if not shown.quantity:
-            return self.cells(name, fmt)[0]
+            return shown.cells(value, fmt.none, shown.units(fmt), mark)[0]
         text = said(value, shown.quantity, self.rounds.get(name, shown.show))
-        return text if math.isnan(value) else text + self._mark(name)
-
-    def _mark(self, name: str) -> str:
-        return self.marks.get(name, "")
+        return text if math.isnan(value) else text + mark
 
 
 def _title(said: object) -> str:

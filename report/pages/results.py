@@ -14,7 +14,7 @@ from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
 from report.assessment.run_warnings import run_warnings
 from report.assessment.runs import MotionRun, OrientedRun
-from report.document.tables import Column, Table, TableRow, Wide, listed
+from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
 from report.entities.columns import UnitFormat
 from report.entities.shown import Shown, length, text, words
 from report.pages.limits import analysis_faults, check_table
@@ -79,7 +79,7 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
 
     def in_first(head: str, below: str) -> Shown:
         """Return how a length is shown in the preferred system alone."""
-        return Shown(head=f"{head}, {unit}", unit=below, text=lambda m: fmt.cells(m)[0])
+        return Shown(head=f"{head}, {unit}", unit=below, text=fmt.first)
 
     columns: list[Column] = [
         (words("Motion"), attrgetter("motion.id")),
@@ -123,7 +123,7 @@ def _peak(fmt: UnitFormat, orientation: Orientation, motion: MotionRun) -> str:
     """Return the PRD of one run in the first unit; blank where the motion has no such run."""
     for run in motion.runs:
         if run.orientation == orientation:
-            peak = fmt.cells(run.prd_m)[0]
+            peak = fmt.first(run.prd_m)
             return Markup("<b>{}</b>").format(peak) if run is motion.governing else peak
     return ""
 
@@ -147,9 +147,14 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
         is_changed = any((item.id, field) in package.changes.values for item in group)
         show = measured if name.endswith("_prd_m") else no_less
         pairs = zip(excursions, after, strict=True)
-        toward_cells = (fmt.cells(m, mark=mark, show=show)[0] for m, mark in pairs)
+        toward_cells = (fmt.first(m, mark=mark, show=show) for m, mark in pairs)
         yield TableRow(
-            cells=(Wide(label, 1 + runs), *row.cells(name, fmt), *toward_cells, Wide(about, 5)),
+            cells=(
+                Wide(label, 1 + runs),
+                *table_of([row], name, fmt).rows[0].cells,
+                *toward_cells,
+                Wide(about, 5),
+            ),
             kind=package.bar(is_changed, "total"),
         )
 

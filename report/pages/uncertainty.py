@@ -104,12 +104,12 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
 
 def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
     """Return the PRD at other angles, a column for each."""
-    fmt, used = package.fmt, uncertainty.used_m
+    fmt, used, prd = package.fmt, uncertainty.used_m, length("PRD")
     names = (*(f"PRD [{unit.symbol}]" for unit in fmt.units()), "PRD / used")
     columns: list[Column] = [(words("Angle", 1.7), names.__getitem__)]
     for run in uncertainty.turned:
         share = number(run.result.prd_m / used, 2) if used > 0.0 else "—"
-        cells = (*fmt.cells(run.result.prd_m), share)
+        cells = (*prd.cells(run.result.prd_m, fmt.none, prd.units(fmt)), share)
         columns.append((text(f"{number(run.angle_deg, 1)}°"), cells.__getitem__))
     return listed(range(len(names)), columns, fmt, kind="compact")
 

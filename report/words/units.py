@@ -109,11 +109,6 @@ def no_less(value_si: float, unit: Unit) -> str:
     return number(round_up(value_si / unit.si, unit.decimals), unit.decimals)
 
 
-def no_more(value_si: float, unit: Unit) -> str:
-    """Return a value in a unit, rounded down."""
-    return number(round_down(value_si / unit.si, unit.decimals), unit.decimals)
-
-
 def digits_up(value: float, digits: int) -> str:
     """Return a number with significant digits, rounded up."""
     decimals = _decimals(value, digits)
@@ -134,19 +129,14 @@ def _decimals(value: float, digits: int) -> int:
 
 def round_up(value: float, decimals: int) -> float:
     """Return a number rounded up, but for rounding error."""
-    return _rounded(math.ceil, -_NOISE, value, decimals)
+    per_digit = 10.0**decimals
+    return math.ceil(value * per_digit - _NOISE) / per_digit if math.isfinite(value) else value
 
 
 def round_down(value: float, decimals: int) -> float:
     """Return a number rounded down, but for rounding error."""
-    return _rounded(math.floor, _NOISE, value, decimals)
-
-
-def _rounded(to_whole: Callable[[float], int], noise: float, value: float, decimals: int) -> float:
-    if not math.isfinite(value):
-        return value
     per_digit = 10.0**decimals
-    return to_whole(value * per_digit + noise) / per_digit
+    return math.floor(value * per_digit + _NOISE) / per_digit if math.isfinite(value) else value
 
 
 def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:
@@ -165,11 +155,14 @@ def beside(required_si: float, provided_si: float, *, up: bool = True) -> Show:
     """
 
     def show(value_si: float, unit: Unit) -> str:
-        required = (round_up if up else round)(required_si / unit.si, unit.decimals)
-        provided = round(value_si / unit.si, unit.decimals)
-        if required_si > provided_si:
-            return (no_more if provided >= required else measured)(value_si, unit)
-        return (no_less if provided < required else measured)(value_si, unit)
+        value, decimals = value_si / unit.si, unit.decimals
+        required, provided = required_si / unit.si, round(value, decimals)
+        required = round_up(required, decimals) if up else round(required, decimals)
+        if required_si > provided_si and provided >= required:
+            value = round_down(value, decimals)
+        elif required_si <= provided_si and provided < required:
+            value = round_up(value, decimals)
+        return number(value, decimals)
 
     return show
 

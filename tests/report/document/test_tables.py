@@ -1,8 +1,14 @@
-"""Tables of a document: which rows are one."""
+"""Tables of a document: which rows are one, and what a cell takes."""
 
+import sys
 from operator import itemgetter
+from pathlib import Path
 
-from report.document.tables import Wide, listed, merged
+import pytest
+
+import scenes
+from places import ROOT
+from report.document.tables import Wide, listed, merged, table_of
 from report.entities.shown import text, words
 
 COLUMNS = (
@@ -55,3 +61,35 @@ def test_a_column_of_many_names_is_wider_up_to_a_limit():
     (narrow, *others), (wide, *same) = rows_of(two)[1], rows_of(many)[1]
     assert others == same == [1.0, 0.5]
     assert 0.8 == narrow < wide < 2.0
+
+
+def calls_of(work):
+    """Return how many calls of the program's own functions something makes."""
+    calls = []
+
+    def note(frame, event, _):
+        if event == "call" and Path(frame.f_code.co_filename).is_relative_to(ROOT / "report"):
+            calls.append(frame.f_code.co_qualname)
+
+    sys.setprofile(note)
+    try:
+        work()
+    finally:
+        sys.setprofile(None)
+    return len(calls)
+
+
+@pytest.mark.parametrize(
+    ("name", "cells"),
+    [("demand_capacity", 1), ("factor", 1), ("verdict", 1), ("required_m", 2), ("provided_m", 2)],
+)
+def test_a_printed_cell_of_a_clearance_takes_four_calls_at_most(name, cells):
+    package = scenes.package()
+
+    def calls(names, rows):
+        gaps = [package.clearances[0]] * rows
+        return calls_of(lambda: table_of(gaps, names, package.fmt).body)
+
+    calls(f"count {name}", 1)  # fields are looked up once
+    row, other = (calls(names, 2) - calls(names, 1) for names in (f"count {name}", "count"))
+    assert 0 < row - other <= 4 * cells

@@ -9,6 +9,7 @@ from click.testing import CliRunner
 import scenes
 from report.assessment.evidence import support
 from report.cli.main import main
+from report.document.tables import table_of
 from report.entities.clearance import ClearanceResult
 from report.entities.columns import UnitFormat
 from report.entities.results import Results
@@ -80,12 +81,12 @@ def gap(**changes):
 )  # fmt: skip
 def test_a_quantity_is_shown_in_both_systems_with_its_mark(us_first, cells, both):
     row, fmt = gap(marks={"required_m": "†"}), UnitFormat(us_first=us_first)
-    assert row.cells("required_m", fmt) == cells
+    assert table_of([row], "required_m", fmt).rows[0].cells == cells
     assert row.both("required_m", fmt) == both
 
 
 def test_no_value_is_none_without_a_mark():
     row, fmt = gap(required_m=None, marks={"required_m": "†"}), UnitFormat(us_first=True)
     assert math.isnan(row.required_m)
-    assert row.cells("required_m", fmt) == ("none", "none")
+    assert table_of([row], "required_m", fmt).rows[0].cells == ("none", "none")
     assert row.both("required_m", fmt) == "none"
