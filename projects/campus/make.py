@@ -13,9 +13,9 @@ from itertools import pairwise, product
 from pathlib import Path
 from runpy import run_path
 
+from projects.rows import Row, clearance, issued, rectangle, roof_object
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.rows import Row, clearance, issued, rectangle, roof_object
 from report.sheet.writing.template import write_template
 
 HERE = Path(__file__).resolve().parent

@@ -10,9 +10,7 @@ from __future__ import annotations
 import datetime as dt
 from pathlib import Path
 
-from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.rows import (
+from projects.rows import (
     Range,
     Row,
     clearance,
@@ -22,6 +20,8 @@ from report.sheet.writing.rows import (
     roof_object,
     write_motions,
 )
+from report.sheet.schema import ProjectInput
+from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.template import write_template
 from report.suite.inputs import ac156_targets
 from solver.rules.spectra import Tail

@@ -8,8 +8,8 @@ from __future__ import annotations
 import datetime as dt
 from pathlib import Path
 
+from projects.rows import write_motions
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.rows import write_motions
 from report.study.schema import Intensity, Mat, Study, StudyArray, StudyInput
 from report.study.template import write_study
 from report.suite.inputs import ac156_targets

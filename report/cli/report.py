@@ -62,7 +62,7 @@ def new(folder: Path, units: str, example: bool, study: bool) -> None:
 def _new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> Path:
     """Write a workbook and its records folder; never overwrite a workbook or a record."""
     from report.sheet.schema.choices import UnitsFirst
-    from report.sheet.writing.example import example_files
+    from report.sheet.writing.shipped import example_files
     from report.sheet.writing.template import write_template
     from report.study.template import write_study
     from solver.files import add_folder, check_plain, write_all

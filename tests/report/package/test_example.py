@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from places import ROOT
-from report.sheet.writing import example
+from projects.example import make as example
 from sheets import read_workbook, same
 from solver.formats import read_record
 from solver.records.spectrum import response_spectrum

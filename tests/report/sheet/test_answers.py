@@ -1,6 +1,6 @@
 """The live formulas of the sheet, recalculated by LibreOffice, equal the package's numbers."""
 
-import importlib.util
+import importlib
 import itertools
 import math
 from dataclasses import dataclass
@@ -33,10 +33,7 @@ PROJECTS = ("example", "school", "conditions")
 
 
 def of_script(name: str) -> ProjectInput:
-    spec = importlib.util.spec_from_file_location(name, ROOT / "projects" / name / "make.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.project()
+    return importlib.import_module(f"projects.{name}.make").project()
 
 
 L_FT = ((20, 15), (100, 15), (100, 45), (60, 45), (60, 75), (20, 75))

@@ -4,9 +4,9 @@ import pytest
 from openpyxl import load_workbook
 from openpyxl.utils import get_column_letter
 
+from projects.example.make import project
 from report.drawing.widths import TYPE_PT, width_in
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing.example import project
 from report.sheet.writing.template import write_template
 
 # Excel with Calibri 11: 7 px a unit of width and 5 px beside it, at 96 px an inch; 3 px an indent

@@ -1,7 +1,6 @@
 """The study workbook: what is written is read, and every error names its cell."""
 
 import datetime as dt
-import importlib.util
 import io
 import shutil
 from dataclasses import replace
@@ -16,6 +15,7 @@ from openpyxl import load_workbook
 
 from cells import address, addressed, cell
 from places import ROOT
+from projects.study.make import study
 from report.cli.main import main
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
@@ -291,16 +291,9 @@ def test_too_many_samples_and_runs_are_refused_at_their_cell(tmp_path, monkeypat
 PROJECT = ROOT / "projects" / "study"
 
 
-def script():
-    spec = importlib.util.spec_from_file_location("make_study", PROJECT / "make.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def test_the_project_is_what_its_script_writes(tmp_path):
     again = tmp_path / "input.xlsx"
-    write_study(again, units=UnitsFirst.US, example=script().study())
+    write_study(again, units=UnitsFirst.US, example=study())
     with ZipFile(again) as made, ZipFile(PROJECT / "input.xlsx") as committed:
         names = set(made.namelist())
         assert names == set(committed.namelist())

@@ -1,7 +1,7 @@
-"""Rows of the sheets for a project that is written in Python, such as the example.
+"""Rows of the sheets for the projects here, which are written in Python.
 
 Lengths are given in a unit of the caller's choice, with its size in meters. Read
-`report.sheet.writing.example` for their use.
+`projects.example.make` for their use.
 """
 
 from __future__ import annotations
@@ -9,10 +9,9 @@ from __future__ import annotations
 import datetime as dt
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from solver.synthesis.suite import SuiteMotion
+from solver.records.record import write_record
+from solver.synthesis.suite import SuiteMotion
 
 Row = Mapping[str, object]
 Range = tuple[float, float]
@@ -75,8 +74,6 @@ def write_motions(
     folder: Path, prefix: str, suite: Iterable[SuiteMotion], components: str = "xyz"
 ) -> None:
     """Write the records of motions to a folder, by the names that `motion` gives."""
-    from solver.records.record import write_record
-
     folder.mkdir(parents=True, exist_ok=True)
     for number, made in enumerate(suite, start=1):
         for letter in components:
