@@ -24,15 +24,13 @@ STEPS = (0.03, 0.2, 0.18, 0.58, 0.01)
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A step of `make`: what it takes where that is long, or else a hint for a terminal."""
+    """A step of `make`, with a hint for a terminal."""
 
     doing: str
-    cost: str = ""
     hint: str = ""
 
     def __str__(self) -> str:
-        more = self.cost or self.hint
-        return f"{self.doing} ({more})" if more else self.doing
+        return f"{self.doing} ({self.hint})" if self.hint else self.doing
 
 
 def make(
@@ -48,7 +46,6 @@ def make(
     that.
     """
     from report.assessment.assess import assess
-    from report.assessment.cost import cost
     from report.assessment.evidence import support
     from report.drawing.dxf import write_dxf
     from report.drawing.plan import plan_drawing
@@ -71,7 +68,7 @@ def make(
     files = sources(sheet, shaking, since_bytes)
 
     hint = "" if is_compiled() else "the first run compiles the solver"
-    progress(Step("running the motions", cost(sheet.project, shaking), hint))
+    progress(Step("running the motions", hint))
     assessment = assess(sheet, shaking)
     if former:
         assessment = with_reissue(assessment, former)

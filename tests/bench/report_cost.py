@@ -1,4 +1,4 @@
-"""Claim: where the time of `roofslip report` goes, and that the estimate before it starts is near.
+"""Claim: where the time of `roofslip report` goes, and what larger projects take.
 
 Processor time, for other programs may be at work; medians of repeats. The stages of the example run
 one after the other. Larger projects repeat the arrays
@@ -20,12 +20,11 @@ from pathlib import Path
 import numpy as np
 from measure import ROOT, SMOKE, command, figure, finished
 
-from report.assessment.cost import expected_s
+from projects.example import make as example
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import UnitsFirst
-from report.sheet.writing import example
 from report.sheet.writing.template import write_template
 from solver.formats import read_record
 
@@ -130,13 +129,10 @@ def main() -> None:
         with tempfile.TemporaryDirectory() as top:
             folder = Path(top) / "job"
             make(folder, arrays, motions, length)
-            sheet = read(folder)
-            expected = expected_s(sheet.project, prepare(sheet))
             taken, megabytes = reported(folder)
         size = f"{arrays} arrays, {motions} motions of {30 * length} s"
         figure(f"report of {size}", taken, "s")
         figure(f"memory, {size}", megabytes / 1000.0, "GB")
-        figure(f"estimate relative to this report, {size}", expected / taken)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 import asyncio
 import errno
 from concurrent.futures import Future
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -75,9 +74,6 @@ def test_a_step_is_named_in_a_sentence_without_what_compiles():
     step = Step("running the motions", hint="the first run compiles the solver")
     assert str(step) == "running the motions (the first run compiles the solver)"
     assert in_words(step) == "Running the motions"
-    long = replace(step, cost="about 3 minutes")
-    assert in_words(long) == "Running the motions (about 3 minutes)"
-    assert str(long) == "running the motions (about 3 minutes)"
 
 
 def full():
