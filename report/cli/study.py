@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--out", type=SOURCE, help="Output folder; default: out/study/ beside the input.")
-@click.option("--dry-run", is_flag=True, help="Print runs, processor time and disk; run nothing.")
+@click.option("--dry-run", is_flag=True, help="Print runs, parts and disk; run nothing.")
 @click.option("--scheduler", metavar="tcp://HOST:PORT", default="",
               help="Run on an existing Dask cluster instead of this machine.")  # fmt: skip
 @click.option("--allow-matched", is_flag=True,
@@ -118,12 +118,9 @@ def make(
 
 
 def _print_estimate(found: Estimate) -> None:
-    more, seconds = "", ""
-    if found.capacity_runs:
-        more = f"; at most {found.capacity_runs:,} more runs for the capacities"
-        seconds = f" and at most {found.capacity_s:,.1f} s for the capacities"
+    most = f"; at most {found.capacity_runs:,} more runs for the capacities"
+    more = most if found.capacity_runs else ""
     click.echo(f"{found.cases:,} cases, {found.runs:,} runs in {found.parts:,} parts{more}")
-    click.echo(f"{found.processor_s:,.1f} s of processor time{seconds}, by the cost model")
     click.echo(f"{found.disk_bytes / 1e6:,.1f} MB on disk")
 
 

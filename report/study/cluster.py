@@ -13,7 +13,7 @@ from typing import Any
 
 from report.study.extra import DASK, extra
 from report.study.manifest import program, unlike
-from report.study.parts import OnDone, costliest_first, keep, made_part
+from report.study.parts import OnDone, keep, made_part, mixed
 from solver.model import InputError
 from solver.studies.campaign import Campaign
 from solver.studies.runs import Runner
@@ -91,7 +91,7 @@ def run_on_cluster(
         runner = client.submit(Runner, campaign, pure=False)
         parts = [
             client.submit(made_part, runner, number, identity, names, pure=False, retries=RETRIES)
-            for number in costliest_first(campaign, missing)
+            for number in mixed(missing)
         ]
     for part in extra(DASK).as_completed(parts, loop=client.loop):
         on_done(keep(folder, part.result(), key))

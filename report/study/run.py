@@ -36,22 +36,18 @@ RUNS = "runs"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Estimate:
-    """What a study takes, from the cost model.
+    """What a study takes.
 
     Attributes
     ----------
     capacity_runs : int
         Most runs for the capacities of the arrays, beside those.
-    processor_s, capacity_s : float
-        Of both [s], on one core like the one of the cost model.
     """
 
     cases: int
     runs: int
     parts: int
     capacity_runs: int
-    processor_s: float
-    capacity_s: float
     disk_bytes: float
 
 
@@ -75,17 +71,11 @@ def planned(source: str | Path) -> tuple[StudyPlan, Path]:
 def estimate(plan: StudyPlan) -> Estimate:
     """Return what a study takes."""
     campaign = plan.campaign
-    most = [maximum_runs(plan, array) for array in plan.arrays]
     return Estimate(
         cases=len(campaign.cases),
         runs=campaign.rows,
         parts=len(campaign.parts),
-        capacity_runs=sum(most),
-        processor_s=float(campaign.seconds.sum()),
-        capacity_s=sum(
-            runs * float(campaign.seconds[array.fragility].mean()) / len(campaign.columns)
-            for array, runs in zip(plan.arrays, most, strict=True)
-        ),
+        capacity_runs=sum(maximum_runs(plan, array) for array in plan.arrays),
         disk_bytes=BYTES_A_ROW * campaign.rows,
     )
 
@@ -191,21 +181,18 @@ def _taken_over(done: Mapping[int, Done]) -> list[dict[str, Any]]:
 def _meter(
     plan: StudyPlan, missing: Sequence[int], progress: Callable[[str], None]
 ) -> Callable[[Done], None]:
-    """Return what says how far the runs are: the rate, and the time left by the cost model."""
-    campaign, started = plan.campaign, time.monotonic()
-    parts = {number: campaign.parts[number] for number in missing}
-    rows = {n: (part.stop - part.start) * len(campaign.columns) for n, part in parts.items()}
-    costs = {n: float(campaign.seconds[part].sum()) for n, part in parts.items()}
-    ran, cost, all_rows, all_costs = 0, 0.0, sum(rows.values()), sum(costs.values())
+    """Return what says how far the runs are, their rate, and the time left at that rate."""
+    campaign, started, ran = plan.campaign, time.monotonic(), 0
+    parts = [campaign.parts[number] for number in missing]
+    rows = sum(part.stop - part.start for part in parts) * len(campaign.columns)
     if missing:
-        progress(f"running {all_rows:,} runs")
+        progress(f"running {rows:,} runs")
 
     def tell(part: Done) -> None:
-        nonlocal ran, cost
-        ran, cost = ran + rows[part.about.number], cost + costs[part.about.number]
-        seconds = time.monotonic() - started
-        left = seconds * (all_costs / cost - 1.0)
-        rate = f"{ran / seconds:,.0f} a second"
-        progress(f"{ran:,} of {all_rows:,} runs, {rate}, {left:.0f} s left")
+        nonlocal ran
+        ran += part.rows
+        rate = ran / (time.monotonic() - started)
+        left = (rows - ran) / rate
+        progress(f"{ran:,} of {rows:,} runs, {rate:,.0f} a second, {left:.0f} s left")
 
     return tell

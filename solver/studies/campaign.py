@@ -15,19 +15,14 @@ from operator import itemgetter
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Orientation
+from solver.model import Floats, Motion, Orientation
 
-MOST_ROWS = 500_000
-"""Rows of a part, so that the parts in memory stay small."""
-
-PART_SECONDS = 5.0
-"""Processor time of a part, so that a killed study repeats little."""
+PART_ROWS, PLANE_PART_ROWS = 500_000, 5_000
+"""Rows of a part at most, in one axis and in two: some seconds, so that a killed study repeats
+little."""
 
 LEAST_PARTS, MOST_PARTS = 32, 4_000
 """Enough parts for the cores, and few enough for a scheduler and a file system."""
-
-_SAMPLED_MOTIONS = 50
-_SAMPLED_STEP = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,59 +101,10 @@ class Campaign:
         return len(self.cases) * len(self.columns)
 
     @cached_property
-    def seconds(self) -> Floats:
-        """Estimated processor time of each case [s]."""
-        seconds = np.zeros(len(self.cases))
-        for building, motions in enumerate(self.motions):
-            chosen = np.flatnonzero(self.cases.building == building)
-            step = -(-len(motions) // _SAMPLED_MOTIONS)
-            sample = motions[::step]
-            total = sum(_seconds(motion, self.cases, chosen) for motion in sample)
-            seconds[chosen] = total * (len(motions) / len(sample))
-        return seconds
-
-    @cached_property
     def parts(self) -> tuple[slice, ...]:
-        """Ranges of cases of about equal cost; they depend on nothing but the campaign."""
-        total = float(self.seconds.sum())
-        count = max(LEAST_PARTS, -(-self.rows // MOST_ROWS), round(total / PART_SECONDS))
-        count = min(count, MOST_PARTS, len(self.cases))
-        reached = np.cumsum(self.seconds) / total
-        ends = np.searchsorted(reached, np.arange(1, count) / count) + 1
-        most = max(1, MOST_ROWS // len(self.columns))
-        return tuple(_ranges([*ends.tolist(), len(self.cases)], most))
-
-
-def _ranges(ends: Sequence[int], maximum: int) -> list[slice]:
-    """Return the ranges between ends, those of more than `maximum` cases divided."""
-    ranges, start = [], 0
-    for end in ends:
-        pieces = -(-(end - start) // maximum)
-        edges = [start + (end - start) * k // pieces for k in range(pieces + 1)] if pieces else []
-        ranges += [slice(low, high) for low, high in pairwise(edges)]
-        start = end
-    return ranges
-
-
-# Processor time [s], measured by tests/bench/solver_speed.py and study_cost.py: a run, a sample at
-# rest, a sample that may slide; the same in two axes, where selecting the model also runs the
-# simpler ones.
-RUN_S, REST_S, SLIDE_S = 1e-7, 3.5e-12, 2.5e-9
-PLANE_RUN_S, PLANE_REST_S, PLANE_SLIDE_S = 1.5e-4, 1e-8, 6e-7
-
-PERSISTENCE = 3.0
-"""Samples during which a block slides / samples at which the push alone exceeds friction."""
-
-
-def _seconds(motion: Motion, cases: Cases, chosen: NDArray[np.intp]) -> Floats:
-    """Return the estimated time of cases under one motion at all its orientations [s]."""
-    slope, mu, intensity = cases.slope_rad[chosen], cases.mu[chosen], cases.intensity[chosen]
-    peaks = np.sort(np.abs(motion.ax_mps2[::_SAMPLED_STEP]))
-    yields = STANDARD_GRAVITY_MPS2 * np.tan(np.arctan(mu) - np.abs(slope))
-    at = yields / (motion.scale * intensity)
-    share = 1.0 - np.searchsorted(peaks, at) / peaks.size
-    samples, slides = motion.ax_mps2.size, np.minimum(1.0, PERSISTENCE * share)
-    run, rest, slide = RUN_S, REST_S, SLIDE_S
-    if motion.has_transverse:
-        run, rest, slide = PLANE_RUN_S, PLANE_REST_S, PLANE_SLIDE_S
-    return np.asarray(len(motion.orientations) * (run + samples * (rest + slide * slides)))
+        """Ranges of about as many cases; they depend on nothing but the campaign."""
+        is_plane = any(motion.has_transverse for motion in self.motions[0])
+        count = -(-self.rows // (PLANE_PART_ROWS if is_plane else PART_ROWS))
+        count = min(max(count, LEAST_PARTS), MOST_PARTS, len(self.cases))
+        edges = [len(self.cases) * number // count for number in range(count + 1)]
+        return tuple(slice(*ends) for ends in pairwise(edges))

@@ -120,7 +120,6 @@ def one_suite() -> None:
         figure("runs in one axis", campaign.rows)
         figure("processor time, Parquet included", cpu, "s", digits=3)
         figure("this, relative to `solver.sweep` alone", cpu / bare_cpu, digits=3)
-        figure("estimate of `--dry-run`, relative to it", float(campaign.seconds.sum() / cpu))
         figure("runs in a second of processor time", campaign.rows / cpu)
         figure("size of a run on disk", size / campaign.rows, "B", digits=3)
         identity = manifest_of(campaign, {})["identity"]
