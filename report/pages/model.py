@@ -34,7 +34,7 @@ _NOT_KNOWN = Wide("not known", 4), ""
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the page on the models."""
     return {
-        "models": [model for model in Model if model is not Model.ROW],
+        "models": list(Model),
         "matters": DEFAULT,
         "matters_in": DEFAULT.matters_m / INCH_M,
         "table": _table(package),

@@ -7,19 +7,15 @@ code rules. Read `Model`, then `solve`.
 from __future__ import annotations
 
 import math
-import time
 import warnings
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Any
 
-import numpy as np
-
 from solver.forces import friction_demand
 from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import one_axis, two_axes
-from solver.sliding.row import BlockRow, slide_row
 
 
 class Model(IntEnum):
@@ -30,7 +26,6 @@ class Model(IntEnum):
     ONE_AXIS_VERTICAL = 2
     TWO_AXES = 3
     SPEED_FRICTION = 4
-    ROW = 5
 
     @property
     def title(self) -> str:
@@ -44,7 +39,6 @@ _TITLES = {
     Model.ONE_AXIS_VERTICAL: "one axis with vertical",
     Model.TWO_AXES: "two axes with vertical",
     Model.SPEED_FRICTION: "two axes, velocity-dependent friction",
-    Model.ROW: "a row of linked blocks, one axis",
 }
 
 
@@ -61,16 +55,13 @@ class Settings:
         Tolerance in two axes and with velocity-dependent friction, relative to the PRD
         (`two_axes.TOLERANCES`).
     forced : Model or None
-        Use this model only. A row is never selected; it runs only if requested.
-    row : BlockRow or None
-        The blocks and links of `Model.ROW`.
+        Use this model only.
     """
 
     matters_m: float = 1e-3
     matters_share: float = 0.005
     tolerance: float = two_axes.DEFAULT_TOLERANCE
     forced: Model | None = None
-    row: BlockRow | None = None
 
     def bound_m(self, prd_m: float) -> float:
         """Return the effect on a displacement up to which a component is not modeled [m]."""
@@ -101,8 +92,6 @@ class Solution:
     friction_demand : float
         Largest ratio of shear to normal force with no slip. The block slips if this exceeds the
         friction coefficient. inf if the normal force is zero or negative at a sample.
-    seconds : float
-        Computing time for selection and runs [s].
     """
 
     model: Model
@@ -111,7 +100,6 @@ class Solution:
     next_model: Model
     next_effect_m: float
     friction_demand: float
-    seconds: float = math.nan
 
     def __repr__(self) -> str:
         return f"Solution: {self.model.title}; {self.reason}\n{self.result}\n{self._beyond}"
@@ -149,27 +137,16 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     InputError
         If a model is forced that the scene does not allow.
     """
-    started = time.perf_counter()
     demand = friction_demand(scene)
     if math.isinf(demand) and one_axis.run(scene).status is Status.UPLIFT:
-        solution = _lifted(scene)
-    elif settings.forced is None:
-        solution = _climbed(scene, settings, demand)
-    else:
-        solution = _forced(scene, settings, settings.forced, demand)
-    return replace(solution, seconds=time.perf_counter() - started)
+        return _lifted(scene)
+    if settings.forced is None:
+        return _climbed(scene, settings, demand)
+    return _forced(scene, settings, settings.forced, demand)
 
 
 def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> SlideHistory:
-    """Return the motion at the samples of a solved scene, by the same model.
-
-    Raises
-    ------
-    InputError
-        For a row: `solver.sliding.row.row_history` gives the motion of each of its blocks.
-    """
-    if solution.model is Model.ROW:
-        raise InputError("a row has a history for each block; call solver.sliding.row.row_history")
+    """Return the motion at the samples of a solved scene, by the same model."""
     run = as_run(scene, solution.model)
     if solution.model >= Model.TWO_AXES:
         return two_axes.run_history(run, settings.tolerance)
@@ -229,8 +206,6 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
         )
     if model is Model.NO_SLIP:
         return _still(scene, demand)
-    if model is Model.ROW:
-        return _linked(scene, settings.row, demand)
     if model >= Model.TWO_AXES:
         return _in_plane(scene, settings, model, why, demand)
     result, fuller = one_axis.run(as_run(scene, model)), []
@@ -287,29 +262,6 @@ def _in_plane(scene: Scene, settings: Settings, model: Model, why: str, demand: 
         return solution
     effect = _left_out(result, two_axes.run(scene, settings.tolerance))
     return replace(solution, next_model=Model.SPEED_FRICTION, next_effect_m=effect)
-
-
-def _linked(scene: Scene, row: BlockRow | None, demand: float) -> Solution:
-    """Return the block with the largest PRD of a row, with the largest excursions of all blocks."""
-    if row is None:
-        raise InputError("a row of blocks is requested but not given; give Settings.row")
-    linked = slide_row(scene, row)
-    worst = int(np.argmax(linked.prd_m))
-    result = replace(
-        linked.rigid,
-        status=linked.status,
-        prd_m=linked.prd_m[worst],
-        residual_m=linked.residual_m[worst],
-        down_m=max(linked.down_m),
-        up_m=max(linked.up_m),
-        t_prd_s=math.nan,
-        n_stops=linked.n_stops,
-        end_speed_mps=math.nan,
-        peak_speed_mps=math.nan,
-        error_m=linked.error_m,
-    )
-    why = f"requested; the links change the PRD by {_mm(linked.flexibility_m)}"
-    return _without_next(Model.ROW, why, result, demand)
 
 
 def as_run(scene: Scene, model: Model) -> Scene:

@@ -11,7 +11,6 @@ from solver.forces import friction_demand
 from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.sliding.least_model import Model, Settings, history, solve
-from solver.sliding.row import BlockRow, slide_row
 
 G = 9.80665
 DT = 0.01
@@ -157,23 +156,12 @@ def test_no_slip_forced_on_a_block_that_slips_is_refused():
 
 
 @pytest.mark.parametrize("ay", [(), AY], ids=["alone", "both"])
-@pytest.mark.parametrize("forced", [None, *list(Model)[:-1]])
+@pytest.mark.parametrize("forced", [None, *Model])
 def test_where_the_normal_force_vanishes_no_model_gives_a_number(ay, forced):
     solution = solve(scene(AX, ay, 4.0 * AZ), Settings(forced=forced))
     assert solution.result.status is Status.UPLIFT
     assert np.isnan([solution.result.prd_m, solution.result.error_m]).all()
     assert solution.friction_demand == math.inf
-
-
-def test_a_row_is_run_where_it_is_asked_for():
-    row = BlockRow(mus=(0.3, 0.4, 0.5), stiffness_per_s2=1e3)
-    solution, direct = solve(LIFTED, Settings(forced=Model.ROW, row=row)), slide_row(LIFTED, row)
-    assert solution.result.prd_m == max(direct.prd_m) > direct.rigid.prd_m
-    assert solution.result.error_m == direct.error_m
-    with pytest.raises(InputError, match="row_history"):
-        history(LIFTED, solution)
-    with pytest.raises(InputError, match="not given"):
-        solve(FLAT, Settings(forced=Model.ROW))
 
 
 @pytest.mark.parametrize(
@@ -194,7 +182,3 @@ def test_the_history_is_of_the_model_that_was_chosen(run, forced):
 
 def test_every_model_has_a_name():
     assert len({model.title for model in Model}) == len(Model)
-
-
-def test_choosing_is_timed():
-    assert 0.0 < solve(FLAT).seconds < 60.0
