@@ -12,12 +12,13 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 from scipy.special import ndtr
 from scipy.stats import chi2
 from scipy.stats import t as student
 
-from solver.kernels import fragility as kernel
 from solver.model import Floats
+from solver.studies import censored
 from solver.studies.capacity import Capacities
 
 Flags = NDArray[np.bool_]
@@ -47,8 +48,7 @@ class Lognormal:
 
     def at(self, intensity: Floats) -> Floats:
         """Return the probability of exceedance at intensities above 0, of any shape."""
-        z = np.log(np.asarray(intensity) / self.theta) / self.beta
-        return np.array([kernel.normal_cdf(v) for v in z.ravel()]).reshape(z.shape)
+        return np.asarray(ndtr(np.log(np.asarray(intensity) / self.theta) / self.beta))
 
 
 UNKNOWN = Lognormal(theta=math.nan, beta=math.nan)
@@ -117,7 +117,8 @@ def fit_lognormal(found: Capacities) -> Lognormal:
     """
     if not (found.intensity > 0.0).all():
         return UNKNOWN
-    mean, deviation, *_ = kernel.fit_censored(np.log(found.intensity), found.is_censored)
+    normal = censored.fit(np.log(found.intensity)[None], found.is_censored[None])
+    mean, deviation = float(normal.mean[0]), float(normal.deviation[0])
     if not found.is_censored.any() and math.isfinite(deviation):
         deviation *= math.sqrt(found.intensity.size / (found.intensity.size - 1))
     return Lognormal(theta=math.exp(mean), beta=deviation)
@@ -201,42 +202,28 @@ def _exact_ranges(motions: int, fitted: Lognormal) -> tuple[Range, Range]:
 
 def _drawn_ranges(found: Capacities, fitted: Lognormal, seed: int) -> tuple[Range, Range, int]:
     """Return the intervals of theta and beta, and the number of samples without a lognormal."""
-    y, mean = np.log(found.intensity), math.log(fitted.theta)
+    y, flags, mean = np.log(found.intensity)[None], found.is_censored[None], math.log(fitted.theta)
     drawn = mean + fitted.beta * np.random.default_rng(seed).standard_normal((REPEATS, y.size))
     ends = np.log(found.end)
     is_beyond, drawn = drawn > ends, np.minimum(drawn, ends)
-    fits = np.empty((REPEATS, 5))
-    kernel.fit_many(drawn, is_beyond, mean, fits)
-    _, deviations, _, of_logs, deviances = fits.T
+    fits, own = censored.fit(drawn, is_beyond), censored.fit(y, flags)
+    deviances = censored.deviance(drawn, is_beyond, mean, fits)
     bound = float(np.nanquantile(deviances, CONFIDENCE))
-    pivots = (np.log(deviations) - math.log(fitted.beta)) / of_logs
+    pivots = (np.log(fits.deviation) - math.log(fitted.beta)) / fits.of_log
     low, high = np.nanquantile(pivots, TAILS)
-    *_, of_mean, of_log, _ = kernel.fit_censored(y, found.is_censored)
-    theta_range = tuple(
-        math.exp(_where_deviance_is(bound, y, found.is_censored, mean, side * of_mean))
-        for side in (-1.0, 1.0)
-    )
+
+    def end(step: float) -> float:
+        def over(distance: float) -> float:
+            return float(censored.deviance(y, flags, mean + distance, own)[0]) - bound
+
+        near, far = 0.0, step
+        while over(far) <= 0.0:
+            near, far = far, 2.0 * far
+        return math.exp(mean + brentq(over, near, far))
+
+    of_mean, of_log = float(own.of_mean[0]), float(own.of_log[0])
     beta_range = fitted.beta * math.exp(-high * of_log), fitted.beta * math.exp(-low * of_log)
-    return (theta_range[0], theta_range[1]), beta_range, int(np.isnan(deviances).sum())
-
-
-def _where_deviance_is(
-    bound: float, y: Floats, is_censored: Flags, mean: float, step: float
-) -> float:
-    """Return the mean, on the side of a step, at which the deviance reaches a bound."""
-    fit = np.empty((1, 5))
-
-    def exceeds(distance: float) -> bool:
-        kernel.fit_many(y[None], is_censored[None], mean + distance, fit)
-        return bool(fit[0, 4] > bound)
-
-    near, far = 0.0, step
-    while not exceeds(far):
-        near, far = far, 2.0 * far
-    for _ in range(60):
-        middle = 0.5 * (near + far)
-        near, far = (near, middle) if exceeds(middle) else (middle, far)
-    return mean + far
+    return (end(-of_mean), end(of_mean)), beta_range, int(np.isnan(deviances).sum())
 
 
 def lilliefors(values: Floats) -> Floats:
