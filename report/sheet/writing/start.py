@@ -6,6 +6,7 @@ Has no inputs. Read `write_start`.
 from __future__ import annotations
 
 import io
+from pathlib import Path
 
 from openpyxl import Workbook
 from openpyxl.drawing.image import Image
@@ -16,7 +17,6 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.sheet.schema import SECTIONS
 from report.sheet.schema.layout import name_cell
 from report.sheet.writing import style
-from report.sheet.writing.sketch import SIZE_IN, sketch_png
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS
 
 START = "Start"
@@ -120,10 +120,10 @@ def _write_steps(sheet: Worksheet, row: int) -> int:
 
 def _put_picture(sheet: Worksheet, row: int) -> int:
     """Place the picture, and return the row below it."""
-    picture = Image(io.BytesIO(sketch_png()))
-    picture.width, picture.height = (round(side * 96) for side in SIZE_IN)
+    picture = Image(io.BytesIO(Path(__file__).with_name("start.png").read_bytes()))
+    picture.width, picture.height = 922, 374
     sheet.add_image(picture, f"B{row}")
-    return row + int(SIZE_IN[1] * 72 / 15) + 1
+    return row + 19
 
 
 def _write_colors(sheet: Worksheet, row: int) -> int:

@@ -1,30 +1,25 @@
-"""The picture on the sheet Start: a roof plan and a section that explain the words of the sheets.
+"""Draws the picture on the sheet Start: a roof plan and a section with the words of the sheets.
 
-Drawn from fixed numbers; knows no project. Read `sketch_png`.
+.venv/bin/python docs/start_picture.py
 """
 
 from __future__ import annotations
 
-import io
-from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
+PICTURE = Path(__file__).resolve().parents[1] / "report" / "sheet" / "writing" / "start.png"
 SIZE_IN = (9.6, 3.9)
 DPI = 110
 _INK, _GRAY, _ARRAY, _OBJECT, _ARROW = "#1F3A4D", "#7A7F85", "#CFE0EC", "#E4E2DC", "#B3261E"
 
 
-@cache
-def sketch_png() -> bytes:
-    """Return the picture as PNG, the same bytes each time."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
+def main() -> None:
+    """Draw the picture, the same bytes each time."""
     figure = Figure(figsize=SIZE_IN, dpi=DPI)
-    FigureCanvasAgg(figure)
     plan, section = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.45, 1.0)})
     _draw_plan(plan)
     _draw_section(section)
@@ -35,14 +30,10 @@ def sketch_png() -> bytes:
         axes.set_aspect("equal", anchor="N")
         axes.axis("off")
     figure.subplots_adjust(left=0.01, right=0.99, top=0.93, bottom=0.03, wspace=0.04)
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", metadata={"Software": None})
-    return buffer.getvalue()
+    figure.savefig(PICTURE, metadata={"Software": None})
 
 
 def _box(axes: Axes, x: float, y: float, width: float, height: float, color: str) -> None:
-    from matplotlib.patches import Rectangle
-
     axes.add_patch(Rectangle((x, y), width, height, facecolor=color, edgecolor=_INK, linewidth=1.2))
 
 
@@ -114,3 +105,7 @@ def _roof_array(axes: Axes) -> None:
     _say(axes, middle, roof(middle) + 23, "b: base dimension", _ARROW, "center")
     _arrow(axes, (8, roof(8) + 5), (26, roof(26) + 5), _ARROW)
     _say(axes, 5, roof(8) + 11, "downslope", _ARROW)
+
+
+if __name__ == "__main__":
+    main()
