@@ -1,4 +1,4 @@
-"""Which tests run: the nightly ones apart, and of the others, the quick ones; golden texts.
+"""Which tests run: the nightly ones apart, and of the others, the quick ones.
 
 `./roofslip test --durations` writes `tests/durations.csv`. Read `is_quick`.
 """
@@ -6,19 +6,18 @@
 from __future__ import annotations
 
 import csv
-import difflib
 import os
 import subprocess
 import time
 from collections import Counter, defaultdict
-from collections.abc import Callable, Generator, Iterable, Mapping
+from collections.abc import Generator, Iterable, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 import pytest
 
 from asked import tests_of_changed
-from places import GOLDEN, ROOT
+from places import ROOT
 
 DURATIONS = Path(__file__).with_name("durations.csv")
 KEPT_S = 0.02
@@ -49,7 +48,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--which", choices=("usual", "quick", "nightly", "all"), default="usual")
     group.addoption("--all-changed", action="store_true", help="as if every file had changed")
     group.addoption("--write-durations", action="store_true")
-    group.addoption("--golden", action="store_true")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -205,40 +203,6 @@ def read(path: Path) -> dict[str, float]:
         return {}
     with path.open(encoding="utf-8", newline="") as lines:
         return {row["test"]: float(row["seconds"]) for row in csv.DictReader(lines)}
-
-
-@pytest.fixture
-def golden(request: pytest.FixtureRequest) -> Callable[[str, str], None]:
-    """Return a function that holds a text against a golden file; `--golden` takes it over."""
-    is_taken_over = request.config.getoption("--golden")
-
-    def hold(name: str, text: str) -> None:
-        changed = difference(GOLDEN / name, text, is_taken_over=is_taken_over)
-        if changed and not is_taken_over:
-            pytest.fail(f"{changed}\n\n./roofslip test --golden takes it over", pytrace=False)
-        request.node.user_properties.append(("golden", changed))
-
-    return hold
-
-
-def difference(path: Path, text: str, *, is_taken_over: bool) -> str:
-    """Return what a text changes in a file, and write it there if it is taken over."""
-    before = path.read_text(encoding="utf-8") if path.is_file() else ""
-    names = (f"before/{path.name}", f"now/{path.name}")
-    lines = difflib.unified_diff(before.splitlines(), text.splitlines(), *names, n=1, lineterm="")
-    changed = "\n".join(lines)
-    if changed and is_taken_over:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-    return changed
-
-
-def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    """Print what was taken over, in the process that has the terminal."""
-    if report.when == "teardown":
-        for name, changed in report.user_properties:
-            if name == "golden" and changed:
-                print(f"\n{changed}")
 
 
 class Clock:

@@ -1,4 +1,4 @@
-"""Which tests run by day, at night and as quick ones; golden texts are compared and taken over."""
+"""Which tests run by day, at night and as quick ones."""
 
 import os
 import subprocess
@@ -67,18 +67,6 @@ def test_a_test_that_uses_a_dear_fixture_is_not_quick_whoever_sets_it_up():
     durations = {"a::@made": 2.0, "::@shared": 3.0, "b::@made": 0.04}
     functions = {"a::f": ["made"], "a::g": [], "b::f": ["shared"], "b::g": ["made"]}
     assert selection.is_quick(durations, functions) == {"a::g", "b::g"}
-
-
-def test_a_golden_text_is_shown_as_a_difference_and_taken_over_where_asked_for(tmp_path):
-    path = tmp_path / "golden" / "page.txt"
-    shown = selection.difference(path, "a\nb\n", is_taken_over=False)
-    assert shown.splitlines()[-2:] == ["+a", "+b"]
-    assert not path.exists()
-    selection.difference(path, "a\nb\n", is_taken_over=True)
-    assert selection.difference(path, "a\nb\n", is_taken_over=False) == ""
-    assert selection.difference(path, "a\nc\n", is_taken_over=False).splitlines() == [
-        "--- before/page.txt", "+++ now/page.txt", "@@ -1,2 +1,2 @@", " a", "-b", "+c",
-    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("workers", ["-pno:xdist", "-n2"])
