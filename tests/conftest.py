@@ -23,7 +23,7 @@ G = 9.80665
 # A run in the background of a shell ignores interrupts, and so would all that the tests start.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
-pytest_plugins = ("golden_texts", "selection")
+pytest_plugins = ("golden_texts",)
 
 settings.register_profile("roofslip", deadline=None)  # a busy machine is no failure
 settings.load_profile("roofslip")

@@ -198,7 +198,7 @@ def run(path: Path, tree: ast.Module, tests: list[str], known: Known):
         for stream in (0, 1, 2):
             os.dup2(null, stream)
         sys.meta_path.insert(0, _Instead(path, tree))
-        words = ["-x", "-q", "-W", "ignore", "--hypothesis-profile=mutants"]
+        words = ["-x", "-q", "-W", "ignore", "-m", "not nightly", "--hypothesis-profile=mutants"]
         words += ["-p", "no:cacheprovider", "-p", "no:xdist"]
         files = [name if name.startswith("-k") else str(TESTS / name) for name in tests]
         os._exit(int(pytest.main([*words, *files], plugins=[_Watch(known, to)])))

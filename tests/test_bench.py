@@ -9,6 +9,8 @@ import pytest
 
 from places import ROOT, TESTS
 
+pytestmark = pytest.mark.quick
+
 BENCH = TESTS / "bench"
 SPEC = spec_from_file_location("bench_run", BENCH / "run.py")
 run = module_from_spec(SPEC)

@@ -10,6 +10,8 @@ import pytest
 from browsing import chromium
 from places import ROOT
 
+pytestmark = pytest.mark.quick
+
 # Of packages that debootstrap's minbase has: libc6, libgcc-s1, libstdc++6.
 IN_MINBASE = {
     "libc.so.6", "libdl.so.2", "libm.so.6", "libpthread.so.0", "librt.so.1", "libgcc_s.so.1",

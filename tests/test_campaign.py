@@ -51,6 +51,7 @@ NUMBERS = st.floats(allow_nan=False, width=32).map(repr) | st.integers(-9, 9).ma
     head=st.lists(WORDS | st.text(max_size=30), max_size=4),
     end=st.sampled_from(["\n", "\r\n", "\r"]),
 )
+@pytest.mark.nightly
 def test_a_record_of_any_lines_is_read_or_refused(folder, rows, separator, head, end):
     path = folder / "any.csv"
     lines = [*head, *(separator.join(row) for row in rows)]
@@ -129,6 +130,7 @@ def test_a_workbook_with_any_elements_in_a_part_is_opened_or_refused(folder, par
     mu=st.floats(0.0, 2.0) | st.floats(),
     scale=st.floats(0.0, 5.0) | st.floats(),
 )
+@pytest.mark.quick
 def test_a_run_of_any_numbers_is_finite_or_says_why_not(a_mps2, dt_s, slope_rad, mu, scale):
     with contextlib.suppress(InputError):
         result = slide(a_mps2, dt_s, slope_rad=slope_rad, mu=mu, scale=scale, units="m/s2")

@@ -151,7 +151,7 @@ def test_the_study_of_the_readme_has_its_curves(commanded):
     assert (out / "study.pdf").stat().st_size > 10_000
 
 
-@pytest.mark.nightly("README.md", "docs", "roofslip")
+@pytest.mark.nightly
 def test_a_report_leaves_four_files_and_their_hashes(reported):
     names = {path.name for path in reported.out.iterdir()}
     assert names == {"calc-package.pdf", "plan.dxf", "results.json", "results.xlsx", STAMP}
@@ -211,6 +211,7 @@ def test_the_json_of_the_example_agrees_with_the_solver_run_by_hand(reported):
         assert array["design_m"] == pytest.approx(max(computed, floor), rel=1e-12)
 
 
+@pytest.mark.quick
 def test_the_python_of_the_readme_runs(folder, monkeypatch):
     monkeypatch.chdir(folder)
     monkeypatch.setenv("MPLBACKEND", "agg")
@@ -230,6 +231,7 @@ def test_every_picture_and_file_that_is_named_exists():
     assert [path for path in named if not path.exists()] == []
 
 
+@pytest.mark.nightly
 def test_every_page_is_in_the_contents_and_none_is_long():
     assert set(NAV) == {path.name for path in DOCS}
     written = [path for path in DOCS if path not in make_docs.pages()]
@@ -238,6 +240,7 @@ def test_every_page_is_in_the_contents_and_none_is_long():
     assert len(README.split()) <= 1500
 
 
+@pytest.mark.quick
 def test_every_key_of_results_json_has_a_meaning_that_is_more_than_its_name():
     rows = [
         row
@@ -258,6 +261,7 @@ def test_pages_that_the_program_makes_are_as_it_would_make_them():
         assert DOCS[path] == text, f"python docs/make.py writes {path.name} anew"
 
 
+@pytest.mark.quick
 def test_a_code_block_is_run_or_marked_as_text():
     kinds = {
         (path.name, kind)
@@ -267,6 +271,7 @@ def test_a_code_block_is_run_or_marked_as_text():
     assert {kind for _, kind in kinds} == {"sh", "python", "text"}
 
 
+@pytest.mark.nightly
 def test_the_site_is_built_without_a_broken_link_or_reference(tmp_path):
     words = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path)]
     told = os.environ | {"DISABLE_MKDOCS_2_WARNING": "true"}

@@ -7,10 +7,11 @@ import pytest
 from dlml._tabular import load_tabular
 from matplotlib import pyplot
 
+from nightly import nightly
 from places import ROOT
 
 EXAMPLES = ROOT / "docs" / "examples"
-DEAR = {"suite": "solver/synthesis", "workbook": "report", "own_method": "solver/rivals"}
+LONG = {"suite", "workbook", "own_method"}
 
 
 def listed():
@@ -21,13 +22,8 @@ def listed():
     return make.EXAMPLES
 
 
-def dear_at_night(names):
-    marks = {name: pytest.mark.nightly(place, "docs/examples") for name, place in DEAR.items()}
-    return [pytest.param(name, marks=marks.get(name, ())) for name in names]
-
-
 @pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")  # of dlml
-@pytest.mark.parametrize("name", dear_at_night(listed()))
+@pytest.mark.parametrize("name", [nightly(n) if n in LONG else n for n in listed()])
 def test_an_example_runs_and_saves_what_it_shows(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
@@ -43,6 +39,7 @@ def test_an_example_runs_and_saves_what_it_shows(name, tmp_path, monkeypatch, ca
 
 
 @pytest.mark.parametrize("name", listed())
+@pytest.mark.quick
 def test_an_example_is_cells_of_words_and_code(name):
     text = (EXAMPLES / f"{name}.py").read_text()
     cells = text.split("# %%")
@@ -55,6 +52,7 @@ def test_an_example_is_cells_of_words_and_code(name):
         compile(cell, name, "exec")
 
 
+@pytest.mark.quick
 def test_every_example_is_listed():
     assert {path.stem for path in EXAMPLES.glob("*.py")} == set(listed())
     assert len(listed()) == 10

@@ -1,6 +1,10 @@
 """Golden texts are compared, and taken over where that is asked for."""
 
+import pytest
+
 import golden_texts
+
+pytestmark = pytest.mark.quick
 
 
 def test_a_golden_text_is_shown_as_a_difference_and_taken_over_where_asked_for(tmp_path):

@@ -10,6 +10,8 @@ import pytest
 import mutants
 from places import TESTS
 
+pytestmark = pytest.mark.quick
+
 SOURCE = '''
 """Text."""
 LIMIT = 0.05
@@ -31,7 +33,7 @@ def test_each_change_is_one_and_none_is_of_a_docstring():
     assert len(mutants.sites(tree, limits=False)) == len(drawn) - 1
 
 
-@pytest.mark.nightly("tests/mutants.py")
+@pytest.mark.nightly
 def test_the_tests_of_the_rules_kill_most_of_ten_mutants():
     command = [sys.executable, TESTS / "mutants.py", "solver/rules", "--count", "10"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300)

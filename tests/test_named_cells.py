@@ -6,6 +6,8 @@ from openpyxl.worksheet.table import Table
 
 from cells import address, addressed
 
+pytestmark = pytest.mark.quick
+
 ROOF = (("", "Value", "Unit"), ("Height *", 3, "ft"), ("Ratio a / b", 2), ("Below",),
         ("Status", "ID", "x from [ft]", "x to [ft]"), (1, "A", 0, 9), (1, "B", 9, 20))  # fmt: skip
 RESULTS = (("Verdict", "OK"), ("ID", "Design [in]", "Design [mm]", "Verdict"), ("A", 1, 25.4, "OK"))

@@ -4,7 +4,11 @@ import ast
 from collections import Counter, defaultdict
 from pathlib import Path
 
+import pytest
+
 from places import ROOT, TESTS
+
+pytestmark = pytest.mark.quick
 
 
 def doubled(texts):

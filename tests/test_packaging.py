@@ -36,6 +36,7 @@ def tracked():
     return [ROOT / name for name in names if (ROOT / name).exists()]
 
 
+@pytest.mark.quick
 def test_no_benchmark_hides_a_module_of_the_tests():
     """A script finds what is beside it first."""
     tests, bench = ({file.name for file in TESTS.glob(glob)} for glob in ("*.py", "bench/*.py"))
@@ -146,6 +147,7 @@ def test_help_needs_nothing_installed(launched, words, command):
     assert launched(*words) == text.replace("Usage: roofslip", "Usage: ./roofslip")
 
 
+@pytest.mark.quick
 def test_the_version_needs_nothing_installed(launched, tmp_path):
     version = PROJECT["project"]["version"]
     assert launched("--version") == f"roofslip, version {version}\n"
@@ -186,5 +188,6 @@ def test_every_command_that_makes_a_pdf_has_its_libraries_looked_after():
     assert f"{' | '.join(makers)}) native_libraries" in launcher
 
 
+@pytest.mark.quick
 def test_the_continuous_integration_calls_the_one_command():
     assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()

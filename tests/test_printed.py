@@ -4,6 +4,8 @@ import pytest
 
 import printed
 
+pytestmark = pytest.mark.quick
+
 HTML = """<html data-head="24   X" data-foot="Date &#10;Hash 1"><body>
 <section class="cover"><h1><span class="no">1</span> Title</h1>
 <div class="whole"><p class="caption">Lengths</p><table><thead>

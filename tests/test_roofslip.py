@@ -6,10 +6,14 @@ import shutil
 import subprocess
 import sys
 
+import pytest
+
 import report
 import roofslip
 import solver
 from places import ROOT
+
+pytestmark = pytest.mark.quick
 
 SLID = (
     "import roofslip; print(roofslip.slide([0, 4, -4, 0, 0, 0], 0.1, slope_rad=0, mu=0.2).status)"

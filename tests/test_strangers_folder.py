@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ import commands
 import report.suite.files
 import sheets
 import waves
+from nightly import by_day
 from places import ROOT
 from report.sheet.reading.growing import GrowingTable
 from report.sheet.reading.read import read
@@ -94,7 +96,7 @@ def test_a_workbook_that_is_a_link_is_not_written_through(folder, writer):
     assert state(folder.parent) == before
 
 
-@pytest.mark.parametrize("writer", WRITERS)
+@pytest.mark.parametrize("writer", by_day(WRITERS, 2))
 def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
     link = folder / "given.xlsx"
     link.symlink_to(folder / "input.xlsx")
@@ -106,8 +108,8 @@ def test_a_workbook_that_the_user_gave_may_be_a_link(folder, writer):
     assert (folder / "input.before.xlsx").read_bytes() == before
 
 
-@pytest.mark.parametrize("lock", ["~$input.xlsx", ".~lock.input.xlsx#"])
-@pytest.mark.parametrize("writer", WRITERS)
+@pytest.mark.parametrize("lock", by_day(["~$input.xlsx", ".~lock.input.xlsx#"], 1))
+@pytest.mark.parametrize("writer", by_day(WRITERS, 2))
 def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock):
     (folder / lock).write_bytes(b"")
     before = state(folder.parent)
@@ -119,7 +121,7 @@ def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock)
     commands.printed(*writer(folder))
 
 
-@pytest.mark.parametrize("writer", WRITERS)
+@pytest.mark.parametrize("writer", by_day(WRITERS, 2))
 def test_the_workbook_as_it_was_is_kept_by_one_name(folder, writer):
     before = (folder / "input.xlsx").read_bytes()
     (folder / "input.before.xlsx").write_bytes(b"of the command before")
@@ -135,7 +137,7 @@ PLACES = ("input.before.xlsx", LOCK, "records/KJM-x.csv", "records")
 
 @pytest.mark.parametrize(
     ("place", "kind"),
-    [(place, kind) for place in PLACES for kind in KINDS if (place, kind) != ("records", "folder")],
+    by_day([pair for pair in product(PLACES, KINDS) if pair != ("records", "folder")], 6),
 )
 def test_nothing_is_written_through_what_is_in_a_place(folder, place, kind):
     outside = folder.parent / "outside"
@@ -153,6 +155,7 @@ def test_nothing_is_written_through_what_is_in_a_place(folder, place, kind):
 TRAP = '{"../stolen.txt": true, "../../stolen.txt": true, "theirs.txt": false}'
 
 
+@pytest.mark.nightly
 def test_no_instruction_is_read_from_a_folder(folder):
     """Journals of an earlier version replaced, removed and moved files as they said."""
     (folder / "theirs.txt").write_text("theirs")
@@ -174,9 +177,9 @@ def test_no_instruction_is_read_from_a_folder(folder):
     }
 
 
-@pytest.mark.parametrize("kind", ["link", "dangling link", "pipe", "device"])
+@pytest.mark.parametrize("kind", by_day(["link", "dangling link", "pipe", "device"], 2))
 @pytest.mark.parametrize(
-    "place", ["out", "out/calc-package.pdf", "out/roofslip.sha256", f"out/{LOCK}"]
+    "place", by_day(["out", "out/calc-package.pdf", "out/roofslip.sha256", f"out/{LOCK}"], 1)
 )
 def test_a_report_is_not_written_through_what_is_in_its_place(folder, place, kind, monkeypatch):
     (folder / place).parent.mkdir(exist_ok=True)
@@ -188,6 +191,7 @@ def test_a_report_is_not_written_through_what_is_in_its_place(folder, place, kin
     assert state(folder.parent) == before
 
 
+@pytest.mark.quick
 def test_other_outputs_are_not_written_through_a_link(tmp_path, monkeypatch):
     outside = tmp_path / "outside"
     outside.mkdir()
@@ -222,6 +226,7 @@ def test_a_new_project_on_a_full_disk_says_so_and_leaves_nothing(tmp_path, monke
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.nightly
 def test_a_plan_with_its_clearances_is_one_write(folder, monkeypatch):
     before, replaced, rename = len(read(folder).draft["arrays"]), [], os.replace
 
@@ -245,6 +250,7 @@ main(sys.argv[1:])
 """
 
 
+@pytest.mark.nightly
 def test_of_two_commands_at_once_none_loses_a_row(folder):
     command = [sys.executable, "-c", ROWS, *map(str, rows(folder))]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) as other:

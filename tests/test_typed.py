@@ -2,11 +2,14 @@
 
 from collections import Counter
 
+import pytest
+
 from report.sheet.schema.choices import UnitsFirst
 from sheets import blank, make, said, type_into
 from typed import typed_cells
 
 
+@pytest.mark.nightly
 def test_only_what_is_filled_and_says_more_than_a_blank_cell_counts(tmp_path):
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
     assert all(cells == {} for cells in typed_cells(path).values())

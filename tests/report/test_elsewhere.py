@@ -14,6 +14,7 @@ import pytest
 
 import sheets
 import sketch
+from nightly import by_day
 from places import ROOT
 
 PROGRAM = Path(sys.executable).with_name("roofslip")
@@ -110,7 +111,7 @@ def started(stranger, project, tmp_path):
     return run
 
 
-@pytest.mark.parametrize("words", DAY.values(), ids=DAY)
+@pytest.mark.parametrize("words", by_day(DAY.values(), 1), ids=DAY)
 def test_a_command_takes_nothing_from_the_current_folder(started, words):
     started(words)
 
@@ -147,7 +148,7 @@ main(["watch", sys.argv[1]])
 """
 
 
-@pytest.mark.nightly("report/elsewhere.py")
+@pytest.mark.nightly
 def test_nor_does_a_watch_until_it_ends(stranger, project, tmp_path):
     script = tmp_path / "script.py"
     script.write_text(WATCH)
@@ -155,13 +156,13 @@ def test_nor_does_a_watch_until_it_ends(stranger, project, tmp_path):
     assert f"{project / 'out' / 'calc-package.pdf'}" in told
 
 
-@pytest.mark.nightly("report/elsewhere.py", "report/workers.py")
+@pytest.mark.nightly
 @pytest.mark.parametrize("words", NIGHT.values(), ids=NIGHT)
 def test_nor_does_one_that_takes_longer(started, words):
     started(words)
 
 
-@pytest.mark.nightly("report/elsewhere.py", "report/workers.py")
+@pytest.mark.nightly
 def test_nor_is_anything_taken_to_write_compare_and_sign_a_package(started):
     started(["report", "PROJECT"])
     package = "PROJECT/out/calc-package.pdf"

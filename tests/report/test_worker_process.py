@@ -34,6 +34,7 @@ def worker():
         yield process
 
 
+@pytest.mark.quick
 def test_results_come_back_in_order_from_another_process(worker):
     asked = [worker.submit(divmod, 7, 2), worker.submit(os.getpid)]
     assert asked[0].result(timeout=60) == (3, 1)
@@ -68,6 +69,7 @@ def fail_while_it_works(asked):
         refuse("Site!B5")
 
 
+@pytest.mark.quick
 def test_an_error_in_the_command_ends_it_in_the_middle_of_a_function():
     started, asked = time.monotonic(), []
     with pytest.raises(InputError, match="Site!B5"):
@@ -77,6 +79,7 @@ def test_an_error_in_the_command_ends_it_in_the_middle_of_a_function():
     assert asked[1].cancelled()  # codespell:ignore
 
 
+@pytest.mark.nightly
 def test_it_ends_in_the_middle_of_a_function_when_the_command_is_killed():
     code = (
         "import gc, os, time; from report.workers import WorkerProcess\n"
@@ -155,6 +158,7 @@ def test_what_it_leaves_in_its_temporary_folder_goes_with_it():
     assert not os.path.exists(os.path.dirname(name))
 
 
+@pytest.mark.quick
 def test_no_part_of_an_assessment_can_change():
     modules = [
         import_module(f"report.assessment.{each.name}")

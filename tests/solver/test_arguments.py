@@ -11,6 +11,8 @@ from places import DATA
 from solver import InputError, read_record, scene, slide, slide_history, sweep
 from solver.records.record import record_from_values
 
+pytestmark = pytest.mark.quick
+
 RECORD = [0.0, 3.0, -3.0, 0.0]
 
 NOT_A_ROW = [

@@ -8,6 +8,8 @@ import pytest
 from blocks import block
 from solver.forces import forces, friction_demand
 
+pytestmark = pytest.mark.quick
+
 RNG = np.random.default_rng(3)
 AX, AY, AZ = RNG.normal(0.0, 3.0, (3, 50))
 

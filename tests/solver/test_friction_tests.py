@@ -9,6 +9,8 @@ from solver import friction_tests
 from solver.friction_tests import FrictionRun, Surface, fit_law, governing, series
 from solver.model import Friction, coulomb
 
+pytestmark = pytest.mark.quick
+
 
 def law_of(mu_fast, rate, mu_slow=0.40):
     return Friction(mu_slow=mu_slow, mu_fast=mu_fast, rate_s_per_m=rate, mu_static=mu_slow)

@@ -11,6 +11,8 @@ from places import ROOT
 from report.cli.main import main
 from solver.meant import meant, nearest
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture
 def folder(tmp_path):
@@ -90,6 +92,7 @@ def test_the_lock_file_of_a_workbook_is_never_meant(tmp_path):
     assert "did you mean" not in commands.refused("check", tmp_path)
 
 
+@pytest.mark.nightly
 def test_as_many_wrong_names_as_there_are_names_take_time_as_their_number():
     def suggested(count):
         names = [f"{'ab' * 18}{k}" for k in range(count)]

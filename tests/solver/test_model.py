@@ -11,6 +11,8 @@ from solver.model import Motion, coulomb
 from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture
 def motion():

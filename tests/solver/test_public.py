@@ -12,8 +12,11 @@ import pytest
 
 import report
 import solver
+from nightly import nightly
 from places import ROOT
 from solver import public
+
+pytestmark = pytest.mark.quick
 
 FUNCTIONS = {
     name: getattr(package, name)
@@ -21,13 +24,8 @@ FUNCTIONS = {
     for name in package.__all__
     if inspect.isfunction(getattr(package, name))
 }
-DEAR = {"make_suite": "solver/synthesis", "assess_project": "report"}
+LONG = {"make_suite", "assess_project"}
 SECTIONS = ("Parameters", "Returns", "Raises", "Examples")
-
-
-def dear_at_night(names):
-    marks = {name: pytest.mark.nightly(place) for name, place in DEAR.items()}
-    return [pytest.param(name, marks=marks.get(name, ())) for name in names]
 
 
 def test_every_public_name_is_one_of_the_solver():
@@ -57,7 +55,7 @@ def test_a_public_function_has_every_section_and_each_of_its_parameters(name):
     assert set(inspect.signature(FUNCTIONS[name]).parameters) <= named
 
 
-@pytest.mark.parametrize("name", dear_at_night(FUNCTIONS))
+@pytest.mark.parametrize("name", [nightly(n) if n in LONG else n for n in FUNCTIONS])
 def test_the_example_of_a_public_function_is_true(name, monkeypatch):
     monkeypatch.chdir(ROOT)
     function = FUNCTIONS[name]

@@ -12,6 +12,8 @@ from solver.files import LOCK, locked, write_all, write_whole
 from solver.model import InputError
 from stranger import occupied
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture
 def path(tmp_path):

@@ -38,6 +38,7 @@ def test_the_motions_and_the_review_are_notes_and_not_counted():
     assert words.count("note") == len(done.notes)
 
 
+@pytest.mark.quick
 def test_check_says_note_as_well():
     book = stand_in.book(stand_in.project(arrays=FLAT, objects=[], clearances=GAPS), ALONE)
     found = list(limits_before_runs(book.sheet.project, book.shaking))
@@ -46,6 +47,7 @@ def test_check_says_note_as_well():
     assert all(": note. " in each.text and each.level == "note" for each in said)
 
 
+@pytest.mark.quick
 def test_by_analysis_they_are_what_they_were():
     steep = [row | {"slope_value": 4.0} for row in FLAT]
     done = made(arrays=steep).assessment

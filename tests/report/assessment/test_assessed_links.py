@@ -9,6 +9,7 @@ import pytest
 
 import scenes
 import stand_in
+from nightly import by_day
 from report.assessment.assess import reassess
 from report.assessment.links import assess_linked
 from solver.model import Status
@@ -45,7 +46,7 @@ def rigid_value(mu):
     return 1.1 * max(run.prd_m for run in runs)
 
 
-@pytest.mark.nightly("report/assessment/links.py", "solver/sliding/row.py", "solver/kernels/row.py")
+@pytest.mark.nightly
 def test_the_rows_are_those_of_the_solver():
     _, item = assessed("0.40, 0.45, 0.50", 500, damping_ratio=0.1)
     mass, k = 42000 * LB / G / 3, 500 * LB / INCH
@@ -70,6 +71,7 @@ def test_the_rows_are_those_of_the_solver():
     assert item.link_force_n == pytest.approx(max(forces) * mass * G)
 
 
+@pytest.mark.nightly
 def test_the_design_grows_by_what_links_change_in_one_axis():
     done, item = assessed("0.40, 0.45, 0.50", 50)
     assert item.ratio == pytest.approx(item.linked.value_m / item.rigid.value_m)
@@ -80,7 +82,7 @@ def test_the_design_grows_by_what_links_change_in_one_axis():
     assert not done.verdict.is_permitted
 
 
-@pytest.mark.parametrize("lb_per_in", [1, 5000, 1e6])
+@pytest.mark.parametrize("lb_per_in", by_day([1, 5000, 1e6], 1))
 def test_blocks_with_equal_friction_move_as_one_whatever_links_them(lb_per_in):
     done, item = assessed("0.45, 0.45, 0.45", lb_per_in)
     assert item.ratio == pytest.approx(1.0, rel=1e-9)
@@ -94,6 +96,7 @@ def test_very_stiff_links_make_one_block_of_the_mean_coefficient():
     assert item.linked.value_m == pytest.approx(rigid_value(0.44), rel=0.01)
 
 
+@pytest.mark.quick
 def test_very_soft_links_leave_the_weakest_block_by_itself():
     _, item = assessed("0.50, 0.40, 0.45", 0.01)
     assert item.linked.value_m == pytest.approx(rigid_value(0.40), rel=0.01)
@@ -131,6 +134,7 @@ def test_a_difference_below_the_model_tolerance_is_allowed():
         assert replace(item, linked=grown).is_rigid_enough is enough
 
 
+@pytest.mark.nightly
 def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
     shaking = (stand_in.motion("M", 0.25 * G * np.sin(np.arange(400) / 10.0)),) * 3
     done, item = assessed("0.10, 0.50", 0.01, shaking=shaking, array={"mu": 0.3})
@@ -144,6 +148,7 @@ def test_a_block_that_slides_where_one_rigid_one_does_not_has_no_ratio():
     assert still.is_within
 
 
+@pytest.mark.quick
 def test_one_rigid_block_is_not_adequate_for_a_displacement_that_is_not_permitted():
     """Nothing moves under motions that do not qualify, as one block or as a row."""
     (item,) = stand_in.unpermitted(links=[stand_in.links("A1", "0.3, 0.3", 50)]).linked
@@ -175,6 +180,7 @@ def test_a_row_that_cannot_be_followed_is_never_enough():
     assert not replace(done, linked=(again,)).verdict.is_permitted
 
 
+@pytest.mark.nightly
 def test_a_row_that_still_slides_at_the_end_is_not_final():
     ax = np.concatenate([np.zeros(100), np.full(60, -4.0)])
     cut = (stand_in.motion("CUT", ax, signs=(1,)),) * 3
@@ -186,6 +192,7 @@ def test_a_row_that_still_slides_at_the_end_is_not_final():
     assert not done.verdict.is_permitted
 
 
+@pytest.mark.quick
 def test_too_few_motions_give_no_value():
     _, item = assessed("0.40, 0.50", 50, shaking=MOTIONS[:2])
     assert math.isnan(item.estimated_m)

@@ -36,6 +36,7 @@ def assessed(code, *, sections=(), **changes):
     return scenes.package(site=site(code, **changes), **dict(sections)).assessment
 
 
+@pytest.mark.quick
 def test_every_code_that_a_workbook_offers_references_an_edition_that_is_a_rule_set_too():
     assert {code.split()[1] for code in REFERENCED} == {code.value for code in BuildingCode}
     assert set(REFERENCED.values()) <= EDITIONS.keys() & RULE_SETS.keys()
@@ -90,6 +91,7 @@ def test_parameters_of_another_edition_ask_for_those_of_the_code():
     assert "in writing, or enter those of ASCE 7-22. " in row.remedy
 
 
+@pytest.mark.quick
 def test_a_code_whose_edition_is_not_known_names_those_that_are():
     row = before_runs("2001 CBC")["code_edition"]
     assert row.found == "not known to this program for the 2001 CBC"
@@ -168,6 +170,7 @@ def test_a_row_of_linked_blocks_counts_under_the_other_rule_set_too():
     assert remedy.endswith("NG; A1: one rigid block.")
 
 
+@pytest.mark.quick
 def test_no_run_is_made_again(monkeypatch):
     book = stand_in.book(stand_in.project(site=site("2022 CBC")), scenes.motions())
     runs = []

@@ -72,6 +72,7 @@ def test_the_building_as_used_is_first_and_is_that_of_the_design(made):
     }
 
 
+@pytest.mark.nightly
 def test_the_page_says_the_range_of_the_means(made):
     done, found = made
     page = printed(done, "motions")
@@ -90,10 +91,12 @@ def test_a_building_at_the_longest_period_is_made_no_slower():
     assert [building.period_s for building, _ in found[:4]] == [10.0, 8.0, 10.0, 10.0]
 
 
+@pytest.mark.nightly
 def test_seven_motions_take_the_statistic_of_their_mean():
     for _, value in building_variations(scenes.shipped("school")):
         assert value.value_m == pytest.approx(1.1 * value.mean_m)
 
 
+@pytest.mark.quick
 def test_without_ground_motions_no_building_is_varied():
     assert building_variations(scenes.package().assessment) == ()

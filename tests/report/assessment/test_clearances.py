@@ -83,6 +83,7 @@ def test_importance_enters_the_separation_in_pv1_and_the_displacement_in_asce_7(
     assert ratio == pytest.approx(1.25)
 
 
+@pytest.mark.quick
 def test_asce_requires_four_feet_to_an_edge():
     resting = scenes.motions(7, 12.0, peak_g=0.05, vertical_peak_g=0.01)
     site = stand_in.site(rule_set="ASCE 7-16", s_ds_g=0.5)
@@ -131,6 +132,7 @@ def test_without_a_permitted_route_there_is_no_required_separation_and_no_verdic
     assert unpermitted.verdict is Verdict.NG
 
 
+@pytest.mark.quick
 def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict(unpermitted):
     third = unpermitted.clearances[2]
     assert third.required_m == pytest.approx(1.5 * unpermitted.arrays[1].prescriptive.value_m)
@@ -139,6 +141,7 @@ def test_where_the_prescriptive_displacement_is_used_a_clearance_has_its_verdict
     assert stand_in.unpermitted(clearances=narrow).clearances[0].verdict is Verdict.NG
 
 
+@pytest.mark.quick
 def test_an_array_beside_a_clearance_without_a_verdict_is_ng(unpermitted):
     assert [unpermitted.array_verdict(item) for item in unpermitted.arrays] == [Verdict.NG] * 2
     assert unpermitted.governing_gap("A2").verdict is Verdict.NONE

@@ -27,6 +27,7 @@ def row(done, key):
     return next((item for item in done.rows if item.id == key), None)
 
 
+@pytest.mark.quick
 def test_the_worst_verdict_is_ng_and_none_is_ok():
     assert worst([]) is Verdict.OK
     assert worst([Verdict.OK, Verdict.CONDITION]) is Verdict.CONDITION
@@ -251,6 +252,7 @@ def test_a_site_class_of_another_edition_is_asked_for_without_11_4_8():
     assert "11.4.8" not in hazard(**SOURCED | ASCE_7_22)["site_class"].remedy
 
 
+@pytest.mark.quick
 def test_a_site_specific_analysis_asks_for_its_report():
     title = "Report on the site-specific hazard analysis"
     assert hazard(**STUDIED)["hazard_source"].title == title
@@ -555,6 +557,7 @@ def test_a_drawing_distance_that_changed_by_hand_is_not_confirmed_any_more():
     assert found.found == f"{ISSUED}, given before these inputs changed: sheet Clearances"
 
 
+@pytest.mark.quick
 def test_what_no_cell_takes_stays_for_the_plan_checker():
     """The duration of records, arrays without a fire lane, an override."""
     done = assessed(

@@ -39,6 +39,7 @@ def test_each_sum_is_that_of_separate_runs():
         assert item.largest_m == max(item.sums_m.values())
 
 
+@pytest.mark.quick
 def test_a_rectangular_pulse_gives_the_closed_form():
     """A level block under one pulse slides v^2 / 2 (1/(mu g) - 1/a) (Newmark 1965)."""
     mu, seconds, dt = 0.45, 0.5, 0.001
@@ -66,6 +67,7 @@ def test_the_sums_carry_the_factor_of_the_design_value_beside_them():
     assert "carry the factor 1.10† of the value from analysis" in page
 
 
+@pytest.mark.quick
 def test_a_run_without_a_final_value_leaves_no_sum():
     run = made().arrays[0]
     assert math.isnan(
@@ -73,6 +75,7 @@ def test_a_run_without_a_final_value_leaves_no_sum():
     )
 
 
+@pytest.mark.quick
 def test_it_is_off_unless_the_workbook_names_events():
     assert cumulative(made("")) == ()
 
@@ -80,7 +83,6 @@ def test_it_is_off_unless_the_workbook_names_events():
 @pytest.mark.parametrize(
     "typed", ["0.5, 1.2", "0.0", "half", "0,5", "-0.5", ", ".join(["0.5"] * 21)]
 )
-@pytest.mark.by_day(2)
 def test_factors_outside_of_the_range_are_refused_by_cell(tmp_path, typed):
     (line,) = problems(type_into(make(tmp_path), {CELL: typed}))
     assert line.startswith(at(CELL))

@@ -15,6 +15,8 @@ import stand_in
 from report.assessment.envelopes import design_envelope, hull, keep_clear_m, runs_envelope
 from report.sheet.schema.shapes import Polygon, Rectangle, closest, gap_m
 
+pytestmark = pytest.mark.quick
+
 CIRCUMSCRIBED = 1.0 / math.cos(math.pi / 24)
 """Of a circle, its polygon of 24 sides around it: 0.9 % outside."""
 

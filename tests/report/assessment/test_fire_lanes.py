@@ -9,6 +9,8 @@ from report.assessment.verdict import Verdict
 from report.sheet.schema.fields import Place
 from stand_in import FOOT
 
+pytestmark = pytest.mark.quick
+
 SECTION = "2022 CFC, example section"
 
 

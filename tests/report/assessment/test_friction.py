@@ -6,6 +6,8 @@ import stand_in
 from report.assessment.friction import at_low_velocity, mu_words, mus_words
 from solver.model import Friction, coulomb
 
+pytestmark = pytest.mark.quick
+
 LAW = {"mu": 0.40, "mu_fast": 0.50, "mu_rate_s_per_m": 20.0}
 
 

@@ -6,6 +6,8 @@ import stand_in
 from report.assessment.friction_rows import basis_words
 from solver.model import Friction
 
+pytestmark = pytest.mark.quick
+
 LAW = Friction(mu_slow=0.40, mu_fast=0.50, rate_s_per_m=20.0, mu_static=0.40)
 VELOCITIES = (0.0025, 0.0254, 0.0508, 0.1016)
 RANGE = "from 0.10 in/s (2.5 mm/s) to 4.00 in/s (101.6 mm/s)"

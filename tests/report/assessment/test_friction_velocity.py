@@ -15,6 +15,8 @@ from solver.friction_tests import FrictionRun, Series, Surface
 from solver.model import Friction, coulomb
 from solver.rules.provisions import Neighbor
 
+pytestmark = pytest.mark.quick
+
 LAW = {"mu": 0.30, "mu_fast": 0.45, "mu_rate_s_per_m": 20.0}
 MOTIONS = scenes.motions()
 TITLE = "Friction beyond the velocities tested"

@@ -117,6 +117,7 @@ def test_the_reversed_vertical_is_run_in_every_heading(usual):
     assert found.reversed_m == pytest.approx(largest, rel=1e-5)
 
 
+@pytest.mark.quick
 def test_one_component_has_no_angles_and_no_vertical_to_reverse():
     found = uncertainty(made(scenes.along(SHORT)))
     assert found.turned == ()
@@ -133,6 +134,7 @@ def test_a_clearance_without_a_permitted_route_has_no_margin():
     assert own.limited_by == "Friction coefficient, prescriptive route"
 
 
+@pytest.mark.quick
 def test_without_clearances_there_are_no_margins():
     assert uncertainty(made(clearances=[])).margins == ()
 
@@ -154,6 +156,7 @@ def test_a_law_by_velocity_is_scaled_as_a_whole_and_the_other_arrays_are_named()
     assert found.mean_m[-1, -1] == pytest.approx(wanted, rel=2e-3)
 
 
+@pytest.mark.quick
 def test_a_block_that_lifts_off_leaves_holes_and_no_margin():
     found = uncertainty(made(tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))))
     assert np.isnan(found.surface.mean_m).all()

@@ -20,6 +20,8 @@ from report.sheet.schema import ProjectInput
 from report.sheet.schema.shapes import Rectangle, gap_m
 from sheets import at, make, project
 
+pytestmark = pytest.mark.quick
+
 OUTLINE = sides(0, 220, 0, 170)
 
 

@@ -10,6 +10,8 @@ from report.assessment.verdict import Verdict
 from report.sheet.schema.fields import Place
 from solver.rules.limit import Consequence
 
+pytestmark = pytest.mark.quick
+
 
 def overrides(**values):
     return [{"provision": key, "value": v, "reason": "agreed"} for key, v in values.items()]

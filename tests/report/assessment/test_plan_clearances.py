@@ -16,6 +16,7 @@ import report.assessment.assess
 import stand_in
 from cells import cell
 from inputs import FT, INCH, clearance, roof_object, sides
+from nightly import by_day
 from places import ROOT
 from report.assessment.assess import assess
 from report.assessment.plan_clearances import direction_of, missing_rows, pairs_before_runs
@@ -52,7 +53,7 @@ def without_rows(name, folder):
     return folder
 
 
-@pytest.mark.parametrize("name", ["example", "school", "campus"])
+@pytest.mark.parametrize("name", by_day(["example", "school", "campus"], 1))
 def test_a_shipped_project_without_rows_has_none_missing_after_the_command(tmp_path, name):
     folder = without_rows(name, tmp_path / name)
     was = {
@@ -72,6 +73,7 @@ def test_a_shipped_project_without_rows_has_none_missing_after_the_command(tmp_p
     assert not [near for near in done.pairs if near.is_missing]
 
 
+@pytest.mark.nightly
 def test_the_example_gets_the_rows_that_an_engineer_gave_it(tmp_path):
     fill(without_rows("example", tmp_path / "example"))
     found, given = (
@@ -123,6 +125,7 @@ def test_before_runs_a_random_plan_has_every_pair_that_its_package_lists(
 MOTIONS = stand_in.motions(3, seconds=6.0, peak_g=0.3)
 
 
+@pytest.mark.quick
 def test_pairs_within_twice_a_larger_analysis_are_those_of_the_package():
     strong = stand_in.motions(3, seconds=6.0, peak_g=2.0)
     far = roof_object("FAR", "fixed object", height=0.5) | sides(60, 70, 0, 60)
@@ -177,6 +180,7 @@ def test_where_motions_cannot_be_run_the_reason_is_given(tmp_path):
     assert len(read(path).draft["clearances"]) == 2
 
 
+@pytest.mark.nightly
 def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
     rows = [clearance("A1", "A2", 120 * INCH, "across"), clearance("A2", "RTU-1", 50 * INCH)]
     path = make(tmp_path, objects=PLACED, clearances=rows)
@@ -195,6 +199,7 @@ def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
     assert path.read_bytes() == again
 
 
+@pytest.mark.nightly
 def test_rows_from_the_drawing_are_renewed_and_typed_ones_stay(tmp_path):
     path = make(tmp_path, **BARE)
     fill(tmp_path)
@@ -237,8 +242,8 @@ def test_only_the_sheet_clearances_changes(tmp_path):
     assert len(different(before, parts(path))) <= 3
 
 
-@pytest.mark.parametrize("units", UnitsFirst)
-@pytest.mark.parametrize("gap_in", [60.0, 60.04999, 59.999999, 0.03])
+@pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
+@pytest.mark.parametrize("gap_in", by_day([60.0, 60.04999, 59.999999, 0.03], 2))
 def test_a_distance_is_rounded_down_in_the_unit_of_its_column(tmp_path, units, gap_in):
     near = roof_object("R", "fixed object") | sides(0, 10, 20, 30)
     near |= {"x_to_m": 20 * FT - gap_in * INCH}  # A1 begins at 20 ft
@@ -279,6 +284,7 @@ def pairs_of(sheet):
         (270.0, sides(20, 100, 0, 15), Direction.ANY),  # no distance
     ],
 )
+@pytest.mark.quick
 def test_a_direction_is_that_of_the_whole_distance_or_any(downslope_deg, place, direction):
     data = stand_in.project(
         arrays=[inputs.array("A1", 0.5)],
@@ -289,6 +295,7 @@ def test_a_direction_is_that_of_the_whole_distance_or_any(downslope_deg, place, 
     assert direction_of(near, downslope_deg) is direction
 
 
+@pytest.mark.nightly
 def test_motions_may_be_missing_and_nothing_else(tmp_path):
     path = make(tmp_path, **BARE)
     type_into(path, dict.fromkeys(("Motions/M1/ID", "Motions/M2/Horizontal record")))
@@ -317,6 +324,7 @@ def test_bare_edges_and_overlaps_are_said_and_not_written(tmp_path):
     assert "IN" not in {row.object for row in read(path).project.clearances}
 
 
+@pytest.mark.nightly
 def test_a_workbook_without_the_column_is_refused_as_it_is_until_it_has_the_heading(tmp_path):
     path = make(tmp_path, **BARE)
     edit(path, lambda book: put(book, {HEADING: None}))
@@ -367,6 +375,7 @@ CONFIRMED = {
 }
 
 
+@pytest.mark.nightly
 def test_a_confirmation_of_distances_is_taken_out_where_a_command_writes_other_ones(tmp_path):
     path = make(tmp_path, **BARE, project=CONFIRMED)
     said = at(
@@ -380,6 +389,7 @@ def test_a_confirmation_of_distances_is_taken_out_where_a_command_writes_other_o
     assert issue.drawing_covered == ""
 
 
+@pytest.mark.nightly
 def test_a_confirmation_of_distances_stays_where_a_command_writes_none(tmp_path):
     fill(make(tmp_path, **BARE).parent)
     rows = [row.model_dump() for row in read(tmp_path).project.clearances]

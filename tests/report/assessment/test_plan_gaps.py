@@ -16,6 +16,8 @@ from report.entities.columns import UnitFormat
 from report.web.plan import plan
 from report.web.tables import stamp
 
+pytestmark = pytest.mark.quick
+
 PARAPET = stand_in.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=0.3)
 HIGH = stand_in.roof_object("S", "edge with parapet", 0, 400, -202, -200, height=1.2)
 NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)

@@ -13,6 +13,8 @@ from report.assessment.precheck import limits_before_runs
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES
 
+pytestmark = pytest.mark.quick
+
 HAZARD = {"hazard_source": "GeoEngineers", "hazard_date": dt.date(2026, 2, 1)}
 TESTS = {"laboratory": "Laboratory", "report": "FT-1", "date": dt.date(2025, 6, 12)}
 REVIEW = {

@@ -8,6 +8,8 @@ from report.assessment.arrays import Route
 from report.assessment.precheck import limits_before_runs
 from report.sheet.schema.fields import Level, Place
 
+pytestmark = pytest.mark.quick
+
 SEVEN = scenes.motions(7)
 BARE = stand_in.project(
     arrays=[stand_in.array("A1", 8.0, mu_report="", x_to_m=200 * stand_in.FOOT)], clearances=[]

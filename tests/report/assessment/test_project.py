@@ -61,6 +61,7 @@ def test_each_motion_is_governed_by_its_worst_component_and_polarity(done):
     assert item.variation == pytest.approx(statistics.stdev(peaks) / statistics.mean(peaks))
 
 
+@pytest.mark.quick
 def test_of_one_motion_there_is_no_variation():
     assert math.isnan(alone(SEVEN[:1]).arrays[0].variation)
 
@@ -177,6 +178,7 @@ def test_a_run_without_a_final_displacement_withholds_that_of_its_array(done, st
     assert line.text.startswith(f"Array A1, motion M1, record +: {status.sentence}")
 
 
+@pytest.mark.quick
 def test_two_motions_are_too_few():
     item = assessed(SEVEN[:2]).arrays[0]
     assert item.analysis.basis is Basis.TOO_FEW
@@ -252,6 +254,7 @@ def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
         assert apart.arrays[1].design_m == single.design_m
 
 
+@pytest.mark.quick
 def test_a_project_that_is_not_there_is_an_input_error_in_python(tmp_path):
     with pytest.raises(InputError, match="no such file; give a workbook"):
         assess_project(tmp_path / "gone.xlsx")

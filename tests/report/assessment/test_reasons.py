@@ -66,12 +66,14 @@ def test_the_reason_stands_first_wherever_the_verdict_does(name):
     assert "Limits" not in printed(made, "summary").table("Arrays").rows[0]
 
 
+@pytest.mark.quick
 def test_what_is_not_ng_has_no_reason():
     done = scenes.package(**WIDE).assessment
     assert done.verdict is Verdict.CONDITIONS
     assert list(reasons(done)) == []
 
 
+@pytest.mark.quick
 def test_no_longer_record_is_offered_for_what_slides_on_by_its_weight():
     done = scenes.package(WEAK, **WIDE | SLIPPERY).assessment
     (found,) = done.warnings
@@ -86,6 +88,7 @@ def test_no_longer_record_is_offered_for_what_slides_on_by_its_weight():
     assert other.would_do.startswith("give a longer record")
 
 
+@pytest.mark.quick
 def test_a_prescriptive_value_that_is_not_permitted_says_so_wherever_it_stands():
     arrays = [ARRAY("A1", 4.0), ARRAY("A2", 0.5, x=220)]
     made = scenes.package(**WIDE | {"arrays": arrays})

@@ -40,6 +40,7 @@ def failing():
     return tight(0.6)
 
 
+@pytest.mark.quick
 def test_nothing_is_tried_for_a_clearance_without_a_permitted_route():
     narrow = [stand_in.clearance("A1", "RTU-1", stand_in.FOOT)]
     done = stand_in.unpermitted(options={}, clearances=narrow)
@@ -74,6 +75,7 @@ def test_the_hundredths_beside_a_value_are_never_the_value():
     assert (above(0.0), below(1.566)) == (1, 156)
 
 
+@pytest.mark.quick
 def test_a_satisfied_package_needs_nothing():
     assert remedies(made(9.0)) == ()
 
@@ -152,6 +154,7 @@ def test_an_array_that_slides_at_the_end_needs_friction():
     assert not finishes(remedy.value - 0.01)
 
 
+@pytest.mark.quick
 def test_a_block_that_lifts_off_has_no_friction_that_helps():
     lifted = tuple(stand_in.lifting(f"L{k}", signs=(1,)) for k in range(3))
     listed = remedies(made(0.5, motions=lifted))

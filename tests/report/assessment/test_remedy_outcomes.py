@@ -44,6 +44,7 @@ def of(given, kind):
     return [one for one in remedies(given) if one.kind is kind]
 
 
+@pytest.mark.quick
 def test_an_array_is_moved_where_the_plan_has_room_and_everything_is_checked_again():
     given = made()
     (gap,) = given.clearances
@@ -143,6 +144,7 @@ def test_friction_is_assessed_as_it_is_entered():
     assert found.outcome.verdict is not Verdict.NG
 
 
+@pytest.mark.quick
 def test_peer_review_is_offered_where_it_removes_a_floor_that_governs_and_only_there():
     given = made(x=102.5)
     (found,) = of(given, RemedyKind.REVIEW)
@@ -184,6 +186,7 @@ def test_terminal_and_page_name_it_after_the_reasons(monkeypatch):
     assert best_words(given) in printed(scenes.package_data(given), "summary")
 
 
+@pytest.mark.quick
 def test_attachment_has_its_force_where_its_factors_are_given():
     site = inputs.SITE | {"force_factor": 1.0, "force_divisor": 1.5}
     given = made(site=site)

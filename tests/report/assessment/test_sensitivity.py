@@ -14,6 +14,8 @@ from report.assessment.sensitivity import accuracy
 from report.figures.accuracy import work_precision
 from solver.rivals.methods import METHODS
 
+pytestmark = pytest.mark.quick
+
 
 def made(shaking=None, **changes):
     """A package, what is found of its accuracy, and the page."""
@@ -53,6 +55,7 @@ def test_each_method_is_run_on_the_governing_scene(usual):
         assert run.error == pytest.approx(abs(again.prd_m - exact) / exact)
 
 
+@pytest.mark.nightly
 def test_in_one_axis_the_methods_are_compared_with_the_result_itself():
     alone = tuple(replace(m, ay_mps2=np.empty(0)) for m in scenes.motions())
     _, evidence, page = made(alone)
@@ -119,6 +122,7 @@ def test_the_runs_with_less_friction_are_those_of_the_conditions(usual):
     assert evidence.at_reduced_friction is scene.assessment.at_reduced_friction
 
 
+@pytest.mark.nightly
 def test_where_nothing_slides_there_is_no_chart():
     arrays = [stand_in.array("B1", 0.0, mu=1.5)]
     still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, seconds=4.0))

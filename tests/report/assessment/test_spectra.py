@@ -44,6 +44,7 @@ def of_rows(rows, motions=HALVED):
     return stand_in.assessed(stand_in.book(stand_in.project(spectrum=rows), motions))
 
 
+@pytest.mark.quick
 def test_all_three_components_are_taken_as_run(assessment):
     parts = spectra(under(assessment))
     assert [part.title for part in parts] == ["Horizontal", "Transverse", "Vertical"]
@@ -130,6 +131,7 @@ def test_a_project_spectrum_of_long_periods_alone_gives_no_ratios_in_the_band():
     assert page(done, *parts).table(ACHIEVED).column("Component") == ["Vertical"]
 
 
+@pytest.mark.quick
 def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_target():
     preparations = [stand_in.prepared(m, recorded_at=RecordedAt.GROUND) for m in HALVED]
     done = of_rows([])
@@ -182,6 +184,7 @@ def test_motions_below_their_target_are_named_with_ratio_period_band_and_what_fo
     )
 
 
+@pytest.mark.quick
 def test_the_component_farthest_above_the_target_speaks_for_those_of_one_target():
     texts = said(
         relative("Horizontal", [1.0, 1.5, 1.0, 1.0, 9.0]),

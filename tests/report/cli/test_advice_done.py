@@ -14,6 +14,7 @@ from openpyxl import load_workbook
 import packages
 import sheets
 from commands import run
+from nightly import by_day
 from places import ROOT
 from report.assessment.assess import assess
 from report.assessment.verdict import Verdict
@@ -130,7 +131,7 @@ def unplaced(given, row):
     return {given.sheet.addresses[Place("objects", index, side)]: None for side in SIDES}
 
 
-@pytest.mark.parametrize("name", PROJECTS)
+@pytest.mark.parametrize("name", by_day(PROJECTS, 1))
 def test_a_value_that_is_required_satisfies_as_it_is_printed(altered, name):
     path = altered(*PROJECTS[name])
     given, book = assessed(path), load_workbook(path)
@@ -195,7 +196,7 @@ def advice(path):
             yield from ((cell, what, text[0]) for cell in CELL.findall(found["cells"]))
 
 
-@pytest.mark.parametrize("name", CELLS)
+@pytest.mark.parametrize("name", by_day(CELLS, 3))
 def test_what_check_advises_is_accepted_as_it_is_printed(tmp_path, name):
     cells, count = CELLS[name]
     path = sheets.type_into(sheets.make(tmp_path), cells)
@@ -218,6 +219,7 @@ HEADS = ("Array", "Object", "Direction", "Provided clearance")
 BEGUN = {f"Clearances/2/{head}": None for head in HEADS}
 
 
+@pytest.mark.nightly
 def test_each_command_that_is_printed_runs_as_it_is_pasted(altered, monkeypatch):
     path = altered("conditions", {})
     sheets.edit(path, lambda book: sheets.put(book, BEGUN))
@@ -242,6 +244,7 @@ def test_the_report_that_is_printed_as_next_runs(altered):
 
 
 @pytest.mark.parametrize("content", [b"", b"PK"])
+@pytest.mark.quick
 def test_each_command_of_a_workbook_that_is_refused_runs(tmp_path, monkeypatch, content):
     (tmp_path / "input.xlsx").write_bytes(content)
     monkeypatch.chdir(tmp_path)

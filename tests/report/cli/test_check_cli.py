@@ -32,6 +32,7 @@ def test_check_prints_each_warning_with_its_cell_its_name_and_the_reason(tmp_pat
     assert any(line.startswith(components) for line in lines)
 
 
+@pytest.mark.quick
 def test_check_as_json_has_a_schema_version_findings_and_errors(tmp_path):
     document = as_json("check", make(tmp_path, **ANSWERED))
     assert (document["schema_version"], document["errors"]) == (1, [])
@@ -90,12 +91,14 @@ def lines(reported):
     return reported.output.splitlines()
 
 
+@pytest.mark.nightly
 def test_report_exits_with_3_only_where_that_is_asked_for(steep, reported):
     assert reported.exit_code == 3
     quiet = run("report", steep, "--quiet", "--out", steep.parent / "other")
     assert (quiet.exit_code, quiet.output) == (0, "")
 
 
+@pytest.mark.nightly
 def test_each_line_names_array_value_and_limit(lines):
     # An NG that is not of the clearance says what it is of.
     (of_the_array,) = (line for line in lines if line.startswith("A1 "))
@@ -110,6 +113,7 @@ def test_each_line_names_array_value_and_limit(lines):
     assert lines[lines.index("") - 1] == "verdict: NG"
 
 
+@pytest.mark.nightly
 def test_the_package_lists_a_warning_with_its_reason(steep, reported):
     out = steep.parent / "out"
     text = packages.words((out / "calc-package.pdf").read_text(encoding="utf-8"))

@@ -28,6 +28,7 @@ def loaded_by(code):
     return "\n".join(told), set(loaded.split())
 
 
+@pytest.mark.quick
 def test_help_names_the_commands_and_imports_nothing_heavy():
     code = "from report.cli.main import main; main(['--help'], standalone_mode=False)"
     told, loaded = loaded_by(code)
@@ -36,6 +37,7 @@ def test_help_names_the_commands_and_imports_nothing_heavy():
         assert f"\n  {command} " in told
 
 
+@pytest.mark.nightly
 def test_what_only_the_second_process_needs_is_not_loaded_with_the_tasks_for_it():
     _, loaded = loaded_by("import report.drawing.dxf, report.package.html, report.results.xlsx")
     assert not loaded & {"ezdxf", "matplotlib", "pandas", "ziamath"}
@@ -96,6 +98,7 @@ def test_check_of_a_blank_workbook_names_every_cell(tmp_path):
     assert at("<Arrays/heading/ID>: no array is given") in told
 
 
+@pytest.mark.quick
 def test_check_of_a_record_is_refused():
     refused("check", EXAMPLE / "records" / "RM1-x.csv")
 
@@ -119,7 +122,7 @@ def test_a_failed_run_leaves_the_older_package(tmp_path):
     assert [path.read_bytes() for path in out.iterdir()] == [b"older"]
 
 
-@pytest.mark.nightly("report/assessment/links.py")
+@pytest.mark.nightly
 def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     given = project().model_dump()
     # Padded, so that every run comes to rest; too steep for the prescriptive route.
@@ -143,7 +146,7 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     assert row["estimated_m"] > row["design_m"] > 0.0
 
 
-@pytest.mark.nightly("report/results/", "report/cli/report.py")
+@pytest.mark.nightly
 def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_path):
     former = tmp_path / "issued.json"
     with packages.unlaid():
@@ -183,6 +186,7 @@ def test_a_damaged_former_revision_is_an_input_error_before_anything_runs(tmp_pa
         ("watch --once x", "Run ./roofslip report in its place."),
     ],
 )
+@pytest.mark.quick
 def test_what_was_removed_is_answered_with_what_replaces_it(former, replacement, monkeypatch):
     monkeypatch.setenv("ROOFSLIP_COMMAND", "./roofslip")
     assert replacement in " ".join(refused(*former.split()).split())

@@ -4,11 +4,16 @@ import re
 import shutil
 from types import SimpleNamespace
 
+import pytest
+
 from commands import printed, run
 from report.cli import doctor
 from report.typeset.pdf import TEMPLATES
 
+pytestmark = pytest.mark.quick
 
+
+@pytest.mark.nightly
 def test_with_everything_installed_it_says_so():
     told = printed("doctor")
     lines = told.splitlines()

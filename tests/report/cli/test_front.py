@@ -16,6 +16,7 @@ EXAMPLE = ROOT / "projects" / "example"
 VERDICT = "\x1b[31m\x1b[1mNG\x1b[0m"
 
 
+@pytest.mark.quick
 def test_the_help_lists_every_command_under_a_title_with_its_whole_first_sentence():
     lines = printed("--help").splitlines()
     titles = [line[:-1] for line in lines if re.fullmatch(r"[A-Z]\w+:", line)]
@@ -63,6 +64,7 @@ def test_verdicts_are_colored_as_words_of_their_own():
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+@pytest.mark.quick
 def test_completion_prints_the_script_of_a_shell(shell):
     script = printed("completion", shell)
     assert "_ROOFSLIP_COMPLETE" in script
@@ -110,6 +112,7 @@ def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, word
         (("--slope-deg", 2, "--mu", 0.3, "--factor", "inf"), "it is inf; give a finite number."),
     ],
 )
+@pytest.mark.quick
 def test_an_error_names_the_option_as_it_was_given_and_its_unit(options, told):
     assert told in refused("slide", EXAMPLE / "records" / "RM1-x.csv", *options)
 

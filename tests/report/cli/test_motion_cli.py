@@ -10,6 +10,8 @@ from places import ROOT
 from solver.formats import UNIT_CHOICES, read_record
 from solver.records.measures import measures
 
+pytestmark = pytest.mark.quick
+
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
 G = 9.80665
 COLUMN = "0\n0.125\n-0.25\n0\n"

@@ -56,6 +56,7 @@ def test_the_example_has_on_record_what_its_confirmations_cover(tmp_path, units)
     assert outdated(sheet.project, hashes).outdated == {}
 
 
+@pytest.mark.nightly
 def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_with_it(tmp_path):
     path = confirmed(tmp_path)
     says = open_book(path).calculation
@@ -84,6 +85,7 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     assert "on record" not in done.stdout
 
 
+@pytest.mark.nightly
 def test_a_report_of_several_puts_a_confirmation_on_record(tmp_path):
     path = confirmed(tmp_path)
     done = run("report", path, path)
@@ -91,6 +93,7 @@ def test_a_report_of_several_puts_a_confirmation_on_record(tmp_path):
     assert read(path).project.options.peer_covered.startswith("2026-03-01: ")
 
 
+@pytest.mark.nightly
 def test_a_workbook_that_is_read_only_stays_as_it_is(tmp_path, monkeypatch):
     path = confirmed(tmp_path)
     before, usual = path.read_bytes(), os.access
@@ -102,6 +105,7 @@ def test_a_workbook_that_is_read_only_stays_as_it_is(tmp_path, monkeypatch):
     assert line.endswith("not put on record: the workbook is read-only, or was saved meanwhile")
 
 
+@pytest.mark.nightly
 def test_a_workbook_that_is_open_or_of_an_earlier_version_stays_as_it_is(tmp_path):
     path = confirmed(tmp_path)
     beside = path.with_name("~$input.xlsx")
@@ -134,6 +138,7 @@ def _without_names(path: Path) -> bytes:
     return edit(path, change).read_bytes()
 
 
+@pytest.mark.nightly
 def test_a_report_of_the_example_changes_no_workbook(tmp_path):
     folder = tmp_path / "example"
     shutil.copytree(ROOT / "projects" / "example", folder, ignore=shutil.ignore_patterns("out"))

@@ -37,7 +37,6 @@ needs_full = pytest.mark.skipif(not os.path.exists(FULL), reason=f"no {FULL} her
 @pytest.mark.parametrize(
     "arguments", [["--help"], ["motion", "info", RECORD], ["check", "none", "--json"]]
 )
-@pytest.mark.by_day(1)
 def test_an_output_on_a_full_disk_ends_with_a_message(arguments):
     with open(FULL, "w") as full:
         done = roofslip(*arguments, stdout=full)
@@ -46,7 +45,7 @@ def test_an_output_on_a_full_disk_ends_with_a_message(arguments):
 
 
 @needs_full
-@pytest.mark.nightly("report/cli/terminal.py")
+@pytest.mark.nightly
 def test_errors_on_a_full_disk_keep_the_exit_code():
     with open(FULL, "w") as full:
         done = roofslip("check", "none", stderr=full)
@@ -66,6 +65,7 @@ def test_serve_says_where_no_disk_has_room_for_its_folder():
     assert "free disk space" in done.stderr
 
 
+@pytest.mark.quick
 def test_a_working_folder_that_is_gone_is_an_input_error(tmp_path):
     gone = tmp_path / "gone"
     gone.mkdir()
@@ -116,7 +116,7 @@ def test_no_command_starts_beside_settings_of_numba(tmp_path, kind):
     assert "remove it, or change to another folder" in told[0]
 
 
-@pytest.mark.nightly("report/cli/terminal.py")
+@pytest.mark.nightly
 def test_without_a_standard_error_the_exit_code_is_the_same(tmp_path):
     code = (
         "import os, sys; os.close(2); sys.stderr = None; from report.cli.main import main; main()"
@@ -150,7 +150,7 @@ def no_override():
         libc.prctl(drop_from_bounding_set, override, 0, 0, 0)
 
 
-@pytest.mark.nightly("report/cli/terminal.py")
+@pytest.mark.nightly
 def test_without_permission_each_command_says_which_file(tmp_path):
     book = make(tmp_path / "book")
     books = {name: make(tmp_path / name) for name in ("workbook", "record", "records", "out")}
@@ -206,6 +206,7 @@ def test_a_closed_pipe_stops_no_work_and_has_no_traceback(tmp_path):
     assert made.read_bytes() == whole.read_bytes()
 
 
+@pytest.mark.nightly
 def test_ctrl_c_ends_with_130_and_one_line(tmp_path):
     """The whole group gets the signal, as from a terminal."""
     command = [sys.executable, "-m", "report.cli", "report", make(tmp_path)]

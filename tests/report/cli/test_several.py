@@ -17,6 +17,8 @@ from report.cli.several import ReportOutcome
 from report.workers import WorkerProcess
 from sheets import at, make
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture
 def processes(monkeypatch):
@@ -56,6 +58,7 @@ def made_or_killed(source, _):
     return ReportOutcome(source=source, verdict="OK")
 
 
+@pytest.mark.nightly
 def test_a_process_that_is_killed_takes_no_other_project_with_it(processes, monkeypatch):
     monkeypatch.setattr(several, "package", made_or_killed)
     monkeypatch.setattr(os, "cpu_count", lambda: 1)
@@ -125,6 +128,7 @@ def test_an_internal_error_in_one_project_is_printed_with_its_traceback(monkeypa
     assert "ZeroDivisionError: division by zero" in done.internal
 
 
+@pytest.mark.nightly
 def test_workbooks_of_one_folder_are_written_to_folders_of_their_own(tmp_path):
     book = make(tmp_path)
     shutil.copy(book, tmp_path / "b.xlsx")

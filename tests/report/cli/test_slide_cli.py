@@ -11,6 +11,8 @@ from solver.formats import read_record
 from solver.model import InputError
 from solver.sliding.checked import slide
 
+pytestmark = pytest.mark.quick
+
 RECORD, ACROSS, UP = (ROOT / "projects" / "example" / "records" / f"RM1-{c}.csv" for c in "xyz")
 THREE = DATA / "motions" / "geonet.v2a"
 PLACE = ("--slope-deg", 2, "--mu", 0.5)

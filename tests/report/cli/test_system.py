@@ -8,6 +8,8 @@ from report.cli.several import package
 from report.cli.terminal import plain
 from sheets import at, edit, make, type_into
 
+pytestmark = pytest.mark.quick
+
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
 LONG = "x" * 300
 TOO_LONG = "File name too long"

@@ -8,6 +8,8 @@ import pytest
 from report.cli.terminal import Progress, show_warnings
 from sheets import make
 
+pytestmark = pytest.mark.quick
+
 
 def test_on_a_terminal_a_bar_grows_with_each_step_and_is_cleared(terminal, capsys):
     terminal()
@@ -59,6 +61,7 @@ def test_a_line_is_no_wider_than_the_terminal(terminal, monkeypatch, capsys):
     assert lines == ["[" + "." * 20 + "]  0.0 s"]
 
 
+@pytest.mark.nightly
 def test_the_line_is_written_again_while_a_step_lasts(terminal, capsys):
     terminal()
     with Progress(2) as progress:

@@ -31,7 +31,7 @@ pytestmark = [
     pytest.mark.skipif(
         numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
     ),
-    pytest.mark.nightly("report/manual/", "solver/verification/", "report/cli/verify.py"),
+    pytest.mark.nightly,
 ]
 
 
@@ -54,7 +54,6 @@ def made(quick):
     return {path.relative_to(out).as_posix(): path.read_bytes() for path in written}
 
 
-@pytest.mark.nightly
 def test_the_quick_command_of_the_readme_passes_and_writes_everything(quick, made):
     out, count = quick.out, len(quick.verification.checks)
     assert quick.stdout.startswith(f"PASS: {count} of {count} checks passed\n")

@@ -24,6 +24,8 @@ from report.cli.watch import report_again, settled, stamps
 from report.making import OUTPUTS
 from sheets import make, type_into
 
+pytestmark = pytest.mark.quick
+
 WAIT_S = 240.0
 SCRIPT = os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{TESTS}"}
 FRICTION = "Arrays/1/Friction coefficient"
@@ -88,6 +90,7 @@ def patient(monkeypatch):
     monkeypatch.setattr("report.cli.watch.MOST_POLLS", 200)
 
 
+@pytest.mark.nightly
 def test_a_save_in_several_steps_is_one(tmp_path, patient):
     """As a copy from elsewhere does it, with a pause in the middle."""
     path = make(tmp_path)
@@ -143,6 +146,7 @@ def test_a_round_with_a_problem_says_that_the_files_are_of_an_earlier_run(
     assert "earlier run" not in first
 
 
+@pytest.mark.nightly
 def test_a_round_says_what_changed_up_to_a_number(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("report.cli.watch.MOST_CHANGES", 1)
     path = make(tmp_path)
@@ -207,7 +211,7 @@ class Interrupting:
         os.kill(os.getpid(), signal.SIGINT)
 
 
-@pytest.mark.nightly("report/cli/watch.py")
+@pytest.mark.nightly
 def test_ctrl_c_while_memory_is_freed_ends_the_watch():
     gc.disable()
     try:
@@ -218,7 +222,7 @@ def test_ctrl_c_while_memory_is_freed_ends_the_watch():
         gc.enable()
 
 
-@pytest.mark.nightly("report/cli/watch.py")
+@pytest.mark.nightly
 def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
     path, record = make(tmp_path), tmp_path / "records" / "z.csv"
     with watching(tmp_path) as until:

@@ -11,6 +11,8 @@ from places import ROOT
 from report.document.tables import Wide, listed, merged, table_of
 from report.entities.shown import text, words
 
+pytestmark = pytest.mark.quick
+
 COLUMNS = (
     (words("Array", 0.8), itemgetter(0)),
     (text("Limit"), itemgetter(1)),

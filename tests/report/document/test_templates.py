@@ -7,6 +7,8 @@ import pytest
 
 from places import ROOT
 
+pytestmark = pytest.mark.nightly
+
 PRINT = """
 import sys
 from pathlib import Path

@@ -10,6 +10,8 @@ from report.sheet.schema.choices import UnitsFirst
 from sheets import blank
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 
+pytestmark = pytest.mark.quick
+
 
 def reasons(found):
     return [(one.reason, one.layer) for one in found.unread]

@@ -13,6 +13,8 @@ from report.sheet.schema.shapes import Polygon, Rectangle
 from sheets import arrays, edit, make, problems, project, type_into
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("content", "wanted"),
@@ -77,6 +79,7 @@ def ran(*words, exit_code=0):
     return done.output
 
 
+@pytest.mark.nightly
 def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     book = make(tmp_path, arrays=arrays(modules=320, module_weight_n=75 * LB))
     type_into(book, {"Arrays/A1/Weight": None})
@@ -105,6 +108,7 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     assert "no block of the map is within an array" in ran(*words, "--replace", exit_code=2)
 
 
+@pytest.mark.nightly
 def test_ballast_of_an_array_without_blocks_is_taken_out_with_replace(tmp_path):
     book = make(tmp_path, arrays=arrays(**PARTS))
     path = tmp_path / "map.csv"

@@ -8,6 +8,8 @@ import shapely
 from report.drawing.curves import curve
 from sketch import Sketch
 
+pytestmark = pytest.mark.quick
+
 LOOK = {"layer": "ARRAY"}
 
 

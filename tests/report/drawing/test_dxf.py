@@ -21,6 +21,8 @@ from report.drawing.layers import Layer
 from report.drawing.plan import gap_words, plan_drawing
 from report.sheet.schema.choices import UnitsFirst
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def done():
@@ -46,6 +48,7 @@ def test_the_same_plan_gives_the_same_bytes(done):
     assert write_dxf(plan_drawing(done)) == write_dxf(plan_drawing(done))
 
 
+@pytest.mark.nightly
 def test_every_process_writes_the_same_bytes():
     code = (
         "from report.drawing.dxf import write_dxf; from report.drawing.layers import PlanDrawing; "

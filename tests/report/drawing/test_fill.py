@@ -9,6 +9,7 @@ from openpyxl import load_workbook
 from architect import ARRAYS, roof_plan
 from cells import cell
 from inputs import FT, HEAD, NO_SIDES
+from nightly import by_day
 from report.cli.main import main
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource, UnitsFirst
@@ -41,8 +42,7 @@ def new(tmp_path, units=UnitsFirst.US):
     return blank(folder / "input.xlsx", units)
 
 
-@pytest.mark.parametrize("units", UnitsFirst)
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_a_blank_workbook_is_filled(tmp_path, units):
     path = new(tmp_path, units)
     output = run(drawing(tmp_path), path)
@@ -71,6 +71,7 @@ def test_places_that_are_filled_stay_unless_they_may_be_replaced(tmp_path):
     assert path.read_bytes() == before
 
 
+@pytest.mark.nightly
 def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
     path = make(tmp_path, clearances=[])
     run(drawing(tmp_path), tmp_path, "--replace")
@@ -85,6 +86,7 @@ def test_replacing_changes_the_places_and_keeps_the_rest(tmp_path):
     assert same(without_places(data), without_places(was))
 
 
+@pytest.mark.nightly
 def test_reading_a_drawing_takes_out_who_confirmed_other_distances(tmp_path):
     head = HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": "2025-11-18"}
     path = make(tmp_path, clearances=[], project=head)
@@ -99,6 +101,7 @@ def without_places(data):
     return data.model_copy(update={"arrays": arrays, "roof": None} | nothing)
 
 
+@pytest.mark.nightly
 def test_an_outline_is_replaced_by_the_one_that_is_drawn_now(tmp_path):
     path = make(tmp_path, clearances=[])
     run(drawing(tmp_path), tmp_path, "--replace")
@@ -124,8 +127,7 @@ def test_formulas_and_all_other_parts_stay(tmp_path):
     assert cell(load_workbook(path), weight).value == "=40000+2000"
 
 
-@pytest.mark.parametrize("units", UnitsFirst)
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_rows_that_a_table_grows_by_have_their_formulas(tmp_path, units):
     path = new(tmp_path, units)
     sketch = Sketch("R2018")
@@ -165,6 +167,7 @@ def test_a_drawing_without_a_unit_asks_for_it(tmp_path):
     run(path, book, "--units", "ft")
 
 
+@pytest.mark.quick
 def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     sketch = Sketch()
     ring = sketch.ring("MODULES", BOX_FT)
@@ -194,6 +197,7 @@ def test_layers_that_nobody_named_are_shown_with_a_proposal_and_nothing_is_writt
     assert path.read_bytes() == before
 
 
+@pytest.mark.nightly
 def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     path, drawn = new(tmp_path), roof_plan().saved(tmp_path)
     output = run(drawn, path, "--accept", "--layer", "a-roof-tank=Fixed object", "--rotate", "-17")
@@ -258,6 +262,7 @@ def facing(tmp_path, east, north):
     return sketch.saved(tmp_path)
 
 
+@pytest.mark.nightly
 def test_the_north_of_the_drawing_turns_it(tmp_path):
     path = new(tmp_path)
     output = run(facing(tmp_path, -1, 1), path)
@@ -268,6 +273,7 @@ def test_the_north_of_the_drawing_turns_it(tmp_path):
     assert "at -45° to the axes" in output
 
 
+@pytest.mark.nightly
 def test_what_is_not_read_is_said_once_for_each_cause(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT, "A1")

@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from growth import grows_faster
+from nightly import by_day
 from report.cli.main import main
 from report.drawing.read_dxf import MAX_ENTITIES, MAX_LETTERS, MAX_VALUES, read_dxf
 from report.sheet.reading.read import read
@@ -36,6 +37,7 @@ def test_a_million_entities_are_refused_with_the_limit(file):
     assert found.startswith(f"400,003 entities, more than {MAX_ENTITIES:,}; save the layers")
 
 
+@pytest.mark.quick
 def test_a_large_file_is_refused_before_it_is_read(file):
     assert hostile(file, b" " * 26_000_000).startswith("26 MB, more than 25 MB")
 
@@ -76,6 +78,7 @@ def nested(levels, each, *, rows=1):
     return written(sketch)
 
 
+@pytest.mark.nightly
 def test_blocks_that_expand_without_end_are_refused(file):
     assert "expand to more than" in hostile(file, nested(7, 10))
     assert "expand to more than" in hostile(file, nested(1, 1, rows=30_000))
@@ -115,6 +118,7 @@ def test_a_line_of_many_vertices_is_listed(tmp_path):
     assert found.reason == "a LWPOLYLINE of more than 2000 points"
 
 
+@pytest.mark.quick
 def test_a_block_that_the_drawing_does_not_have_is_listed(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", BOX_FT, "A1")
@@ -160,7 +164,7 @@ def test_the_chords_of_a_flat_arc_stay_within_3_mm_of_it(tmp_path):
     assert 0.5 * 0.003 < chord**2 / (8.0 * 3e9) <= 0.003
 
 
-@pytest.mark.parametrize("letter", ["\u202e", "\x00", "\x07", "\ufffe", "\u2028"])
+@pytest.mark.parametrize("letter", by_day(["\u202e", "\x00", "\x07", "\ufffe", "\u2028"], 1))
 def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter):
     book = make(tmp_path)
     sketch = Sketch()
@@ -180,6 +184,7 @@ def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter)
     assert "OBJ-1" in [row["id"] for row in draft["objects"]]
 
 
+@pytest.mark.nightly
 def test_the_library_prints_nothing_of_its_own(file):
     path = file(LIBRECAD_R12.replace("\nVERTEX\n", "\nVERTEX\n5\n1F\n"))
     code = (
@@ -294,6 +299,7 @@ def test_texts_of_too_many_letters_in_all_are_refused(file):
     assert found.startswith(f"600,000 letters of texts, more than {MAX_LETTERS:,}; save the layers")
 
 
+@pytest.mark.quick
 def test_a_name_of_too_many_letters_is_refused(file):
     sketch = Sketch()
     sketch.ring("L" * 1_000_000, BOX_FT)

@@ -11,6 +11,8 @@ from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.shapes import Polygon, ring
 from sketch import Sketch, plan
 
+pytestmark = pytest.mark.quick
+
 BOX = ((0.0, 0.0), (8.0, 0.0), (8.0, 5.0), (0.0, 5.0))
 SIDES = [(BOX[k], BOX[(k + 1) % 4]) for k in range(4)]
 

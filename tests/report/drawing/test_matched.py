@@ -68,6 +68,7 @@ def slopes(path):
     }
 
 
+@pytest.mark.nightly
 def test_the_lower_array_moves_to_the_top_and_each_keeps_its_slope(tmp_path):
     path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
     assert slopes(path) == {(20, 60): ("A1", 1.0), (20, 10): ("A2", 2.0)}
@@ -82,6 +83,7 @@ def test_the_lower_array_moves_to_the_top_and_each_keeps_its_slope(tmp_path):
 
 
 @pytest.mark.parametrize("by_ft", [(5, 0), (0, -8), (30, 12)])
+@pytest.mark.nightly
 def test_arrays_that_all_shift_a_little_are_told_by_what_they_have_in_common(tmp_path, by_ft):
     places = [(20, 60), (20, 10), (130, 60)]
     path = filled(tmp_path, [(place, "") for place in places])
@@ -92,12 +94,14 @@ def test_arrays_that_all_shift_a_little_are_told_by_what_they_have_in_common(tmp
     assert slopes(path) == {(x + dx, y + dy): row for (x, y), row in before.items()}
 
 
+@pytest.mark.nightly
 def test_a_name_in_the_drawing_is_that_of_the_row_wherever_it_is(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
     revised(tmp_path, path, [((20, 60), "A2"), ((20, 10), "A1")])
     assert slopes(path) == {(20, 10): ("A1", 1.0), (20, 60): ("A2", 2.0)}
 
 
+@pytest.mark.nightly
 def test_an_array_in_its_place_that_the_drawing_calls_otherwise_keeps_its_row(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
     output = revised(tmp_path, path, [((20, 60), "PV-7"), ((20, 10), "A2")])
@@ -114,6 +118,7 @@ def test_an_array_in_its_place_that_the_drawing_calls_otherwise_keeps_its_row(tm
         ([((20, 60), ""), (((130, 10), (160, 10), (160, 40), (130, 40)), "")], "may be A2, or new"),
     ],
 )
+@pytest.mark.nightly
 def test_what_cannot_be_told_stops_with_the_candidates_and_changes_nothing(
     tmp_path, arrays, candidates
 ):
@@ -132,6 +137,7 @@ def test_an_array_split_in_halves_stops(tmp_path):
     assert "x 61.00 to 100.00, y 60.00 to 100.00 ft) may be A1: write its name" in output
 
 
+@pytest.mark.quick
 def test_of_many_that_cannot_be_told_some_are_named():
     places = [(20.0 * (k % 10), 12.0 * (k // 10), 16.0, 8.0) for k in range(3 * MOST_TOLD)]
     far = tuple(drawn_at([(x + 1e3, *rest) for x, *rest in places]))
@@ -142,6 +148,7 @@ def test_of_many_that_cannot_be_told_some_are_named():
     assert max(map(len, map(str, caught.value.problems))) < 1000
 
 
+@pytest.mark.nightly
 def test_a_new_array_has_a_name_that_no_row_had(tmp_path):
     path = filled(tmp_path, [((20, 60), ""), ((20, 10), "")])
     output = revised(tmp_path, path, [((20, 110), ""), ((20, 60), ""), ((20, 10), "")])
@@ -152,6 +159,7 @@ def test_a_new_array_has_a_name_that_no_row_had(tmp_path):
     assert "A3    new " in output
 
 
+@pytest.mark.nightly
 def test_what_the_drawing_no_longer_has_is_taken_out_with_its_clearances(tmp_path):
     arrays, objects = [((20, 60), "A1"), ((20, 10), "A2")], [((110, 60), "RTU-1")]
     path = filled(tmp_path, arrays, objects)
@@ -168,6 +176,7 @@ def test_what_the_drawing_no_longer_has_is_taken_out_with_its_clearances(tmp_pat
         assert line.endswith("not in the drawing; taken out")
 
 
+@pytest.mark.nightly
 def test_what_is_typed_stays_and_is_named(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
     type_into(path, {"Arrays/A2/Place from": None})
@@ -176,6 +185,7 @@ def test_what_is_typed_stays_and_is_named(tmp_path):
     assert "not in the drawing; stays as typed" in output
 
 
+@pytest.mark.nightly
 def test_a_second_drawing_adds_to_the_first_without_replace(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1")])
     sketch = Sketch()
@@ -191,6 +201,7 @@ def grid(sketch, x, y):
         sketch.ring("ARRAY", box(x + 7 * k, y, (6.8, 3.4)))
 
 
+@pytest.mark.nightly
 def test_modules_that_are_not_drawn_any_more_are_taken_out(tmp_path):
     folder = tmp_path / "project"
     folder.mkdir()
@@ -211,6 +222,7 @@ def test_modules_that_are_not_drawn_any_more_are_taken_out(tmp_path):
     assert read(path).draft["arrays"][0]["modules"] == 30
 
 
+@pytest.mark.nightly
 def test_a_roof_that_grows_keeps_what_was_typed_of_its_edges(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1")])
     ids = [row["id"] for row in read(path).draft["objects"]]

@@ -141,6 +141,7 @@ def counts(found):
         (3, (LONG, 0.4), {"A1": None, "A2": None, "A3": None}),  # narrower than a module
     ],
 )
+@pytest.mark.quick
 def test_few_rectangles_and_those_of_other_sizes_are_arrays(tmp_path, columns, size, wanted):
     sketch = Sketch(unit="m")
     grid(sketch, columns, 1, size=size)
@@ -181,6 +182,7 @@ def test_an_array_takes_its_name_from_a_text_inside_that_is_its_own(tmp_path):
     assert found.unread == ()
 
 
+@pytest.mark.quick
 def test_modules_are_counted_once_in_blocks_with_inner_lines(tmp_path):
     sketch = Sketch(unit="m")
     block = sketch.document.blocks.new("MODULE")
@@ -247,6 +249,7 @@ def test_modules_that_are_turned_to_each_other_are_arrays_of_their_own(tmp_path)
     ]  # fmt: skip
 
 
+@pytest.mark.quick
 def test_more_rectangles_at_one_place_than_modules_are_refused(tmp_path):
     sketch = Sketch(unit="m")
     for k in range(40):
@@ -263,7 +266,6 @@ def ran(*words, exit_code=0):
     return done.output
 
 
-@pytest.mark.by_day(1)
 def test_the_count_of_modules_is_filled_in_and_the_rule_said(tmp_path):
     path, book = layout().saved(tmp_path), blank(tmp_path / "input.xlsx")
     output = ran("read", path, book, "--gap", 18, "in")
@@ -275,6 +277,7 @@ def test_the_count_of_modules_is_filled_in_and_the_rule_said(tmp_path):
     assert "it is 0; give more than 0." in refused
 
 
+@pytest.mark.nightly
 def test_a_workbook_without_the_column_gets_the_arrays_alone(tmp_path):
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
@@ -282,6 +285,7 @@ def test_a_workbook_without_the_column_gets_the_arrays_alone(tmp_path):
     assert [row["modules"] for row in read(book).draft["arrays"]] == [None] * 5
 
 
+@pytest.mark.nightly
 def test_rows_that_an_earlier_table_grows_by_have_no_formula_that_is_broken(tmp_path):
     book, sketch = blank(tmp_path / "input.xlsx"), Sketch(unit="m")
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))

@@ -6,6 +6,8 @@ import pytest
 
 from report.drawing.placer import Frame, Placer, centered
 
+pytestmark = pytest.mark.quick
+
 PAGE = Frame(0.0, 0.0, 3.0, 2.0)
 NEAR = (1.5, 1.0)
 

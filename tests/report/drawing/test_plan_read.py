@@ -20,6 +20,8 @@ from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle
 from sketch import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
 
+pytestmark = pytest.mark.quick
+
 
 def warehouse(version="R2018", unit="ft"):
     sketch = Sketch(version, unit)

@@ -4,6 +4,8 @@ import pytest
 
 from report.drawing.proposals import proposed
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("layer", "kind"),

@@ -11,6 +11,8 @@ from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.shapes import Polygon, Rectangle
 from sketch import L_FT
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("shape", "sizes", "angle"),

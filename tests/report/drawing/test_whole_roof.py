@@ -12,6 +12,8 @@ from sheets import type_into
 from sketch import Sketch
 from typed import typed_cells
 
+pytestmark = pytest.mark.nightly
+
 WIDE, TALL = 217.0, 118.0
 FIELDS = ((6, 6, 10, 10), (80, 6, 10, 10), (156, 6, 8, 10), (6, 57, 10, 12), (156, 57, 8, 12))
 """Corner [ft], columns and rows of five fields of modules; the second is an L."""
@@ -66,7 +68,6 @@ def typed():
     }
 
 
-@pytest.mark.nightly("report/drawing", "report/suite", "report/cli/plan.py", "report/cli/motion.py")
 def test_a_roof_goes_from_its_drawing_to_a_verdict_with_no_place_clearance_or_record_typed(
     tmp_path,
 ):

@@ -8,6 +8,8 @@ from inputs import FT, INCH
 from report.drawing.written import first_height, read_line
 from sketch import UNIT_FT, Sketch, plan
 
+pytestmark = pytest.mark.quick
+
 UNIT_M = 1.0
 
 

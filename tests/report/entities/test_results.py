@@ -15,6 +15,8 @@ from report.entities.columns import UnitFormat
 from report.entities.results import Results
 from report.results.json import results_json
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def content():

@@ -8,6 +8,8 @@ import pytest
 import stand_in
 from report.figures.accelerations import accelerations
 
+pytestmark = pytest.mark.quick
+
 
 def drawn(peak_g, n=11312, dt_s=1.0 / 300.0):
     """Labels of the bars, and height of bar and of peak, width of bar and of motion, in points."""

@@ -56,6 +56,7 @@ def test_two_runs_draw_the_same_bytes_whatever_the_settings_of_the_machine(chart
         assert drawn(assessment) == charts
 
 
+@pytest.mark.quick
 def test_an_envelope_keeps_the_peaks_and_the_ends():
     rng = np.random.default_rng(3)
     t, u = np.arange(6000) * 0.005, np.cumsum(rng.standard_normal(6000))
@@ -71,6 +72,7 @@ def test_a_short_record_is_drawn_as_it_is():
     assert history.envelope(t, u) == (t, u)
 
 
+@pytest.mark.quick
 def test_each_history_states_its_prd_in_both_systems(assessment):
     printed = words(histories(assessment.arrays[1]))
     assert sum(bool(re.fullmatch(r"[\d.]+ in \(\d+ mm\)", text)) for text in printed) == 3
@@ -102,5 +104,6 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
     assert f"[{'mm' if us_first else 'in'}]" in printed
 
 
+@pytest.mark.quick
 def test_a_comparison_without_a_permitted_route_says_none():
     assert "none" in words(figures.comparison(stand_in.unpermitted().alike, True))

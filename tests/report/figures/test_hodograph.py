@@ -10,6 +10,8 @@ import pytest
 import scenes
 from report.figures.hodograph import STEP_IN, PanelScale, hodographs, path_of, thinned
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def array():

@@ -96,8 +96,7 @@ def faults(drawn):
 
 
 @pytest.mark.parametrize("units", UnitsFirst)
-@pytest.mark.by_day(1)
-@pytest.mark.nightly("report/figures/", "report/drawing/")
+@pytest.mark.nightly
 def test_in_a_package(drawn, units):
     project = stand_in.project().project.model_copy(update={"units_first": units})
     package = scenes.package(scenes.motions(7, seconds=12.0), project=project)
@@ -192,6 +191,7 @@ def test_in_the_charts_of_a_study(drawn):
     assert not list(faults(drawn))
 
 
+@pytest.mark.quick
 def test_a_text_beyond_the_edge_and_two_that_overlap_are_found(drawn):
     for places in ([(0.9, 0.5)], [(0.3, 0.5), (0.32, 0.5)]):
         drawn.figures.clear()

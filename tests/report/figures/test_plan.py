@@ -118,7 +118,6 @@ def extents(drawn):
 
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("name", ["done", "crowded", "outlined"])
-@pytest.mark.by_day(3)
 def test_no_label_touches_another_or_leaves_the_sheet(request, name, size):
     drawn = figure(request.getfixturevalue(name), size)
     found = extents(drawn)
@@ -133,6 +132,7 @@ def test_no_label_touches_another_or_leaves_the_sheet(request, name, size):
 
 
 @pytest.mark.parametrize("size", SIZES)
+@pytest.mark.quick
 def test_no_type_is_smaller_than_eight_and_a_half_points(done, size):
     assert min(text.get_fontsize() for text in figure(done, size).axes[0].texts) >= 8.5
 
@@ -255,6 +255,7 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
         assert required[:2] == ["no value", "no value"]
 
 
+@pytest.mark.quick
 def test_the_plan_does_without_objects_drawn():
     done = scenes.package(
         objects=[{"id": "RTU-1", "kind": "fixed object"}],
@@ -299,6 +300,7 @@ def test_keep_clear_is_never_rounded_down(inches, us, si):
     assert keep_clear_words(inches * INCH_M, False) == f"keep clear {si} mm"
 
 
+@pytest.mark.quick
 def test_text_is_as_wide_as_it_is_drawn(done):
     for text, box in extents(figure(done, LANDSCAPE)):
         if text.get_rotation() == 0 and text.get_fontsize() == TYPE_PT and text.get_text() != "N":

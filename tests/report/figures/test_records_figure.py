@@ -19,6 +19,7 @@ def channels(noise):
     return [Record(name=name, dt_s=0.01, a_mps2=noise / (1 + k)) for k, name in enumerate(names)]
 
 
+@pytest.mark.quick
 def test_spectra_are_those_of_each_record_in_g(channels):
     spectra = spectra_g(channels[:2])
     assert spectra.shape == (2, len(PERIODS_S))

@@ -19,6 +19,8 @@ from solver.verification.shake_table import compare
 from solver.verification.table_tests import table_tests
 from verified import only
 
+pytestmark = pytest.mark.quick
+
 RELEASE = re.compile(r"Version (?P<version>\S+) as released: (?P<count>\d+) errors")
 
 compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")

@@ -27,12 +27,9 @@ from solver.verification.identification import identify
 from solver.verification.scenes import own_records
 from verified import only
 
-pytestmark = [
-    pytest.mark.skipif(
-        numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
-    ),
-    pytest.mark.nightly("report/manual/", "solver/verification/", "solver/building/"),
-]
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+)
 
 
 @pytest.fixture(scope="module")
@@ -93,6 +90,7 @@ def test_a_fit_that_is_off_fails_its_checks(made, comparison):
         assert sum(not row.passed for row in checks.building_checks(made, off)) == 1
 
 
+@pytest.mark.quick
 def test_a_beam_is_found_again_from_its_own_floors():
     ground = own_records(True)[0]
     modes, period_s, zeta = beam_modes(3.0, 12, [0.4, 1.0]), 0.83, 0.07
@@ -152,6 +150,7 @@ def test_the_ground_itself_is_the_last_prediction_and_has_no_building(made, comp
 # Records of a real building
 
 
+@pytest.mark.nightly
 def test_575_market_street_is_read_and_its_misfit_stays_what_it_was():
     if not (RECORDS / "roof_575_market").is_dir():
         pytest.skip("the records of the building are not here")
@@ -181,6 +180,7 @@ def test_a_folder_without_a_known_building_is_refused(tmp_path):
             recorded_buildings(folder)
 
 
+@pytest.mark.quick
 def test_a_lost_record_is_named(tmp_path):
     (tmp_path / "roof_575_market").mkdir()
     with pytest.raises(InputError, match=r"LomaPrieta_k_315\.csv: no such file"):
@@ -198,6 +198,7 @@ def test_records_are_cut_to_the_shortest_and_turned_to_one_direction(tmp_path):
     assert records.floors_mps2.shape == (3, 2)
 
 
+@pytest.mark.quick
 def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
     done = CliRunner().invoke(
         main, ["verify", "--records", str(tmp_path), "--out", str(tmp_path / "out")]

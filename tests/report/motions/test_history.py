@@ -17,6 +17,8 @@ from solver.records.processing import Processing, process
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 GROUND = {"recorded_at": "ground"}
 

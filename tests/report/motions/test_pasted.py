@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from nightly import by_day
 from sheets import at, edit, make, problems, read_workbook, said, type_into
 
 RECORD = "Motions/M2/Horizontal record"
@@ -82,7 +83,7 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
 
 @pytest.mark.parametrize(
     ("cells", "lines"),
-    [
+    by_day([
         (pasted([0.1, "abc", 0.2]), ["Pasted!B5 is 'abc'; give a number"]),
         (pasted([0.1, "nan", 0.2]), ["Pasted!B5 is 'nan'; give a number"]),
         (pasted([0.1, "0,2", 0.2]), ["Pasted!B5 is '0,2'; write 0.2"]),
@@ -126,13 +127,13 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
         (pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
          ["Pasted!B300000 contains data more than 200,000 rows below the heading; clear it, or give"
           " the record as a file"]),
-    ],
+    ], 5),
 )  # fmt: skip
-@pytest.mark.by_day(3)
 def test_a_pasted_column_is_refused_by_its_cell(paste, cells, lines):
     assert problems(paste(cells)) == said(*(f"{PASTED} {line}" for line in lines))
 
 
+@pytest.mark.quick
 def test_gals_of_a_pasted_column_are_cm_s2(paste):
     cells = pasted([100.0, -200.0] * 51) | {"Motions/M2/Record units": "gal"}
     motion = read_workbook(paste(cells)).motions[1]

@@ -1,8 +1,12 @@
 """Records are bounded together before they are read."""
 
+import pytest
+
 from inputs import motion
 from report.motions.prepare import MAX_BESIDE_FAULTS, MAX_TOGETHER, MOST_FAULTS
 from sheets import at, make, problems
+
+pytestmark = pytest.mark.quick
 
 NO_TEXT = "not a text file; give the text of a record"
 TOO_MUCH = (
@@ -42,6 +46,7 @@ def test_once_a_record_is_at_fault_the_others_are_read_within_a_bound(tmp_path):
     assert grown(path, MAX_BESIDE_FAULTS + 1, names) == (wrong, second)
 
 
+@pytest.mark.nightly
 def test_of_many_motions_whose_records_are_missing_the_first_hundred_are_told(tmp_path):
     lost = [motion(f"M{k}", f"lost{k}") for k in range(2 * MOST_FAULTS)]
     *told, last = problems(make(tmp_path, motions=lost))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from nightly import by_day
 from sheets import at, make, problems, read_workbook
 
 A = np.random.default_rng(7).normal(size=(4, 400)).round(5)
@@ -52,13 +53,14 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
-def test_a_motion_that_is_given_again_is_refused_with_both_cells(tmp_path, case):
-    motions, records, line = case
+@pytest.mark.parametrize("name", by_day(CASES, 3))
+def test_a_motion_that_is_given_again_is_refused_with_both_cells(tmp_path, name):
+    motions, records, line = CASES[name]
     (problem,) = problems(book(tmp_path, *motions, **records))
     assert problem.startswith(at(line))
 
 
+@pytest.mark.quick
 def test_parts_of_one_record_are_motions_if_they_do_not_overlap(tmp_path):
     first, second = motion("a", to_s=2.0), motion("a", from_s=2.0)
     assert len(read_workbook(book(tmp_path, first, second, a=A[0])).motions) == 2

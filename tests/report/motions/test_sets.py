@@ -10,6 +10,8 @@ from report.motions.sets import LENGTHS_WITHIN, STARTS_WITHIN, sets_of, table
 from solver.model import InputError
 from waves import plain
 
+pytestmark = pytest.mark.quick
+
 SHARED = ROOT.parent / "shared" / "records"
 
 

@@ -5,6 +5,8 @@ import pytest
 
 from report.motions.spikes import FACTOR, spikes
 
+pytestmark = pytest.mark.quick
+
 
 def sine(count=1000):
     return np.sin(0.1 * np.arange(count))

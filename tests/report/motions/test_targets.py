@@ -12,6 +12,8 @@ from report.sheet.schema.choices import RecordedAt
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
 
+pytestmark = pytest.mark.quick
+
 POINTS = [(0.05, 1.0, 0.5), (0.5, 2.0, 0.8), (4.0, 0.2, 0.1)]
 PERIODS = np.array([0.04, 0.05, 0.3, 0.5, 1.0, 4.0, 5.0])
 

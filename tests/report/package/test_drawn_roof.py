@@ -18,7 +18,7 @@ from sketch import Sketch
 
 L_FT = ((30, 140), (180, 140), (180, 190), (140, 190), (140, 232), (30, 232))
 
-pytestmark = pytest.mark.nightly("report/drawing/", "report/figures/")
+pytestmark = pytest.mark.nightly
 
 
 def box(x0, x1, y0, y1):

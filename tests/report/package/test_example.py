@@ -12,6 +12,8 @@ from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 from solver.synthesis.suite import make_suite
 
+pytestmark = pytest.mark.quick
+
 EXAMPLE = ROOT / "projects" / "example"
 
 

@@ -47,7 +47,6 @@ PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
 
 
 @pytest.mark.parametrize(("name", "key"), PAGES, ids=lambda word: word or "usual")
-@pytest.mark.by_day(len(PAGES))
 def test_a_page_has_the_words_that_it_had(golden, name, key):
     text = printed.printed(SETS[name](), key)
     for pattern, placeholder in CHANGING:
@@ -55,6 +54,7 @@ def test_a_page_has_the_words_that_it_had(golden, name, key):
     golden(f"{name}/{key}.txt" if name else f"{key}.txt", text)
 
 
+@pytest.mark.quick
 def test_each_golden_text_is_that_of_a_page():
     names = {path.relative_to(GOLDEN).with_suffix("").as_posix() for path in GOLDEN.rglob("*.txt")}
     assert names == {"study", *(f"{name}/{key}".lstrip("/") for name, key in PAGES)}

@@ -4,8 +4,12 @@ import re
 from collections import defaultdict
 from xml.etree import ElementTree
 
+import pytest
+
 import scenes
 from report.package.html import part
+
+pytestmark = pytest.mark.quick
 
 LETTERS, WIDE_PT = 64, 175.0
 """What has room on a line: numbers beside an equation, and an equation beside its numbers."""

@@ -1,7 +1,7 @@
 """How the sheets of the shipped projects look, as far as a program can tell; and a contact sheet.
 
-`CONTACT_SHEETS=FOLDER ./roofslip test --nightly tests/report/package/test_looks.py` leaves a PNG of
-all sheets of each project in that folder: look at them before a release.
+`CONTACT_SHEETS=FOLDER ./roofslip test tests/report/package/test_looks.py` leaves a PNG of all
+sheets of each project in that folder: look at them before a release.
 """
 
 import os
@@ -18,6 +18,8 @@ import packages
 from places import ROOT
 from report.cli.main import main
 from report.typeset.pdf import lay_out
+
+pytestmark = pytest.mark.quick
 
 PROJECTS = tuple(path.parent.name for path in sorted(ROOT.glob("projects/*/input.xlsx")))
 LEAST_FILLED = 0.6

@@ -10,6 +10,8 @@ from printed import IDS, printed
 from report.pages.summary import summary
 from report.web.answers import answer
 
+pytestmark = pytest.mark.quick
+
 INCH = 0.0254
 # On the sheets of results a value in one direction, which is another one, may be the lower number.
 PAGES = (

@@ -26,6 +26,8 @@ from report.sheet.reading.archive import open_book
 from report.web.answers import answer
 from sheets import make
 
+pytestmark = pytest.mark.quick
+
 FACTOR = {"provision": "separation_fixed", "value": 0.5, "reason": "Agreed on 2026-02-10"}
 MINIMUM = {"provision": "prescriptive_factor_in", "value": 40.0, "reason": "Agreed on 2026-02-11"}
 LENGTH = r"[\d.,]+ in \([\d.,]+ mm\)"

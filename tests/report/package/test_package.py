@@ -41,10 +41,12 @@ def texts(pdf):
     return pages(pdf)
 
 
+@pytest.mark.nightly
 def test_the_package_has_fifteen_to_thirty_five_pages(texts):
     assert 15 <= len(texts) <= 35
 
 
+@pytest.mark.nightly
 def test_every_page_carries_project_sheet_date_by_checked_revision_and_edition(texts):
     for count, text in enumerate(texts, start=1):
         for piece in (
@@ -55,6 +57,7 @@ def test_every_page_carries_project_sheet_date_by_checked_revision_and_edition(t
             assert piece in flat(text)
 
 
+@pytest.mark.nightly
 def test_the_layout_drops_no_word_of_a_page(html, texts):
     """Some cells touch in the text of the PDF, and an equation there has no alternative text."""
     words = apart(re.sub(r"(?m)^\[.*\]$", " ", read(html)))
@@ -69,6 +72,7 @@ def apart(text):
     return re.sub(r"\(#[^)]*\)|[][|#^/()]", " ", text).split()
 
 
+@pytest.mark.nightly
 def test_the_document_says_what_it_is(pdf):
     reader = PdfReader(io.BytesIO(pdf))
     assert "24-117 Alameda Warehouse" in reader.metadata.title
@@ -81,6 +85,7 @@ def test_the_document_says_what_it_is(pdf):
 
 
 @pytest.mark.parametrize("name", ["package.css", "verification.css"])
+@pytest.mark.quick
 def test_no_type_is_smaller_than_eight_and_a_half_points(name):
     style = (TEMPLATES / name).read_text(encoding="utf-8")
     sizes = [float(size) for size in re.findall(r"font(?:-size)?: ([\d.]+)pt", style)]
@@ -88,6 +93,7 @@ def test_no_type_is_smaller_than_eight_and_a_half_points(name):
     assert min(sizes) >= 8.5
 
 
+@pytest.mark.nightly
 def test_only_shipped_fonts_are_used(pdf):
     names = set(re.findall(rb"/BaseFont /[A-Z]{6}\+([\w-]+)", pdf))
     for page in PdfReader(io.BytesIO(pdf)).pages:
@@ -97,6 +103,7 @@ def test_only_shipped_fonts_are_used(pdf):
     assert all(name.startswith(b"Source-") for name in names)
 
 
+@pytest.mark.nightly
 def test_contents_name_the_sheet_of_each_part(texts):
     for title in ("1 Summary", "8 Comparison with the prescriptive displacement", "A Input echo"):
         number, words = title.split(" ", 1)
@@ -126,7 +133,7 @@ def crowded():
     return pages(stand_in.package(stand_in.book(data, scenes.motions(3, seconds=4.0))))
 
 
-@pytest.mark.nightly("report/package/html.py")
+@pytest.mark.nightly
 def test_markup_in_a_field_is_printed_not_obeyed(crowded):
     assert "<script>alert('x')</script>" in flat(crowded[0])
     assert "<img src='file:///etc/hostname'>" in flat(crowded[0])
@@ -134,7 +141,7 @@ def test_markup_in_a_field_is_printed_not_obeyed(crowded):
     assert all(f"Sheet {n} of {len(crowded)}" in flat(text) for n, text in enumerate(crowded, 1))
 
 
-@pytest.mark.nightly("report/package/html.py")
+@pytest.mark.nightly
 def test_twelve_arrays_have_room(crowded):
     assert sum("every motion in every run" in text for text in crowded) >= 12
 
@@ -151,6 +158,7 @@ def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():
     assert "without a verdict: 5 of 5 clearances" in summary
 
 
+@pytest.mark.nightly
 def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time():
     up = np.repeat((0.0, -1.4 * stand_in.G, 0.0), 100)
     lifted = stand_in.motion("LIFT", np.zeros(300), up, signs=(1,))
@@ -202,6 +210,7 @@ def test_other_editions_say_their_own_name_and_clauses(edition):
     assert "PV1" not in said
 
 
+@pytest.mark.quick
 def test_a_line_in_the_renderers_log_is_a_defect():
     with pytest.raises(DefectError, match="unknown property"):
         lay_out("<html lang='en-US'><title>Words</title><p style='colour: red'>x</p></html>")
@@ -211,11 +220,13 @@ def test_a_line_in_the_renderers_log_is_a_defect():
     "address",
     ["file:///etc/hostname", "https://example.org/x.png", "shipped:/../pyproject.toml", "x.png"],
 )
+@pytest.mark.quick
 def test_nothing_is_fetched_but_what_is_shipped(address):
     with pytest.raises(DefectError):
         lay_out(f"<html lang='en-US'><title>A picture</title><img alt='x' src='{address}'/></html>")
 
 
+@pytest.mark.nightly
 def test_how_much_of_the_slip_a_high_pass_takes_is_printed():
     row = {"id": "G1", "record": "x", "recorded_at": "ground", "highpass_hz": 0.2}
     data = stand_in.project(spectrum=[], motions=[row], building={"period_s": 0.5})

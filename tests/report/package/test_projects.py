@@ -73,7 +73,6 @@ def example(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "example", by_script=True))
 
 
-@pytest.mark.by_day(1)
 def test_the_example_has_at_most_32_sheets(example):
     assert len(example.pdf.pages) <= 32
 
@@ -135,6 +134,7 @@ def test_the_first_motion_is_reproduced_to_the_last_digit(name, letters):
     ("name", "prefix", "letters"),
     [("school", "GM", "xyz"), ("campus", "GM", "xyz"), ("conditions", "RM", "x")],
 )
+@pytest.mark.quick
 def test_the_folder_has_the_motions_and_nothing_else(name, prefix, letters):
     count = script(name).COUNT
     names = {path.name for path in (PROJECTS / name / "records").iterdir()}
@@ -158,7 +158,7 @@ def test_the_schools_roof_motions_reach_ac156_at_every_frequency():
             assert (spectrum / target.ordinates(1 / freq)).min() >= 0.90
 
 
-@pytest.mark.nightly("projects/school/", "report/making.py")
+@pytest.mark.nightly
 def test_the_school_is_ok_in_the_same_word_everywhere(school):
     assert school.results["verdict"] == "OK with conditions"
     assert {array["verdict"] for array in school.results["arrays"]} == {"OK"}
@@ -172,7 +172,7 @@ def test_the_school_is_ok_in_the_same_word_everywhere(school):
     assert results_of_clearances(school.book) == ["OK"] * 7
 
 
-@pytest.mark.nightly("projects/school/", "report/making.py")
+@pytest.mark.nightly
 def test_the_schools_one_condition_is_on_its_ground_motions(school):
     (missed,) = [row for row in school.results["requirements"] if not row["is_satisfied"]]
     assert missed["id"] == "ground_motions"
@@ -186,7 +186,7 @@ def test_the_schools_one_condition_is_on_its_ground_motions(school):
     assert page("school", "summary").line(f"Condition: {missed['title']}: {missed['found']}")
 
 
-@pytest.mark.nightly("projects/school/", "report/making.py")
+@pytest.mark.nightly
 def test_the_schools_design_value_is_from_analysis_without_a_floor(school):
     array = school.results["arrays"][0]
     peaks = [peak["any_m"] for peak in array["peaks"]]
@@ -196,7 +196,7 @@ def test_the_schools_design_value_is_from_analysis_without_a_floor(school):
     assert array["prescriptive_m"] == pytest.approx(24 * 0.0254)
 
 
-@pytest.mark.nightly("projects/school/", "report/making.py")
+@pytest.mark.nightly
 def test_the_school_states_the_displacement_of_smaller_events_for_information(school):
     assert "by each of these factors: 0.50, 0.50." in page("school", "how-sure")
     sums = school.results["cumulative"]
@@ -204,6 +204,7 @@ def test_the_school_states_the_displacement_of_smaller_events_for_information(sc
     assert all(item["largest_m"] > item["mean_m"] > 0.0 for item in sums)
 
 
+@pytest.mark.nightly
 def test_the_school_prints_si_units_first():
     assert not any(re.search(r"\d in \(\d+ mm\)", page("school", key)) for key in (*FRONT, *IDS))
 
@@ -211,12 +212,13 @@ def test_the_school_prints_si_units_first():
 # The campus.
 
 
+@pytest.mark.quick
 def test_the_campus_has_three_of_the_schools_records_byte_for_byte():
     for path in (PROJECTS / "campus" / "records").iterdir():
         assert path.read_bytes() == (PROJECTS / "school" / "records" / path.name).read_bytes()
 
 
-@pytest.mark.nightly("projects/campus/", "report/making.py")
+@pytest.mark.nightly
 def test_the_campus_is_ok_with_30_arrays_on_two_slopes_and_61_clearances(campus):
     arrays = campus.results["arrays"]
     assert [array["id"] for array in arrays] == [f"A{n}" for n in range(1, 31)]
@@ -225,7 +227,7 @@ def test_the_campus_is_ok_with_30_arrays_on_two_slopes_and_61_clearances(campus)
     assert results_of_clearances(campus.book) == ["OK"] * 61
 
 
-@pytest.mark.nightly("projects/campus/", "report/", "templates/")
+@pytest.mark.nightly
 def test_the_campus_has_at_most_40_sheets(campus):
     assert len(campus.pdf.pages) <= 40
 

@@ -12,6 +12,8 @@ import packages
 from packages import FILES
 from report.typeset.finish import FIELD
 
+pytestmark = pytest.mark.nightly
+
 
 @pytest.fixture(scope="module")
 def pdf(tmp_path_factory):

@@ -37,6 +37,7 @@ def limits(given, **evidence):
         (math.nan, RecordedAt.ROOF, [False, True, True]),
     ],
 )
+@pytest.mark.quick
 def test_a_motion_is_generated_where_all_its_files_state_a_hold(
     first_hold_s, recorded_at, generated
 ):
@@ -54,6 +55,7 @@ def test_a_motion_is_generated_where_all_its_files_state_a_hold(
 
 
 @pytest.mark.parametrize(("changes", "hold_s"), [({}, 20.0), ({"to_s": 5.0}, math.nan)])
+@pytest.mark.quick
 def test_a_part_of_a_record_has_no_longer_its_envelope(tmp_path, changes, hold_s):
     values = np.sin(np.arange(2001) * 0.05)
     record = Record(name="x", dt_s=0.005, a_mps2=values)
@@ -106,6 +108,7 @@ def test_events_are_printed_where_the_workbook_gives_any():
     assert "Events" not in printed(scenes.package(), "motions")
 
 
+@pytest.mark.quick
 def test_a_limit_that_is_a_note_is_one_in_each_table():
     """Without an array that takes the value from analysis, what makes that value NG is a note."""
     alone = {"arrays": [stand_in.array("A1", 0.5)], "objects": [], "clearances": []}

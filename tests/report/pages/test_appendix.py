@@ -10,6 +10,8 @@ from report.assessment.changes import NO_FORMER, Change, ChangeKind
 from report.pages.registry import package_data
 from report.sheet.reading.read import EchoRow
 
+pytestmark = pytest.mark.quick
+
 
 def row(cell, label, typed="", value="", unit="", unseen=""):
     return EchoRow(

@@ -13,6 +13,7 @@ import packages
 import printed
 import scenes
 import stand_in
+from nightly import by_day
 from report.assessment.evidence import support
 from report.package.html import pages
 from report.pages.registry import package_data, pages_of
@@ -83,8 +84,7 @@ def package(state):
     return STATES[state][0]()
 
 
-@pytest.mark.parametrize("state", STATES)
-@pytest.mark.by_day(5)
+@pytest.mark.parametrize("state", by_day(STATES, 3))
 def test_every_page_is_whole(state):
     made = package(state)
     with packages.undrawn():
@@ -111,6 +111,7 @@ def test_every_page_is_whole(state):
     assert opened == ["contents", "letter", *(page.id for page in pages_of(made.changes))]
 
 
+@pytest.mark.quick
 def test_every_template_of_the_package_is_rendered_in_some_state():
     ids = {
         *printed.FRONT,

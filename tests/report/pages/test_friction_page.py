@@ -18,6 +18,8 @@ from report.figures.section import array_section
 from scenes import TESTS as REPORT
 from solver.friction_tests import fit_law
 
+pytestmark = pytest.mark.quick
+
 AT = "at 1.00 in/s (25.4 mm/s)"
 ON_FILE = "Friction test report stated"
 STANDARD = "Tested to ASTM G115"

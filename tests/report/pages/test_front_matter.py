@@ -32,6 +32,7 @@ def html():
         return stand_in.html(stand_in.book(data, MOTIONS))
 
 
+@pytest.mark.quick
 def test_the_cover_says_that_large_records_are_left_out():
     done = scenes.package().assessment
     large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
@@ -69,6 +70,7 @@ def test_the_letter_is_one_page():
          "conditions."),
     ],
 )  # fmt: skip
+@pytest.mark.quick
 def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_severe, text):
     done = scenes.package().assessment
     row = done.conditions[0]
@@ -79,6 +81,7 @@ def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_seve
     assert printed(replace(done, rows=rows), "letter").line(text)
 
 
+@pytest.mark.quick
 def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_counted():
     done = scenes.package().assessment
     (row, *_) = done.conditions

@@ -10,6 +10,8 @@ import scenes
 import stand_in
 from printed import printed
 
+pytestmark = pytest.mark.quick
+
 
 def scene(requested, shaking=None, **changes):
     arrays = [stand_in.array("A1", 2.0, mu=0.45), stand_in.array("A2", 2.0, mu=0.40, x=120)]

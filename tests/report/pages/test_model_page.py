@@ -13,6 +13,8 @@ from solver.sliding.least_model import Model
 from solver.sliding.tipping import Supports, tipping
 from solver.sliding.uplift import uplift
 
+pytestmark = pytest.mark.quick
+
 
 def scene(shaking=None, **changes):
     return scenes.package(shaking, objects=[], clearances=[], **changes)
@@ -42,6 +44,7 @@ def test_a_model_that_is_not_adequate_is_ng():
     assert not package.assessment.array_verdict(item).is_permitted
 
 
+@pytest.mark.nightly
 def test_a_neglected_vertical_component_has_its_exact_effect():
     gentle = tuple(replace(m, az_mps2=m.az_mps2 * 1e-3) for m in alone(scenes.motions(3, 8.0)))
     package = scene(gentle, arrays=[stand_in.array("A1", 1.0, mu=0.5)])

@@ -9,6 +9,8 @@ from printed import printed
 from report.assessment.neighbors import Cover
 from report.assessment.verdict import Verdict
 
+pytestmark = pytest.mark.quick
+
 FOOT = stand_in.FOOT
 NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42)
 FAR = stand_in.roof_object("RTU-8", "fixed object", 190, 200, 35, 42)

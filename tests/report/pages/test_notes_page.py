@@ -11,6 +11,8 @@ from printed import printed
 from report.assessment.envelopes import keep_clear_m, keep_clear_words
 from solver.model import INCH_M
 
+pytestmark = pytest.mark.quick
+
 FOOT = stand_in.FOOT
 ARRAYS = [stand_in.array("A1", 0.5), stand_in.array("A2", 0.5, x=220)]
 GAPS = [stand_in.clearance("A1", "A2", 120 * FOOT)]

@@ -46,6 +46,7 @@ def test_the_smallest_margin_is_that_of_a_satisfied_clearance():
     assert page.line("Clearance 1 is not satisfied as given")
 
 
+@pytest.mark.quick
 def test_the_drawing_keeps_clear_what_the_package_does():
     done = scenes.package(options=REVIEW).assessment
     words = {text.words for text in plan_drawing(done).texts}
@@ -77,6 +78,7 @@ def test_a_drift_over_its_limit_prints_larger():
     assert numbers[0] > numbers[1]
 
 
+@pytest.mark.quick
 def test_a_parapet_that_is_too_low_does_not_qualify():
     edge = stand_in.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
     package = scenes.package(objects=[edge], clearances=[stand_in.clearance("A3", "N", 6.0)])
@@ -127,6 +129,7 @@ def test_a_limit_that_may_be_exceeded_is_nowhere_said_to_be_satisfied(clearances
     assert text in printed(package, "basis")
 
 
+@pytest.mark.quick
 def test_the_largest_peak_of_a_prescriptive_array_is_printed_with_one_rounding():
     """Rounded up in the design displacement, it was another number three lines below."""
     gaps = [stand_in.clearance("A1", "RTU-1", 60 * FOOT)]

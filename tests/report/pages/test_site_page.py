@@ -64,6 +64,7 @@ def full():
     return package({"target": {"t_l_s": 8.0}}, **FULL)
 
 
+@pytest.mark.quick
 def test_the_values_are_those_of_a_permit_sheet(full):
     """Permit sheet of provisions.md: S_S 1.271, F_a 1.2, S_1 0.455, F_v 1.845, h 30 ft."""
     found = values(full)
@@ -105,6 +106,7 @@ def test_the_amplification_with_its_numbers_gives_the_result(rule_set, height_m)
     assert value == pytest.approx(float(result.removesuffix(" g")), abs=6e-4)
 
 
+@pytest.mark.quick
 def test_asce_7_22_has_no_site_coefficients_and_its_own_clauses():
     made = package(
         rule_set="ASCE 7-22",
@@ -147,6 +149,7 @@ def test_i_p_is_a_range_where_arrays_differ():
     assert forces(made)[1] == "2.400"  # 1.6 x S_DS x the larger I_p
 
 
+@pytest.mark.quick
 def test_a_near_fault_site_is_category_e():
     found = values(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
     assert (found["SDC by short period"], found["SDC by S1"]) == ("D", "E")

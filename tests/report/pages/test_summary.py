@@ -1,5 +1,7 @@
 """What the summary, on its page and in the terminal, says where no route is permitted."""
 
+import pytest
+
 import stand_in
 from places import ROOT
 from printed import printed
@@ -7,6 +9,8 @@ from report.assessment.arrays import Route
 from report.assessment.assess import assess
 from report.pages.summary import document, summary
 from report.web.opened import opened, with_values
+
+pytestmark = pytest.mark.quick
 
 
 def test_no_floor_is_removed_where_the_design_is_prescriptive():

@@ -7,6 +7,8 @@ import scenes
 import stand_in
 from printed import printed
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("edition", "own", "others"),

@@ -3,6 +3,8 @@
 import re
 from dataclasses import replace
 
+import pytest
+
 import scenes
 import stand_in
 from printed import printed
@@ -43,6 +45,7 @@ def test_a_required_separation_is_rounded_up_and_what_ends_the_search_is_named()
     assert [row["Limited by"] for row in rows] == ["clearance", "friction", "search"]
 
 
+@pytest.mark.quick
 def test_where_nothing_slides_there_are_no_contours_and_no_ratios():
     still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
     _, _, page = made(still, arrays=[stand_in.array("B1", 0.5, mu=1.0)], objects=[], clearances=[])
@@ -65,6 +68,7 @@ def test_the_chart_names_the_arrays_and_is_the_same_twice():
     assert min(sizes) >= 8.5
 
 
+@pytest.mark.quick
 def test_levels_are_round_inside_the_range_and_few():
     assert levels([3.0, 120.0]) == [5, 7, 10, 15, 20, 30, 50, 70, 100]
     for low, high in ((0.1, 3000.0), (1e-4, 1e3), (9.0, 11.0), (5.0, 5.0)):

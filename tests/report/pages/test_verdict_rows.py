@@ -9,6 +9,8 @@ import stand_in
 from printed import printed
 from report.pages.summary import summary
 
+pytestmark = pytest.mark.quick
+
 NEAR = stand_in.roof_object("RTU-9", "fixed object", 101, 106, 35, 42, height=1.0)
 
 

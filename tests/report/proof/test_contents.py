@@ -9,6 +9,8 @@ from pypdf import PdfReader
 from report.proof.contents import pages, refused, words
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 
 def written(change):
     out = io.BytesIO()

@@ -6,6 +6,8 @@ from growth import grows_faster
 from report.proof.numbers import differences, first_other_word, parsed
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 BAD = {
     "deep": b'{"a": ' + b"[" * 100_000 + b"]" * 100_000 + b"}",
     "not closed": b"[" * 100_000,

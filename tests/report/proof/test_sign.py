@@ -28,6 +28,7 @@ from pypdf import PdfReader
 
 import packages
 import tampering
+from nightly import by_day
 from report.cli.main import main
 from report.cli.terminal import warn_of_others
 from report.proof.contents import refused
@@ -129,6 +130,7 @@ def clock(authority):
         thread.join()
 
 
+@pytest.mark.quick
 def test_without_the_library_a_signature_is_not_checked(monkeypatch):
     monkeypatch.setitem(sys.modules, "pyhanko.sign.validation", None)
     assert appended(b"") == Appended(is_checked=False)
@@ -174,6 +176,7 @@ def checked(content, authority):
     return signature, validate_pdf_signature(signature, context, context)
 
 
+@pytest.mark.nightly
 def test_a_signature_is_pades_b_b_without_a_network(signed, authority, data, found):
     done, content = signed
     assert done.exit_code == 0, done.output
@@ -187,6 +190,7 @@ def test_a_signature_is_pades_b_b_without_a_network(signed, authority, data, fou
     assert found(content) == Appended(signed=(signed,), problems=())
 
 
+@pytest.mark.nightly
 def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
     done, content = sign("--time-stamp", clock)
     assert done.exit_code == 0, done.output
@@ -196,6 +200,7 @@ def test_a_time_stamp_makes_it_b_t(sign, authority, clock, found):
     assert found(content).problems == ()
 
 
+@pytest.mark.nightly
 def test_what_is_appended_after_the_signature_is_found(signed, found):
     _, content = signed
     for more in (b"\n", b"% more\n", b"1 0 obj\n<<>>\nendobj\n"):
@@ -215,6 +220,7 @@ def updated(data):
     return update
 
 
+@pytest.mark.nightly
 def test_an_update_that_changes_a_sheet_is_found_though_it_is_signed(sign, updated, found):
     def change(writer):
         contents = writer.root["/Pages"]["/Kids"][3].raw_get("/Contents")
@@ -257,7 +263,7 @@ def test_a_signature_that_does_not_fit_is_a_difference(signed, found):
     assert any(text.startswith(f"signature '{FIELD}': ") for text in later.problems)
 
 
-@pytest.mark.parametrize("entry", ["/AA", "/A", "/Lock"])
+@pytest.mark.parametrize("entry", by_day(["/AA", "/A", "/Lock"], 1))
 def test_a_hidden_field_with_an_action_is_refused_though_it_is_signed(sign, updated, entry):
     name, text = generic.NameObject, generic.pdf_string
     script = {name("/S"): name("/JavaScript"), name("/JS"): text("app.alert(1)")}
@@ -285,6 +291,7 @@ def add_field(writer, field):
     writer.update_root()
 
 
+@pytest.mark.nightly
 def test_a_field_over_a_sheet_is_found_though_it_is_signed_and_an_empty_one_is_not(
     sign, updated, found
 ):
@@ -300,6 +307,7 @@ def test_a_field_over_a_sheet_is_found_though_it_is_signed_and_an_empty_one_is_n
         assert next(refused(PdfReader(io.BytesIO(content)))).startswith("sheet 1: an annotation")
 
 
+@pytest.mark.nightly
 def test_the_field_in_place_of_which_another_one_is_put_is_missed_though_it_is_signed(
     sign, updated, found
 ):
@@ -330,6 +338,7 @@ def made(job, monkeypatch):
     return data
 
 
+@pytest.mark.nightly
 def test_a_signature_that_cannot_be_checked_is_said_not_to_be(made, sign, tmp_path, monkeypatch):
     path = tmp_path / "calc-package-signed.pdf"
     path.write_bytes(sign(content=made)[1])
@@ -349,6 +358,7 @@ def test_a_signature_that_cannot_be_checked_is_said_not_to_be(made, sign, tmp_pa
     assert said["signed"] == [{"field": FIELD, "signer": "Jane Doe, S.E."}]
 
 
+@pytest.mark.nightly
 def test_what_was_painted_over_before_it_was_signed_is_never_the_same(made, sign, tmp_path):
     path = tmp_path / "calc-package-signed.pdf"
     painted = tampering.rewritten(made, tampering.painted_over)
@@ -397,6 +407,7 @@ def test_a_file_that_is_not_there_is_told_before_a_password_is_asked_for(missing
     assert "assword" not in done.output
 
 
+@pytest.mark.quick
 def test_the_package_is_not_overwritten_by_the_one_that_is_signed(tmp_path):
     package = tmp_path / "calc-package.pdf"
     package.write_bytes(b"as it was")
@@ -407,11 +418,13 @@ def test_the_package_is_not_overwritten_by_the_one_that_is_signed(tmp_path):
     assert package.read_bytes() == b"as it was"
 
 
+@pytest.mark.quick
 def test_a_file_that_is_no_certificate_is_an_input_error():
     with pytest.raises(InputError, match="not PKCS#12, or another password"):
         signed_by(b"", b"no certificate", PASSWORD)
 
 
+@pytest.mark.nightly
 def test_a_signed_package_beside_a_new_one_is_named_where_it_is_of_another_input(
     sign, job, tmp_path
 ):

@@ -5,6 +5,7 @@ import random
 import pytest
 
 import tampering
+from nightly import by_day
 from report.proof.package import opened
 from report.proof.verdict import Agreement, compared, failed
 from solver.model import InputError
@@ -15,6 +16,7 @@ def test_the_same_bytes_are_the_same(proof, data):
     assert (found.answer, found.reasons, found.is_to_be_read) == (Agreement.SAME, (), False)
 
 
+@pytest.mark.nightly
 def test_a_file_that_was_only_written_again_is_not_the_same(proof, data):
     again = tampering.rewritten(data, lambda pdf: None)
     found = proof(again)
@@ -23,8 +25,7 @@ def test_a_file_that_was_only_written_again_is_not_the_same(proof, data):
     assert found.is_to_be_read
 
 
-@pytest.mark.parametrize("kind", tampering.OF_THE_FILE, ids=lambda kind: kind.__name__)
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize("kind", by_day(tampering.OF_THE_FILE, 1), ids=lambda kind: kind.__name__)
 def test_a_file_that_was_tampered_with_is_never_the_same(proof, data, few_sheets, kind):
     whole = few_sheets if kind is tampering.without_sheet else data
     given = kind(whole, random.Random(1))
@@ -43,9 +44,8 @@ NOT_SEEN = {tampering.glyphs_mapped_by_a_stream, tampering.another_producer}
 """Of what no report writes: all that shows is drawings, which are not compared."""
 
 
-@pytest.mark.parametrize("change", tampering.REFUSED, ids=lambda change: change.__name__)
-@pytest.mark.parametrize("software", ["", "harfbuzz", "numpy"])
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize("change", by_day(tampering.REFUSED, 1), ids=lambda change: change.__name__)
+@pytest.mark.parametrize("software", by_day(["", "harfbuzz", "numpy"], 1))
 def test_what_no_report_writes_is_refused_whatever_software_is_named(
     tampered, few_sheets, change, software
 ):
@@ -78,9 +78,8 @@ def test_nor_does_another_version_of_roofslip_explain_it(tampered, few_sheets, c
         assert found.answer == (Agreement.DIFFERS if is_seen else Agreement.PARTLY)
 
 
-@pytest.mark.parametrize("change", tampering.REDRAWN, ids=lambda change: change.__name__)
-@pytest.mark.parametrize("software", ["", "harfbuzz"])
-@pytest.mark.by_day(2)
+@pytest.mark.parametrize("change", by_day(tampering.REDRAWN, 1), ids=lambda change: change.__name__)
+@pytest.mark.parametrize("software", by_day(["", "harfbuzz"], 1))
 def test_another_drawing_is_never_the_same(tampered, few_sheets, change, software):
     named = [lambda pdf: tampering.of_other_software(pdf, software)] if software else []
     found = tampered(few_sheets, *named, change)
@@ -95,11 +94,13 @@ def test_words_and_numbers_are_compared_whatever_software_is_named(proof, few_sh
     assert "the input gives" in told
 
 
+@pytest.mark.nightly
 def test_a_text_that_is_copied_as_another_one_differs(tampered, few_sheets):
     found = tampered(few_sheets, tampering.of_other_software, tampering.meant_otherwise)
     assert "where the input gives" in found.reasons[0]
 
 
+@pytest.mark.nightly
 def test_other_versions_that_print_as_such_are_named_and_explain_drawings_only(
     tampered, data, few_sheets
 ):
@@ -112,6 +113,7 @@ def test_other_versions_that_print_as_such_are_named_and_explain_drawings_only(
     )
 
 
+@pytest.mark.nightly
 def test_another_version_of_roofslip_is_named_and_numbers_still_count(tampered, few_sheets):
     found = tampered(few_sheets, of_another_version)
     assert found.answer == Agreement.PARTLY
@@ -147,8 +149,7 @@ ENTRIES = {
 
 
 @pytest.mark.parametrize("entry", ENTRIES)
-@pytest.mark.by_day(2)
-@pytest.mark.nightly("report/proof/", "report/provenance/")
+@pytest.mark.nightly
 def test_every_entry_of_the_manifest_is_compared(tampered, few_sheets, entry):
     (told,) = tampered(few_sheets, tampering.of_manifest(ENTRIES[entry])).reasons
     assert told.startswith(f"roofslip.json: {entry}")
@@ -158,6 +159,7 @@ INFO = ("/Title", "/Author", "/Creator", "/CreationDate")
 
 
 @pytest.mark.parametrize("key", [*INFO, "/Subject"])
+@pytest.mark.nightly
 def test_what_the_document_says_of_itself_is_compared(tampered, few_sheets, key):
     def change(pdf):
         pdf.docinfo[key] = "Another one"
@@ -166,6 +168,7 @@ def test_what_the_document_says_of_itself_is_compared(tampered, few_sheets, key)
     assert told.startswith("document (")
 
 
+@pytest.mark.nightly
 def test_a_changed_digit_is_told_with_its_sheet_and_its_words(proof, data):
     (told,) = proof(tampering.digit_in_text(data, random.Random(3))).reasons
     assert told.startswith("sheet ")

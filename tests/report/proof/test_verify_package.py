@@ -16,6 +16,7 @@ from click.testing import CliRunner
 
 import packages
 import tampering
+from nightly import by_day
 from places import ROOT
 from report.cli.main import main
 from report.making import OUTPUTS
@@ -71,7 +72,7 @@ def after_record_changed(data, given):
     return run(given(data, change), "--json")
 
 
-@pytest.mark.nightly("report/proof/", "report/provenance/", "report/cli/verify_package.py")
+@pytest.mark.nightly
 def test_a_package_is_the_same_to_the_byte_and_nothing_is_left_behind(job, after_record_changed):
     """A process of its own wrote it; this one has laid out a package before."""
     done = run(job / "out" / "calc-package.pdf")
@@ -81,7 +82,7 @@ def test_a_package_is_the_same_to_the_byte_and_nothing_is_left_behind(job, after
     assert sorted(path.name for path in (job / "out").glob("*.pdf")) == ["calc-package.pdf"]
 
 
-@pytest.mark.nightly("report/proof/", "report/provenance/", "report/cli/verify_package.py")
+@pytest.mark.nightly
 def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(data, given):
     path = given(data, tampering.painted_over)
     done = run(path)
@@ -97,7 +98,7 @@ def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(d
 
 
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGINT"])
-@pytest.mark.nightly("report/proof/", "report/cli/verify_package.py")
+@pytest.mark.nightly
 def test_no_file_is_left_when_a_signal_ends_it(job, tmp_path, name):
     words = ["-m", "report.cli", "verify-package", str(job / "out" / "calc-package.pdf")]
     there = {path.name for path in (job / "out").iterdir()}
@@ -116,7 +117,7 @@ def test_no_file_is_left_when_a_signal_ends_it(job, tmp_path, name):
     assert {path.name for path in (job / "out").iterdir()} == there
 
 
-@pytest.mark.nightly("report/proof/", "report/provenance/", "report/sheet/reading/beside.py")
+@pytest.mark.nightly
 def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_path, given):
     ignored = shutil.ignore_patterns("out", "make.py", "__pycache__")
     shutil.copytree(ROOT / "projects" / "conditions", tmp_path / "job", ignore=ignored)
@@ -136,13 +137,14 @@ def test_a_package_with_a_document_verifies_and_with_another_one_differs(tmp_pat
     assert said.startswith("roofslip.json: hash is ")
 
 
-@pytest.mark.nightly("report/proof/", "report/provenance/")
+@pytest.mark.nightly
 def test_this_process_alone_writes_every_file_as_two_do(job, tmp_path_factory):
     alone = packages.reported(tmp_path_factory, job.name).out
     for name in OUTPUTS:
         assert (alone / name).read_bytes() == (job / "out" / name).read_bytes(), name
 
 
+@pytest.mark.nightly
 def test_a_record_that_was_changed_with_its_hash_gives_other_numbers(after_record_changed):
     done = after_record_changed
     assert done.exit_code == 1, done.output
@@ -175,6 +177,7 @@ def test_the_end_of_an_attached_pdf_is_not_that_of_the_package(data):
 
 
 @pytest.mark.parametrize("content", [b"", b"words", b"%PDF-1.7\n", None])
+@pytest.mark.quick
 def test_what_is_no_package_differs_and_a_file_that_is_not_there_is_an_input_error(
     tmp_path, content
 ):
@@ -184,6 +187,7 @@ def test_what_is_no_package_differs_and_a_file_that_is_not_there_is_an_input_err
     assert run(path).exit_code == (2 if content is None else 1)
 
 
+@pytest.mark.quick
 def test_a_pdf_without_the_input_is_no_package(tmp_path):
     path = tmp_path / "given.pdf"
     with pikepdf.new() as pdf:
@@ -195,7 +199,6 @@ def test_a_pdf_without_the_input_is_no_package(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["roofslip.json", "results.json"])
-@pytest.mark.by_day(1)
 def test_an_attachment_that_is_no_json_of_ours_makes_no_package(few_sheets, given, name):
     twice = b'{"schema_version": 1, "schema_version": 1}'
 
@@ -212,18 +215,18 @@ def test_an_attachment_that_is_no_json_of_ours_makes_no_package(few_sheets, give
 
 @pytest.mark.parametrize(
     "entries",
-    [{"files": {}}, {"files": [1]}, {"hash": 1}, {"environment": []}, {"environment": {"numpy": 1}},
-     {"roofslip_version": "<b>"}, {"schema_version": "1"}, {"schema_version": 99},
-     {"has_records": "no"}],
+    by_day([{"files": {}}, {"files": [1]}, {"hash": 1}, {"environment": []},
+            {"environment": {"numpy": 1}}, {"roofslip_version": "<b>"}, {"schema_version": "1"},
+            {"schema_version": 99}, {"has_records": "no"}], 1),
     ids=str,
 )  # fmt: skip
-@pytest.mark.by_day(1)
 def test_an_entry_of_another_type_makes_no_package(few_sheets, given, entries):
     done = run(given(few_sheets, tampering.of_manifest(lambda manifest: manifest.update(entries))))
     assert done.exit_code == 1, done.output
     assert "roofslip.json" in done.output
 
 
+@pytest.mark.nightly
 def test_an_attachment_that_unpacks_to_a_thousand_times_its_size_is_refused(few_sheets, given):
     path = given(few_sheets, lambda pdf: tampering.set_file(pdf, RECORD, bytes(90_000_000)))
     assert path.stat().st_size < 2_000_000
@@ -238,6 +241,7 @@ def test_a_package_that_needs_no_password_and_is_encrypted_is_refused(few_sheets
         opened(given.getvalue())
 
 
+@pytest.mark.nightly
 def test_another_type_of_an_attachment_is_not_the_same(tampered, few_sheets):
     def change(pdf):
         pdf.attachments[RECORD].obj.EF.F.Subtype = pikepdf.Name("/text/plain")
@@ -246,8 +250,8 @@ def test_another_type_of_an_attachment_is_not_the_same(tampered, few_sheets):
 
 
 @pytest.mark.parametrize(
-    "path", ["../x.csv", "/x.csv", "a/../../x", "C:/x.csv", "a\\b.csv", "", "a\n", "x" * 300,
-             "a//b", "./a", "con", "a/Aux.csv", "NUL", "com1.txt"]
+    "path", by_day(["../x.csv", "/x.csv", "a/../../x", "C:/x.csv", "a\\b.csv", "", "a\n", "x" * 300,
+                    "a//b", "./a", "con", "a/Aux.csv", "NUL", "com1.txt"], 3)
 )  # fmt: skip
 def test_no_attachment_is_taken_out_of_the_folder(tmp_path, given, few_sheets, path):
     change = tampering.of_manifest(lambda manifest: manifest["files"][1].update(path=path))

@@ -145,6 +145,7 @@ def with_documents(sheet, folder, *paths):
     return replace(sheet, path=folder / "input.xlsx", documents=tuple(documents))
 
 
+@pytest.mark.nightly
 def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch):
     assessment = scenes.package(scenes.motions(3, 4.0)).assessment
     (tmp_path / "results.json").write_bytes(was := results_json(assessment, support(assessment)))
@@ -205,6 +206,7 @@ def test_records_beyond_the_limit_are_left_out_and_hashed(job, monkeypatch):
     assert sum(entry["kind"] == "record" for entry in listed["files"]) == 21
 
 
+@pytest.mark.quick
 def test_a_file_with_several_channels_counts_once():
     row = stand_in.book().shaking.records[0]
     rows = [

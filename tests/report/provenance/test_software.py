@@ -1,7 +1,11 @@
 import re
 from importlib import metadata
 
+import pytest
+
 from report.provenance.software import environment, versions
+
+pytestmark = pytest.mark.quick
 
 
 def test_the_parts_that_matter_are_named_with_their_versions_and_no_tool():

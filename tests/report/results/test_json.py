@@ -182,6 +182,7 @@ def test_json_has_neighbors_that_are_missing_or_contradict_and_the_limits_on_mot
     assert {"found_s", "limit_s"} <= {key for row in document["acceptance"] for key in row}
 
 
+@pytest.mark.quick
 def test_json_has_no_verdict_where_no_route_is_permitted():
     document = made(stand_in.unpermitted())
     first, _ = document["arrays"]

@@ -5,6 +5,7 @@ import zipfile
 import pytest
 
 import commands
+from nightly import by_day
 from report.motions.prepare import prepare
 from report.sheet.reading.read import read
 from sheets import make, problems, type_into
@@ -25,12 +26,14 @@ def rows(*words):
     return ("motion", "rows", *words)
 
 
+@pytest.mark.quick
 def test_a_folder_is_listed_without_a_workbook(library):
     told = commands.printed(*rows(library))
     assert "KJM     x  kobe/KJM-x.csv" in told
     assert "not taken: lone.csv: neither its heading (none) nor its name has a component" in told
 
 
+@pytest.mark.nightly
 def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
     path = make(tmp_path / "p")
     before = read(path).project.motions
@@ -56,6 +59,7 @@ def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
     assert path.read_bytes() == after
 
 
+@pytest.mark.nightly
 def test_records_with_given_units_are_read_by_their_rows(library, tmp_path):
     for axis in "xyz":
         (library / f"raw-{axis}.txt").write_text("".join(f"0.{k:03d}\n" for k in range(200)))
@@ -67,12 +71,14 @@ def test_records_with_given_units_are_read_by_their_rows(library, tmp_path):
     assert abs(new.ax_mps2).max() == pytest.approx(0.199)
 
 
+@pytest.mark.nightly
 def test_the_level_goes_into_the_rows(library, tmp_path):
     path = make(tmp_path / "p")
     commands.printed(*rows(library, path, "--at", "ground"))
     assert [row["recorded_at"] for row in read(path).draft["motions"]][-2:] == ["ground"] * 2
 
 
+@pytest.mark.nightly
 def test_records_in_the_project_stay_where_they_are(library, tmp_path):
     path = make(tmp_path / "p")
     library.rename(tmp_path / "p" / "own")
@@ -91,6 +97,7 @@ def test_another_file_is_never_overwritten(library, tmp_path):
     assert not (tmp_path / "p" / "records" / "PET-x.csv").exists()
 
 
+@pytest.mark.quick
 def test_a_link_out_of_the_folder_is_not_followed(library, tmp_path):
     path, outside = make(tmp_path / "p"), tmp_path / "outside"
     (tmp_path / "p" / "records").rename(outside)
@@ -101,7 +108,7 @@ def test_a_link_out_of_the_folder_is_not_followed(library, tmp_path):
     assert {entry.name for entry in outside.iterdir()} == names
 
 
-@pytest.mark.parametrize("name", ["../out.csv", "/etc/x.csv", "a/../../b.csv"])
+@pytest.mark.parametrize("name", by_day(["../out.csv", "/etc/x.csv", "a/../../b.csv"], 1))
 def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
     path, zipped = make(tmp_path / "p"), tmp_path / "kobe.zip"
     with zipfile.ZipFile(zipped, "w") as archive:
@@ -118,6 +125,7 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
     assert "is no path within a folder" in commands.refused(*rows(zipped))
 
 
+@pytest.mark.quick
 def test_where_they_were_recorded_is_asked(library, tmp_path):
     path = make(tmp_path / "p")
     assert "give --at roof or --at ground" in commands.refused(*rows(library, path))
@@ -126,6 +134,7 @@ def test_where_they_were_recorded_is_asked(library, tmp_path):
     assert "no set of two horizontal records and a vertical one to take" in told
 
 
+@pytest.mark.nightly
 def test_the_library_of_the_user_is_searched(library, tmp_path, monkeypatch):
     monkeypatch.setattr("click.get_app_dir", lambda _: str(tmp_path / "config"))
     config = tmp_path / "config" / "config.toml"

@@ -70,6 +70,7 @@ def contents(folder):
     return {path.name: path.read_bytes() for path in folder.glob("*.txt") if path.is_file()}
 
 
+@pytest.mark.quick
 def test_files_are_published_together(tmp_path):
     publish(OLD, tmp_path / "out")
     assert names_in(tmp_path / "out") == ["a.txt", "b.txt", STAMP]
@@ -238,6 +239,7 @@ def test_a_first_run_that_was_cut_off_is_told(tmp_path):
 
 @pytest.mark.parametrize("name", ["a.txt", STAMP])
 @pytest.mark.parametrize("kind", ["pipe", "link", "endless"])
+@pytest.mark.quick
 def test_what_is_no_file_is_not_read_for_the_stamp(tmp_path, kind, name):
     publish(OLD, tmp_path)
     path = tmp_path / name
@@ -332,6 +334,7 @@ def test_results_that_name_no_workbook_are_of_none(tmp_path, content):
     check_of_workbook(tmp_path, "results.json", "b.xlsx")
 
 
+@pytest.mark.quick
 def test_results_of_another_workbook_are_not_replaced(tmp_path):
     (tmp_path / "results.json").write_bytes(b'{"workbook": {"name": "a.xlsx"}}')
     check_of_workbook(tmp_path, "results.json", "a.xlsx")

@@ -15,6 +15,8 @@ from report.results.xlsx import results_xlsx
 from report.words.units import ratio
 from sheets import of, put
 
+pytestmark = pytest.mark.nightly
+
 INCH = 0.0254
 GOVERNING = "Governing array, direction"
 SITE = stand_in.site()
@@ -80,7 +82,6 @@ def changed(before, reviewed, tmp_path_factory):
     return recalculated(paths, folder)
 
 
-@pytest.mark.nightly
 def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(before, changed):
     gaps = [gap.model_dump() for gap in stand_in.project().clearances]
     gaps[1] |= {"provided_m": NARROW_M}
@@ -112,7 +113,6 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
         assert compared(book, row, (GOVERNING, "Verdict")) == [governing, gap.verdict.value]
 
 
-@pytest.mark.nightly
 def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
     headings = (GOVERNING, "Design", "Required [in]", "Provided", "Verdict")
     governing, design, required, provided, result = compared(changed[1], "Clearances/1", headings)
@@ -121,7 +121,6 @@ def test_the_governing_array_follows_a_peak_that_is_changed(reviewed, changed):
     assert result == ("OK" if required <= provided else "NG")
 
 
-@pytest.mark.nightly
 def test_every_sheet_prints_as_wide_as_a_page(before, tmp_path):
     path = tmp_path / "results.xlsx"
     path.write_bytes(results_xlsx(before, spectra(before)))

@@ -210,6 +210,7 @@ def marked(package, id):
     ]
 
 
+@pytest.mark.quick
 def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):
     for path in (tmp_path / "none.json", tmp_path):
         with pytest.raises(InputError, match="cannot be read"):
@@ -286,6 +287,7 @@ def test_more_than_100000_records_are_refused_before_they_are_compared(document)
         former(document)
 
 
+@pytest.mark.quick
 def test_a_device_and_a_file_beyond_25_mb_are_refused_before_they_are_read(tmp_path):
     with pytest.raises(InputError, match=r"/dev/zero: cannot be read \(no file\)"):
         read_former(Path("/dev/zero"))
@@ -326,6 +328,7 @@ def test_a_truncated_file_is_refused(content, end):
         former_from(content[: int(end * (len(content) - 2))], "x")
 
 
+@pytest.mark.quick
 def test_a_verdict_that_is_lost_with_the_route_is_named():
     """A former version took the displacement of 0 and called the clearance OK."""
     now = stand_in.unpermitted()
@@ -352,6 +355,7 @@ def test_an_array_that_is_new_and_has_no_value_has_none():
     }
 
 
+@pytest.mark.nightly
 def test_more_changes_than_can_be_laid_out_are_refused_with_both_limits(assessment, document):
     row = document["requirements"][0]
     document["requirements"] += [row | {"title": f"T{k}"} for k in range(MOST_CHANGES)]

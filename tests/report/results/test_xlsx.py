@@ -14,6 +14,7 @@ from xlsxwriter.workbook import Workbook
 import scenes
 import stand_in
 from cells import address, cell
+from nightly import by_day
 from report.assessment.spectra import spectra
 from report.entities.cells import Column
 from report.results.directions import PeakRow
@@ -179,8 +180,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.by_day(3)
+@pytest.mark.parametrize("case", by_day(CASES, 3))
 def test_every_formula_gives_the_value_written_with_it(case):
     _, formulas, values = made(**CASES[case])
     assert check_formulas(formulas, values) > 50
@@ -378,6 +378,7 @@ class WiderRow(PeakRow):
     note: Annotated[str, Column("Note")]
 
 
+@pytest.mark.quick
 def test_a_column_is_one_field_with_its_heading_unit_digits_and_formula():
     peaks = {f"{way}_m": 0.254 for way in Direction}
     row = WiderRow(

@@ -26,9 +26,7 @@ from solver.rules.provisions import Neighbor, prescriptive_displacement, require
 from solver.rules.rulesets import RULE_SETS, RuleSet
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
-pytestmark = pytest.mark.nightly(
-    "report/sheet/schema/", "report/sheet/writing/", "solver/rules/", "projects/"
-)
+pytestmark = pytest.mark.nightly
 PROJECTS = ("example", "school", "conditions")
 
 

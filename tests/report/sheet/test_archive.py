@@ -11,6 +11,7 @@ import pytest
 from openpyxl import DEFUSEDXML, LXML, load_workbook
 
 from cells import cell
+from nightly import by_day
 from report.sheet.reading.archive import open_book, sheet_parts
 from report.sheet.reading.scan import MAX_CELLS, MAX_OTHERS, MAX_TAGS
 from sheets import at, edit, make, pack, parts, problems, project, read_workbook, same
@@ -42,6 +43,7 @@ def sheet_part(path, title):
         return dict(sheet_parts(file))[title]
 
 
+@pytest.mark.quick
 def test_openpyxl_reads_with_the_parser_of_python():
     assert not LXML  # also where it is installed
     assert not DEFUSEDXML  # in Python itself: the scan has refused entities by then
@@ -180,6 +182,7 @@ def test_damaged_files_are_read_or_rejected_but_never_crash(tmp_path):
             read_workbook(path)
 
 
+@pytest.mark.quick
 def test_a_false_size_in_the_directory_has_no_effect(tmp_path):
     path = rewritten(make(tmp_path), "xl/sharedStrings.xml", lambda old: old + b" " * 10_000_000)
     data = path.read_bytes()
@@ -315,6 +318,7 @@ def test_what_is_odd_and_harmless_is_read_all_the_same(tmp_path):
         b'<hyperlinks><hyperlink ref="A30:XFD1048576" location="x"/></hyperlinks>',
     ],
 )
+@pytest.mark.quick
 def test_a_range_over_a_whole_sheet_is_rejected_before_it_is_made(tmp_path, xml):
     path = make(tmp_path)
     part = sheet_part(path, "Site")
@@ -351,8 +355,7 @@ def spelled(path, prefix):
     return path
 
 
-@pytest.mark.parametrize("prefix", [b"./", b"../xl/", b"../xl/./", b"/xl/"])
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize("prefix", by_day([b"./", b"../xl/", b"../xl/./", b"/xl/"], 1))
 def test_a_part_is_found_by_every_legal_spelling_of_its_target(tmp_path, prefix):
     path = spelled(make(tmp_path), prefix)
     assert [array.id for array in read_workbook(path).input.arrays] == ["A1", "A2"]

@@ -37,6 +37,7 @@ def test_a_document_beside_the_workbook_is_read_with_its_hash(workbook, name, pa
     assert found.sha256 == hashlib.sha256(PDF).hexdigest()
 
 
+@pytest.mark.quick
 def test_without_a_document_none_is_read(workbook):
     assert read(workbook).documents == ()
 

@@ -45,11 +45,13 @@ def test_formulas_that_manual_calculation_left_are_named(saved):
     ]
 
 
+@pytest.mark.quick
 def test_a_calculation_that_was_stopped_is_a_warning_without_manual_mode(saved):
     ((_, _, text),) = told(saying(saved, b'calcCompleted="false"'))
     assert text.startswith("the workbook was saved before its formulas were calculated, and Arrays")
 
 
+@pytest.mark.quick
 def test_a_workbook_whose_values_were_changed_from_outside_asks_to_be_calculated(saved):
     ((name, _, text),) = told(saved)  # the names of its records were
     assert name == "calculation"

@@ -6,6 +6,8 @@ import pytest
 
 from report.sheet.reading.cells import plain
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("value", "text"),

@@ -23,6 +23,7 @@ def made(folder, **changes):
     return type_into(make(folder), of("Site", GIVEN | changes))
 
 
+@pytest.mark.quick
 def test_what_is_blank_is_computed_and_the_echo_says_so(tmp_path):
     sheet = read(made(tmp_path))
     site = sheet.project.site

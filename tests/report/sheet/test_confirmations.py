@@ -13,6 +13,8 @@ from report.sheet.schema.fields import Place
 from sheets import SECTIONS as USUAL
 from sheets import make, project, read_workbook
 
+pytestmark = pytest.mark.quick
+
 ON = dt.date(2026, 2, 20)
 RECORDS = ("M1 horizontal ab", "M2 horizontal cd")
 RUN = {"surface": "wet", "number": 1, "mu": 0.46, "velocity_mps": 0.0254}

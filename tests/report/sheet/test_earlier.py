@@ -38,6 +38,7 @@ def test_a_project_is_read_as_it_was(tmp_path, name):
     assert same(sheet.project, ProjectInput.model_validate(RECORDED[name]["input"]))
 
 
+@pytest.mark.quick
 def test_a_study_is_read_as_it_was():
     sheet = read_study(EARLIER / "study.xlsx")
     assert same(sheet.project, StudyInput.model_validate(RECORDED["study"]["input"]))
@@ -51,6 +52,7 @@ def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(tmp_path, name, p
     assert done.output.replace(str(tmp_path), "").splitlines() == RECORDED[name]["check"]
 
 
+@pytest.mark.nightly
 def test_a_row_that_a_table_grows_by_has_all_the_formulas_of_its_version():
     book = open_book(EARLIER / "example.xlsx")
     area = table_area(book, SECTION["objects"])
@@ -60,7 +62,7 @@ def test_a_row_that_a_table_grows_by_has_all_the_formulas_of_its_version():
     assert grown.formula("Objects", f"A{area.last + 1}") == "=status_objects"
 
 
-@pytest.mark.nightly("report/sheet/", "report/results/")
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", ["example", "conditions"])
 def test_the_results_are_those_of_then(tmp_path, name):
     beside(tmp_path / name, name, name)

@@ -63,6 +63,7 @@ def test_no_sheet_is_protected_and_nothing_refers_to_another_file(parts):
     assert not any(re.search(r"\[\d+\]", outside_quotes(text)) for text in formulas(parts))
 
 
+@pytest.mark.quick
 def test_formulas_of_a_column_are_those_that_new_rows_get(parts):
     columns = list(elements(parts, "calculatedColumnFormula"))
     cells = {item.text for item in elements(parts, "f")}

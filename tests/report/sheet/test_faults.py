@@ -7,6 +7,7 @@ import pytest
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 
 from cells import address, cell
+from nightly import by_day
 from places import ROOT
 from report.sheet.checking.plan_checks import MOST_OVERLAPS
 from report.sheet.reading.read import read
@@ -138,6 +139,7 @@ def of_cells(tmp_path_factory):
 @pytest.mark.parametrize(
     "number", range(len(CONTENTS)), ids=[f"{name} {str(v)[:20]!r}" for name, v, _ in CONTENTS]
 )
+@pytest.mark.nightly
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(of_cells, number):
     assert at(CONTENTS[number][2]) in of_cells[number]
 
@@ -325,6 +327,7 @@ def of_contradictions(tmp_path_factory):
 @pytest.mark.parametrize(
     "number", range(len(CONTRADICTIONS)), ids=[" ".join(cells) for cells, *_ in CONTRADICTIONS]
 )
+@pytest.mark.nightly
 def test_inconsistencies_are_reported_at_the_cell_to_change(of_contradictions, number):
     """And nothing else is, on the sheets of the case."""
     case, reported = CONTRADICTIONS[number], of_contradictions[number]
@@ -332,6 +335,7 @@ def test_inconsistencies_are_reported_at_the_cell_to_change(of_contradictions, n
     assert tuple(line for line in reported if line.partition("!")[0] in own) == said(*case[1:])
 
 
+@pytest.mark.nightly
 def test_nothing_else_is_reported_beside_inconsistencies(of_contradictions):
     known = {line for _, *lines in CONTRADICTIONS for line in said(*lines)}
     assert {line for reported in of_contradictions for line in reported} == known
@@ -375,8 +379,7 @@ def formatted(path, formats):
     return edit(path, change)
 
 
-@pytest.mark.parametrize(("name", "code", "what", "wish"), MISLEADING)
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize(("name", "code", "what", "wish"), by_day(MISLEADING, 2))
 def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
     tmp_path, name, code, what, wish
 ):
@@ -411,6 +414,7 @@ def test_at_least_one_row_is_required(tmp_path, key, noun):
     )
 
 
+@pytest.mark.quick
 def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent_up_to_an_inch(tmp_path):
     gaps = {1: 120.98, 3: 60.49, 4: 4000}
     changes = {f"Clearances/{row}/Provided clearance": gap for row, gap in gaps.items()}
@@ -563,7 +567,6 @@ def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, n
         *((f"Arrays/{row}/y from", 1e-9) for row in (1, 3)),
     ],
 )
-@pytest.mark.by_day(2)
 def test_the_cell_of_an_extreme_value_is_named_where_another_cell_is_wrong_by_it(
     tmp_path, name, value
 ):

@@ -7,6 +7,7 @@ from openpyxl import load_workbook
 
 from cells import cell
 from inputs import INCH
+from nightly import by_day
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.friction import FrictionTests
 from report.sheet.writing.grids import BLOCK_WIDTHS
@@ -58,6 +59,7 @@ def test_report_and_runs_are_read_in_the_units_of_the_sheet(tmp_path, units):
     assert last.mu_static == pytest.approx(0.51)
 
 
+@pytest.mark.quick
 def test_a_table_below_a_block_leaves_its_columns_as_they_are(path):
     opened = load_workbook(path)
     letter = cell(opened, f"{SHEET}/Laboratory/Note").column_letter
@@ -79,8 +81,7 @@ CELLS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "value", "line"), CELLS)
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize(("name", "value", "line"), by_day(CELLS, 3))
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, name, value, line):
     (reported,) = problems(type_into(path, {f"{SHEET}/{name}": value}))
     assert reported.startswith(at(f"<{SHEET}/{name}>: {line}"))
@@ -121,6 +122,7 @@ def test_an_array_that_names_a_report_is_compared_with_that_report(tmp_path):
     assert read_workbook(make(tmp_path / "named", arrays=named, **tests)).input
 
 
+@pytest.mark.nightly
 def test_a_law_is_compared_at_the_tested_velocities(tmp_path):
     first, second = arrays(mu=0.40, mu_fast=0.60, mu_rate_s_per_m=30.0)
     both = [first, second | {"mu": 0.3}]

@@ -1,7 +1,11 @@
 """Ids are spelled alike once, at the border: capitals do not distinguish them."""
 
+import pytest
+
 import stand_in
 from report.sheet.schema import ProjectInput
+
+pytestmark = pytest.mark.quick
 
 
 def test_references_are_spelled_as_the_id_that_they_refer_to():

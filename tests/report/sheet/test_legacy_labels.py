@@ -19,6 +19,7 @@ from sheets import edit, make, project, same, type_into
 from solver.rules.provisions import OVERRIDABLE
 
 
+@pytest.mark.quick
 def test_the_workbook_of_0_1_is_read_as_what_it_was_made_from():
     book = read(DATA / "input-0.1.xlsx")
     made_from = json.loads((DATA / "input-0.1.json").read_text())
@@ -105,6 +106,7 @@ def test_an_earlier_provision_key_overrides_the_present_one(tmp_path):
     assert override.provision == "max_stories"
 
 
+@pytest.mark.quick
 def test_every_earlier_name_belongs_to_a_present_one():
     known = {(section.key, entry.name) for section, entry in present()}
     assert legacy_labels.LABELS.keys() | legacy_labels.FIELDS.keys() <= known

@@ -11,6 +11,8 @@ from report.sheet.schema.choices import UnitsFirst
 from report.sheet.writing.template import write_template
 from sheets import arrays, blank, edit, make, project, said, same, site, type_into
 
+pytestmark = pytest.mark.nightly
+
 WEIGHT = "Arrays/A1/Weight"
 METRIC = project(
     arrays=arrays(i_p=1.5),
@@ -32,14 +34,12 @@ def saved(tmp_path_factory):
     return {path.stem: path for path in paths}
 
 
-@pytest.mark.nightly
 def test_what_libreoffice_saved_is_read_the_same(saved):
     """With formulas as LibreOffice writes them, and the value of one that was typed."""
     assert same(read(saved["filled"]).project, project())
     assert same(read(saved["metric"]).project, METRIC)
 
 
-@pytest.mark.nightly
 def test_cells_of_a_saved_book_are_changed_and_read(saved):
     book = saved["filled"].with_name("changed.xlsx")
     book.write_bytes(saved["filled"].read_bytes())
@@ -53,7 +53,6 @@ def test_cells_of_a_saved_book_are_changed_and_read(saved):
     assert after.project.arrays[1] == before.arrays[1]
 
 
-@pytest.mark.nightly
 def test_a_saved_book_gives_no_warning_but_of_what_is_typed_over(saved, tmp_path):
     book = saved["filled"]
     assert formulas(book) != formulas(make(tmp_path))  # it spells some of them in another way

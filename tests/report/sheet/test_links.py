@@ -9,6 +9,7 @@ from pydantic import ValidationError
 import inputs
 from cells import cell
 from inputs import INCH, LB
+from nightly import by_day
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.links import Links, coefficients
 from sheets import arrays, at, edit, make, problems, read_workbook, said, type_into
@@ -27,6 +28,7 @@ def path(tmp_path):
     return make(tmp_path, links=[links(damping_ratio=0.02), links("A2")])
 
 
+@pytest.mark.nightly
 def test_a_row_is_read_in_the_units_of_the_sheet(tmp_path):
     for units in UnitsFirst:
         path = make(tmp_path / str(units), units, links=[links(damping_ratio=0.02)])
@@ -38,6 +40,7 @@ def test_a_row_is_read_in_the_units_of_the_sheet(tmp_path):
         assert row.damping_ratio == 0.02
 
 
+@pytest.mark.quick
 def test_the_blocks_share_the_weight_and_the_damping_is_that_of_one_block_on_one_link():
     row = Links(**links(damping_ratio=0.02)).row(42000 * LB)
     mass, k = 42000 * LB / G / 3, 5000 * LB / INCH
@@ -47,6 +50,7 @@ def test_the_blocks_share_the_weight_and_the_damping_is_that_of_one_block_on_one
     assert row.damping_per_s == pytest.approx(2 * 0.02 * math.sqrt(k * mass) / mass)
 
 
+@pytest.mark.quick
 def test_coefficients_are_separated_by_commas():
     assert coefficients("0.40, 0.45") == (0.4, 0.45)
     assert coefficients(" .4 ,0.45,1.5") == (0.4, 0.45, 1.5)
@@ -60,6 +64,7 @@ NO_LISTS = [
 
 
 @pytest.mark.parametrize("text", NO_LISTS)
+@pytest.mark.quick
 def test_text_that_is_not_a_list_of_coefficients_is_refused(text):
     assert coefficients(text) == ()
     with pytest.raises(ValidationError, match="2 to 20 blocks"):
@@ -100,8 +105,7 @@ CELLS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "value", "line"), CELLS)
-@pytest.mark.by_day(2)
+@pytest.mark.parametrize(("name", "value", "line"), by_day(CELLS, 3))
 def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(path, name, value, line):
     reported = problems(type_into(path, {name: value}))
     wanted = at(f"<{name}>: {line}")
@@ -124,6 +128,7 @@ def test_links_of_missing_arrays_are_not_reported_twice(path):
     assert line.startswith("Arrays: the sheet is missing")
 
 
+@pytest.mark.nightly
 def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted(tmp_path):
     given = [links(lb_in=5e12, damping_ratio=1.0), links("A2", lb_in=4e12, damping_ratio=0.5)]
     path = make(tmp_path, links=given)

@@ -5,6 +5,7 @@ import re
 import pytest
 from click.testing import CliRunner
 
+from nightly import by_day
 from places import DATA
 from report.cli.main import main
 from report.sheet.reading.archive import open_book
@@ -31,8 +32,7 @@ def formulas_of(book):
     return {f"{t}!{c}": book.formula(t, c) for t, scan in book.scans.items() for c in scan.formulas}
 
 
-@pytest.mark.parametrize("units", list(UnitsFirst))
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
 def test_every_blue_cell_of_a_new_workbook_that_loses_its_formula_is_named(tmp_path, units):
     path = make(tmp_path, units)
     assert lost(path) == []
@@ -115,11 +115,12 @@ def test_a_formula_that_refers_to_a_deleted_column_is_named(tmp_path):
     assert any("refers to a column that is missing" in text for text in texts)
 
 
+@pytest.mark.quick
 def test_a_workbook_of_0_1_has_no_live_formulas():
     assert lost(DATA / "input-0.1.xlsx") == []
 
 
-@pytest.mark.parametrize("name", ["campus", "conditions", "example", "school"])
+@pytest.mark.parametrize("name", by_day(["campus", "conditions", "example", "school"], 1))
 def test_the_formulas_of_158bb098_are_no_reason_to_warn(tmp_path, name):
     path = tmp_path / "input.xlsx"
     path.write_bytes((DATA / "158bb098" / f"{name}.xlsx").read_bytes())

@@ -4,6 +4,8 @@ import pytest
 
 from report.sheet.reading.number_format import is_percentage, misleading, shows_nothing
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("code", "unit", "how"),

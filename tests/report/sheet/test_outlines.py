@@ -60,6 +60,7 @@ def test_a_closed_or_clockwise_outline_is_the_same_shape(tmp_path):
     assert list(data.arrays[0].shape.points) == in_meters([first, *rest[::-1]])
 
 
+@pytest.mark.quick
 def test_the_blank_sheet_asks_for_sides_or_an_outline(tmp_path):
     sheet = load_workbook(blank(tmp_path / "input.xlsx"))["Arrays"]
     hints = {cell.value for row in sheet.iter_rows() for cell in row}
@@ -159,6 +160,7 @@ def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
     )
 
 
+@pytest.mark.quick
 def test_an_object_may_have_an_outline():
     item = project().objects[1].model_dump()
     data = project(objects=[item], clearances=[], outlines=vertices("old", L_FT))
@@ -166,6 +168,7 @@ def test_an_object_may_have_an_outline():
     assert {row.name for row in data.outlines} == {"OLD"}
 
 
+@pytest.mark.quick
 def test_an_array_without_a_place_is_no_input():
     changes = outlined() | {"outlines": []}
     with pytest.raises(ValueError, match="no rectangle and no outline of A1"):

@@ -10,6 +10,7 @@ from openpyxl import load_workbook
 from openpyxl.utils import coordinate_to_tuple, range_boundaries
 
 from cells import cell
+from nightly import by_day
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.growing import GrowingTable
 from report.sheet.reading.parts import changed
@@ -104,6 +105,7 @@ def test_only_the_changed_cells_change(book):
     assert b'fullCalcOnLoad="1"' in new["xl/workbook.xml"]
 
 
+@pytest.mark.quick
 def test_a_formula_that_is_replaced_leaves_the_order_of_computation(book):
     path, name = book
     new = parts(io.BytesIO(after(path, {place(WEIGHT): 41000})))
@@ -170,6 +172,7 @@ def test_a_table_grows_to_the_rows_below_it(tmp_path):
     assert max(position.row for position in cells) == bottom + 7
 
 
+@pytest.mark.quick
 def test_a_shared_formula_is_refused(book):
     path, name = book
     files = parts(path)
@@ -197,6 +200,7 @@ def test_a_part_with_a_document_type_is_refused(book, entity):
         changed(pack(path, files).read_bytes(), {place(WEIGHT): 1.0})
 
 
+@pytest.mark.quick
 def test_a_sheet_that_is_not_there_is_refused(tmp_path):
     with pytest.raises(InputError, match="Nowhere: the sheet is missing"):
         changed(make(tmp_path).read_bytes(), {CellPosition("Nowhere", 1, 1): 1.0})
@@ -218,7 +222,7 @@ def folded(book):
 
 
 @pytest.mark.parametrize(
-    "name", ["=1+1", "{=1+1}", "+1", "@A1", "http://a.test", "_x0041_b", "#N/A", "1e3"]
+    "name", by_day(["=1+1", "{=1+1}", "+1", "@A1", "http://a.test", "_x0041_b", "#N/A", "1e3"], 3)
 )
 def test_a_text_is_read_back_as_it_was_written_whatever_it_looks_like(tmp_path, name):
     path = make(tmp_path)

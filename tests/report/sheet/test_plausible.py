@@ -18,6 +18,7 @@ def warnings(data):
 
 
 # The gap of A2 to RTU-1 is 5 ft, that of A1 to S 15 ft; A2 is above S, and N above A2.
+@pytest.mark.quick
 def test_a_plausible_input_gives_no_warning():
     assert warnings(project()) == {}
 
@@ -122,6 +123,7 @@ SITE = {"rule_set": "ASCE 7-16", "site_class": "C", "s_s_g": 1.5, "s_1_g": 0.6, 
         ({"f_a": 1.6, "f_v": 1.4}, "f_a", "F_a is 1.6, more than 1.2 in ASCE 7-16 Table 11.4-1"),
     ],
 )  # fmt: skip
+@pytest.mark.quick
 def test_a_site_coefficient_that_differs_from_its_table_gives_a_note(change, field, text):
     """One below it is an error without a site-specific analysis."""
     (found,) = implausible(row_changed("site", None, **SITE | change))
@@ -186,6 +188,7 @@ def test_an_object_at_a_corner_lies_in_both_directions():
     assert list(warnings(project(objects=rows, clearances=[gap]))) == ["direction A2 to RTU-1 down"]
 
 
+@pytest.mark.quick
 def test_equal_findings_are_one_line_with_a_count():
     places = [Place("clearances", index, "provided_m") for index in range(1500)]
     found = [warning(f"usual {i}", place, "provided is 4 in") for i, place in enumerate(places)]

@@ -15,6 +15,7 @@ from openpyxl.worksheet.formula import ArrayFormula
 
 from cells import address, cell
 from inputs import FT
+from nightly import by_day
 from report.sheet import schema
 from report.sheet.schema.choices import Polarity, SlopeUnit, UnitsFirst
 from report.sheet.writing.template import write_template
@@ -189,8 +190,7 @@ CHANGES = {
 }
 
 
-@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
-@pytest.mark.by_day(2)
+@pytest.mark.parametrize("change", by_day(CHANGES.values(), 3), ids=CHANGES)
 def test_arrangement_does_not_matter(tmp_path, change):
     assert same(read_workbook(edit(make(tmp_path), change)).input, project())
 
@@ -269,6 +269,7 @@ def test_every_cell_is_echoed_as_typed_and_as_used(path):
 # Formulas: openpyxl saves no values, so LibreOffice saved these.
 
 
+@pytest.mark.quick
 def test_a_workbook_saved_by_libreoffice_reads_the_same_and_shows_its_formulas(tmp_path):
     saved = saved_by_libreoffice(tmp_path)
     book = read_workbook(saved)
@@ -347,7 +348,6 @@ WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
      ("records/long_name.at", "at2"), ("recs/long_name.at2", "at2"),
      ("long_name.csv | EW", "csv")],
 )  # fmt: skip
-@pytest.mark.by_day(2)
 def test_a_file_name_that_nearly_fits_is_asked_about(tmp_path, name, meant):
     path = type_into(make(tmp_path), {"Motions/M1/Horizontal record": name})
     for kind in ("at2", "csv"):

@@ -19,6 +19,8 @@ from report.words.units import LENGTHS, WEIGHTS, Quantity
 from sheets import project
 from solver.formats import UNIT_CHOICES
 
+pytestmark = pytest.mark.quick
+
 SITE = inputs.SITE | {"rule_set": "ASCE 7-16", "s_1_g": None, "site_class": None}
 SITE.pop("s_ds_g")
 

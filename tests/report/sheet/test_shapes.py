@@ -41,6 +41,7 @@ L_SHAPE = Polygon(((0.0, 0.0), (10.0, 0.0), (10.0, 4.0), (4.0, 4.0), (4.0, 10.0)
         (Rectangle(1, 2, 1, 3), -1.0),  # within it: the smaller side
     ],
 )
+@pytest.mark.quick
 def test_the_gap_to_an_l_shape_by_hand(other, gap):
     assert gap_m(L_SHAPE, other) == pytest.approx(gap, abs=1e-12)
     assert gap_m(other, L_SHAPE) == pytest.approx(gap, abs=1e-12)
@@ -134,6 +135,7 @@ def test_a_ring_is_counterclockwise_and_not_closed():
     assert ring(L_SHAPE.points) == L_SHAPE.points
 
 
+@pytest.mark.quick
 def test_a_ring_that_crosses_itself_is_found():
     bow_tie = ((0, 0), (1, 1), (1, 0), (0, 1))
     vertex_on_a_side = ((0, 0), (4, 0), (4, 4), (2, 0), (0, 4))
@@ -182,6 +184,7 @@ def test_the_room_is_within(shape):
     assert outside(box, shape) is None
 
 
+@pytest.mark.quick
 def test_the_area_between_shapes():
     notch = between(L_SHAPE, Rectangle(7.0, 9.0, 6.0, 8.0))
     assert notch.bounds == Rectangle(7.0, 9.0, 4.0, 6.0)

@@ -8,6 +8,8 @@ from report.sheet.schema.choices import SiteClass
 from report.sheet.schema.project import Site
 from solver.rules.hazard import HazardBasis
 
+pytestmark = pytest.mark.quick
+
 GIVEN = SITE | {
     "s_ds_g": None, "s_s_g": 1.271, "s_1_g": 0.455, "site_class": "C", "f_a": 1.2, "f_v": 1.5,
 }  # fmt: skip

@@ -195,6 +195,7 @@ def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
     assert picture._data()[:4] == b"\x89PNG"
 
 
+@pytest.mark.quick
 def test_values_are_written_in_the_units_of_the_sheets_without_rounding_error(tmp_path):
     us, si = (load_workbook(make(tmp_path / str(units), units)) for units in UnitsFirst)
     for heading, in_us, in_si in (("CG height", 9, 228.6), ("Support spacing", 40, 1016),

@@ -149,7 +149,6 @@ def looking(path, look):
         {"number_format": ";;;"},
     ],
 )
-@pytest.mark.by_day(1)
 def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
     ((name, place, text),) = told(looking(make(tmp_path), look))
     sheet, _, cell = place.partition("!")
@@ -169,7 +168,6 @@ def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
         {"fill": PatternFill("darkGray", start_color="000000")},
     ],
 )
-@pytest.mark.by_day(1)
 def test_text_in_another_color_is_no_warning(tmp_path, look):
     assert told(looking(make(tmp_path), look)) == []
 
@@ -184,6 +182,7 @@ def test_what_the_template_folds_and_a_hidden_sheet_that_is_not_read_are_no_warn
     assert read(blank(tmp_path / "blank.xlsx")).unseen == ()
 
 
+@pytest.mark.nightly
 def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_path):
     rows = [{"warning": "Hidden  sheet options", "reason": "Kept from the client's view"}]
     path = hide_options(make(tmp_path, acknowledged=rows), "hidden")
@@ -221,6 +220,7 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
     assert "M1 horizontal: cells A1:B150 on the sheet Pasted: hidden sheet" in page
 
 
+@pytest.mark.quick
 def test_many_cells_are_named_by_their_first_ranges():
     scattered = Unseen(
         kind=Concealment.STRUCK,

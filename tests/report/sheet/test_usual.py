@@ -8,6 +8,8 @@ from report.sheet.schema import SECTIONS
 from report.sheet.schema.fields import Place, entries
 from sheets import arrays, project, row_changed
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("section", "index", "change", "name", "text"),

@@ -77,6 +77,7 @@ def test_no_text_is_cut(book):
     assert list(lost(book)) == []
 
 
+@pytest.mark.quick
 def test_no_message_is_cut(book):
     """At 255 characters an input message would be, and an error alert at 225."""
     rules = [rule for sheet in book for rule in sheet.data_validations.dataValidation]

@@ -117,6 +117,7 @@ def peak(plan, motion, building, slope_deg, mu, intensity):
     return max(r.prd_m for r in found) if all(r.status == "ok" for r in found) else math.nan
 
 
+@pytest.mark.nightly
 def test_curves_are_those_of_single_runs(results):
     plan = results.plan
     for s, slope in enumerate(plan.input.slopes_deg):
@@ -132,6 +133,7 @@ def test_curves_are_those_of_single_runs(results):
                 assert results.curves.largest_m[at] == pytest.approx(largest, nan_ok=True)
 
 
+@pytest.mark.nightly
 def test_fragilities_are_those_of_single_runs(results):
     plan = results.plan
     array = results.arrays[0]
@@ -157,6 +159,7 @@ def test_fragilities_are_those_of_single_runs(results):
         assert peak(plan, k, 0, 2.0, 0.4, (1.0 + 1e-3) * x) > 0.0
 
 
+@pytest.mark.nightly
 def test_the_chance_is_that_of_the_samples(results):
     plan, array = results.plan, results.arrays[0]
     cases = plan.campaign.cases[array.plan.samples]
@@ -170,6 +173,7 @@ def test_the_chance_is_that_of_the_samples(results):
     assert {bar.name for bar in array.bars} == {"friction coefficient", "slope", "intensity"}
 
 
+@pytest.mark.nightly
 def test_a_chance_without_a_value_at_the_medians_has_no_chart_and_says_so(results):
     """Such as uplift in a motion: a chart over no number would end the report after all runs."""
     one = results.arrays[0]
@@ -182,6 +186,7 @@ def test_a_chance_without_a_value_at_the_medians_has_no_chart_and_says_so(result
     assert "[" not in chances.partition("#")[0]
 
 
+@pytest.mark.quick
 def test_a_sheet_is_drawn_where_cases_without_a_value_leave_a_contour_no_line():
     """Such as uplift on one slope: the end of a study whose runs are done."""
     design_m = np.array([[0.1, 0.2, 0.3], [np.nan] * 3, [3.0] * 3])
@@ -190,6 +195,7 @@ def test_a_sheet_is_drawn_where_cases_without_a_value_leave_a_contour_no_line():
     assert ">PPA [g]<" in drawn
 
 
+@pytest.mark.nightly
 def test_motions_without_a_final_prd_are_counted(results):
     lost = dataclasses.replace(results.curves, without_value=results.curves.without_value + 1)
     cases, said = lost.mean_m.size, printed.study(dataclasses.replace(results, curves=lost))
@@ -197,6 +203,7 @@ def test_motions_without_a_final_prd_are_counted(results):
     assert f"{cases} of {6 * cases} pairs of case and motion have no final PRD" in said
 
 
+@pytest.mark.nightly
 def test_a_mat_without_tests_has_no_bar_for_friction(results):
     assert {bar.name for bar in results.arrays[1].bars} == {"slope", "intensity"}
 
@@ -215,6 +222,7 @@ def test_censored_and_exceeding_runs_without_a_value_differ_as_stated(other):
 # The files
 
 
+@pytest.mark.nightly
 def test_the_command_writes_every_file_and_prints_the_results(made, results):
     folder, output = made
     out = folder / "out" / "study"
@@ -230,6 +238,7 @@ def test_the_command_writes_every_file_and_prints_the_results(made, results):
     assert len(rows) == manifest["rows"]
 
 
+@pytest.mark.nightly
 def test_a_second_run_writes_the_same_bytes_but_for_what_it_took_over(made, results, laid_out):
     """Layout is tested for it in tests/report/proof/test_verify_package.py."""
     once = in_one_go(results)
@@ -277,6 +286,7 @@ def test_new_writes_a_blank_study_that_is_read(tmp_path):
     assert "title is missing" in done.output
 
 
+@pytest.mark.nightly
 def test_curves_csv_has_every_case(made, results):
     rows = list(csv.DictReader(io.StringIO((made[0] / "out/study/curves.csv").read_text())))
     assert len(rows) == results.curves.mean_m.size
@@ -287,6 +297,7 @@ def test_curves_csv_has_every_case(made, results):
     assert list(rows[0])[3] == "intensity (PPA [g])"
 
 
+@pytest.mark.nightly
 def test_the_workbook_holds_summaries_only(made, results):
     book = load_workbook(made[0] / "out/study/study.xlsx")
     assert book.sheetnames == [
@@ -315,6 +326,7 @@ LIVE = [
 
 
 @pytest.mark.parametrize("name", LIVE)
+@pytest.mark.nightly
 def test_a_name_is_text_in_the_tables_whatever_it_looks_like(results, name):
     plan = results.plan
     buildings = dataclasses.replace(plan.motions, buildings=(name,))
@@ -335,6 +347,7 @@ def test_a_name_is_text_in_the_tables_whatever_it_looks_like(results, name):
     assert {row["building"] for row in rows} == {shown}
 
 
+@pytest.mark.nightly
 def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(other, results):
     """There pelicun and OpenQuake have no measure. Of six motions the largest counts."""
     assert compare(results, 0) == ()
@@ -349,7 +362,7 @@ def test_the_prescriptive_displacement_is_compared_where_the_intensity_is_s_ds(o
     assert export_files(found) == {}
 
 
-@pytest.mark.nightly("report/study/", "solver/studies/")
+@pytest.mark.nightly
 def test_a_family_of_buildings_has_curves_each(other):
     buildings = (StudyBuilding(id="T1", period_s=0.2), StudyBuilding(id="T2", period_s=1.0))
     found = other(
@@ -436,6 +449,7 @@ def with_fit(state, fit, **counts):
 
 # The reader sets an option that its pandas no longer needs.
 @pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")
+@pytest.mark.nightly
 def test_pelicun_reads_the_library(made, results, tmp_path):
     path = made[0] / "out/study/fragility.csv"
     found = load_tabular(path)
@@ -460,6 +474,7 @@ def test_pelicun_reads_the_library(made, results, tmp_path):
 
 # The reader sets an option that its pandas no longer needs.
 @pytest.mark.filterwarnings("ignore::pandas.errors.Pandas4Warning")
+@pytest.mark.nightly
 def test_an_undetermined_state_leaves_the_others_their_names_in_every_file(results, tmp_path):
     fits = Lognormal(theta=0.5, beta=0.1), UNKNOWN, Lognormal(theta=1.5, beta=0.2)
     states = one, _, three = tuple(map(with_fit, results.arrays[0].states, fits))
@@ -483,6 +498,7 @@ def test_an_undetermined_state_leaves_the_others_their_names_in_every_file(resul
 P58 = "seismic/building/component/FEMA P-58 2nd Edition"
 
 
+@pytest.mark.nightly
 def test_the_metadata_have_the_keys_of_fema_p58(made, results):
     ours = json.loads((made[0] / "out/study/fragility.json").read_text())
     theirs = get_metadata(P58, "fragility")
@@ -507,6 +523,7 @@ def test_the_metadata_have_the_keys_of_fema_p58(made, results):
      ({"intensity": Intensity.SA1}, "SA(1.0)", 1.0,
       "SA(1.0) in g is the horizontal spectral acceleration at 1 s with 5 % damping", ROOF)],
 )  # fmt: skip
+@pytest.mark.nightly
 def test_openquake_takes_the_levels_in_its_unit_and_each_file_says_of_which_motion_they_are(
     results, changes, imt, per_unit, said, which
 ):
@@ -523,6 +540,7 @@ def test_openquake_takes_the_levels_in_its_unit_and_each_file_says_of_which_moti
         assert which in text
 
 
+@pytest.mark.nightly
 def test_openquake_has_the_chances_at_every_intensity(made, results):
     names, found = read_nrml((made[0] / "out/study/fragility.xml").read_bytes())
     assert names == ["LS1", "LS2", "LS3"]
@@ -536,6 +554,7 @@ def test_openquake_has_the_chances_at_every_intensity(made, results):
             assert (np.diff(row) >= 0.0).all()
 
 
+@pytest.mark.nightly
 def test_limit_states_that_cross_have_no_negative_chance_between_them(results):
     """OpenQuake's chance of a damage state is the difference of two limit states."""
     one = results.arrays[0]
@@ -548,6 +567,7 @@ def test_limit_states_that_cross_have_no_negative_chance_between_them(results):
     assert first == pytest.approx(np.max(alone, axis=0), abs=1.01e-6)
 
 
+@pytest.mark.nightly
 def test_an_array_whose_runs_are_censored_has_no_chance_of_zero_in_openquake(results):
     """Of a motion without a value it is not known whether it exceeds: 0 of 0 is no chance."""
     one, levels = results.arrays[0], len(results.plan.input.intensities)
@@ -570,6 +590,7 @@ def test_an_array_whose_runs_are_censored_has_no_chance_of_zero_in_openquake(res
     assert "fragility.xml" not in export_files(having(results, lost))
 
 
+@pytest.mark.nightly
 def test_without_arrays_there_is_nothing_to_export(results):
     assert export_files(having(results)) == {}
 
@@ -577,6 +598,7 @@ def test_without_arrays_there_is_nothing_to_export(results):
 # What a user may do to the folder of a study
 
 
+@pytest.mark.quick
 def test_a_study_does_not_replace_its_own_workbook(tmp_path):
     folder = write(tmp_path, small())
     book = (folder / "input.xlsx").rename(folder / "study.xlsx")
@@ -596,6 +618,7 @@ def test_a_study_does_not_begin_in_place_of_a_file(tmp_path):
     assert "is a file, not a folder, and is not written to" in done.output
 
 
+@pytest.mark.nightly
 def test_a_study_does_not_replace_the_results_of_another_workbook(made, tmp_path):
     out = shutil.copytree(made[0] / "out", tmp_path / "out")
     book = (write(tmp_path, small()) / "input.xlsx").rename(tmp_path / "b.xlsx")
@@ -619,6 +642,7 @@ def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monk
     assert list(runs.iterdir()) == []
 
 
+@pytest.mark.nightly
 def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
     warned = dataclasses.replace(results.plan, warnings=(("Mats!B8", "cell B8 is struck through"),))
     table = printed.study(dataclasses.replace(results, plan=warned)).table("Warnings on the")
@@ -629,6 +653,7 @@ def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
 @pytest.mark.parametrize(
     ("censored", "is_known", "has"), [(0, False, True), (2, True, True), (2, False, False)]
 )
+@pytest.mark.quick
 def test_an_array_has_probabilities_where_each_state_has_a_lognormal_or_all_its_runs(
     censored, is_known, has
 ):
@@ -650,6 +675,7 @@ def forged_study(made, tmp_path):
     return planned(made[0])[0], out
 
 
+@pytest.mark.nightly
 def test_runs_that_are_taken_over_are_stated_with_their_dates(made, results):
     """The first study took over nothing; that which went on with its parts says so."""
     today = json.loads((made[0] / "out/study/manifest.json").read_text())["taken_over"]
@@ -665,6 +691,7 @@ def test_runs_that_are_taken_over_are_stated_with_their_dates(made, results):
     assert {"What": "Runs taken over", "Value": told} in sheet_rows(results, "Study")
 
 
+@pytest.mark.nightly
 def test_a_forged_part_is_computed_again_and_the_user_is_told(forged_study, results):
     plan, out = forged_study
     with pytest.warns(
@@ -676,6 +703,7 @@ def test_a_forged_part_is_computed_again_and_the_user_is_told(forged_study, resu
     assert 0 < own["runs"] < found.manifest["rows"]
 
 
+@pytest.mark.nightly
 def test_a_forged_part_is_taken_over_on_the_word_of_the_option_and_every_file_says_so(
     forged_study, results
 ):
@@ -705,6 +733,7 @@ def test_a_forged_part_is_taken_over_on_the_word_of_the_option_and_every_file_sa
 
 
 @pytest.mark.filterwarnings("always::UserWarning")  # the command prints them
+@pytest.mark.nightly
 def test_the_command_takes_forged_parts_over_only_when_told_to(made, tmp_path):
     folder = shutil.copytree(made[0], tmp_path / "job")
     forged(folder / "out/study/runs/part-00000.parquet")

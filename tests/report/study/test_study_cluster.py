@@ -13,7 +13,7 @@ from report.study.parts import begin, done_parts, part_name, run_missing
 from solver.model import InputError
 from studied import KEY, campaign, row_bytes
 
-pytestmark = pytest.mark.filterwarnings("ignore")  # of the cluster's own shut-down
+pytestmark = pytest.mark.filterwarnings("ignore")
 
 
 LOOPBACK = "127.0.0.1:0"
@@ -69,7 +69,7 @@ def test_workers_of_another_version_are_an_error_before_anything_runs(cluster):
     assert "here 0.1" in str(caught.value)
 
 
-@pytest.mark.nightly("report/study/cluster.py")
+@pytest.mark.nightly
 def test_a_study_runs_on_a_cluster(cluster, tmp_path):
     folder = write(tmp_path)
     done = command(folder, "--scheduler", cluster.scheduler_address, "--quiet")

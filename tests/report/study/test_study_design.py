@@ -70,6 +70,7 @@ def test_the_design_displacement_is_that_of_a_package_with_the_same_motions(resu
         assert results.curves.mean_m[0, 1, m, x] == pytest.approx(array.analysis.mean_m, rel=1e-12)
 
 
+@pytest.mark.quick
 def test_the_floor_governs_in_some_cases_and_the_analysis_in_others(results):
     floor = results.plan.design_rule.floor_m
     assert (results.design_m == floor).any()

@@ -2,12 +2,15 @@
 
 import re
 
+import pytest
 from test_study import small
 from test_study_read import write
 
 import printed
 from report.study.run import planned, run_study
 from report.study.schema import Intensity
+
+pytestmark = pytest.mark.quick
 
 CHANGING = (
     (r"Program( \|)? Roofslip.*", "Program <versions>"),

@@ -11,6 +11,8 @@ from test_study_read import command, write
 from report.study.key import KEY_BYTES, state_folder, user_key
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture
 def state(tmp_path, monkeypatch):

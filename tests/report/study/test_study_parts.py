@@ -195,6 +195,7 @@ def test_other_inputs_run_everything_again_and_leave_no_old_part(copy):
     assert full["agreement"].startswith("all parts ran on one processor model")
 
 
+@pytest.mark.quick
 def test_a_file_with_the_name_of_a_part_is_neither_replaced_nor_removed(tmp_path):
     for at, name in enumerate((part_name(0), part_name(99999))):
         folder = tmp_path / str(at) / "runs"
@@ -237,6 +238,7 @@ def test_a_damaged_manifest_or_one_of_another_schema_is_refused(copy, text, want
         run(folder, c)
 
 
+@pytest.mark.quick
 def test_what_determines_the_results_changes_the_identity():
     def identity(seed, *given, **changes):
         return manifest_of(campaign(*given, **changes), {"seed": seed})["identity"]

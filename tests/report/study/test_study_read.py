@@ -125,6 +125,7 @@ def at(text):
      ("1, 1", ()), ("", ()), ("a, b", ()), ("0 to 1 by 0.3", ()), ("0 to 1 by 0", ()),
      ("1 to 0 by 0.1", ()), ("0 to 1 by 0.0001", ()), ("nan", ()), ("0 to inf by 1", ())],
 )  # fmt: skip
+@pytest.mark.quick
 def test_lists_are_read_or_refused(text, wanted):
     found = values(text)
     assert found == wanted or (text == "nan" and len(found) == 1)
@@ -193,6 +194,7 @@ def test_a_latin_hypercube_is_the_same_for_the_same_seed(tmp_path):
     assert len(one.campaign.cases[one.arrays[0].samples]) == 20
 
 
+@pytest.mark.quick
 def test_a_study_workbook_is_told_which_command_reads_it(tmp_path):
     folder = write(tmp_path, given())
     with pytest.raises(InputError, match="run roofslip study"):
@@ -320,6 +322,7 @@ def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
     assert f"warning: {cell}: {text}" in shown.stderr
 
 
+@pytest.mark.quick
 def test_a_mat_shown_in_percent_as_text_is_an_error(tmp_path):
     folder = write(tmp_path)
     name = "Mats/A/Friction coefficient"

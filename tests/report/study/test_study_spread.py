@@ -31,6 +31,7 @@ def like(number, factor):
     return dataclasses.replace(motion(number), scale=factor)
 
 
+@pytest.mark.quick
 def test_scaled_copies_of_a_motion_differ_by_the_spread_of_their_factors():
     factors = (0.5, 1.0, 1.7)
     found = spectral_spread([[like(1, factor) for factor in factors]])
@@ -45,11 +46,13 @@ def test_copies_of_a_motion_are_one_spectrum_and_different_ones_are_not():
     assert not spectral_spread([[motion(k) for k in range(4)]]).is_one_spectrum
 
 
+@pytest.mark.quick
 def test_each_building_has_its_own_motions():
     one, two = [like(1, 1.0), like(1, 1.0)], [like(2, 1.0), like(2, 2.0)]
     assert spectral_spread([one, two]).largest == pytest.approx(np.log(2.0) / math.sqrt(2.0))
 
 
+@pytest.mark.quick
 def test_one_motion_or_a_component_of_zeros_has_no_spread():
     zeros = dataclasses.replace(motion(1), ay_mps2=np.zeros(400))
     beside = dataclasses.replace(motion(2), ay_mps2=motion(3).ax_mps2)
@@ -180,6 +183,7 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions_in_each_
     assert table.cells == (("LS1", "0.300", "0.400", "0.500"),)
 
 
+@pytest.mark.nightly
 def test_a_run_that_exports_nothing_leaves_no_export_of_a_former_one(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "lay_out", str.encode)
     folder = write(tmp_path, given(intensities="0.2 to 2.4 by 0.2"), motions=1)

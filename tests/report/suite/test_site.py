@@ -10,6 +10,7 @@ import commands
 import report.suite.files
 import waves
 from cells import address, cell
+from nightly import by_day
 from packages import unlaid
 from report.results.publish import STAMP
 from report.results.sources import other_sources
@@ -57,6 +58,7 @@ def test_a_target_is_that_of_the_options_or_of_the_workbook(tmp_path, quick, opt
     assert made.exists() != refused
 
 
+@pytest.mark.quick
 def test_a_site_out_of_range_is_told_without_an_option(tmp_path):
     path = type_into(make(tmp_path), {"Site/S_DS": 0.005})
     with pytest.raises(InputError, match=r"^S_DS is 0\.005 g; give"):
@@ -102,6 +104,7 @@ def suite(*words):
     return ("motion", "suite", *words, "--count", 1)
 
 
+@pytest.mark.nightly
 def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
     path = make(tmp_path)
     path.chmod(0o640)
@@ -127,6 +130,7 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
 MADE = "Motions/motion-01/Source"
 
 
+@pytest.mark.nightly
 def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
     commands.printed(*suite(made, "--into", path))
@@ -144,6 +148,7 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
         assert path.read_bytes() == before
 
 
+@pytest.mark.nightly
 def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
     commands.printed(*suite(made, "--into", path))
@@ -166,18 +171,18 @@ def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former
     assert "suite.json" not in commands.run(*anew).stderr
 
 
-@pytest.mark.parametrize(
-    ("source", "is_other"),
-    [
-        ("Generated, seed 1; another code", True),
-        ("AC156, S_DS = 1.2 g", True),
-        ("seed 7", True),
-        ("AC156 at z/h 0.50", True),
-        ("AC156 at S_DS 1.566 g", False),
-        ("by the testing laboratory, 2025", False),
-        (None, False),
-    ],
-)
+SOURCES = [
+    ("Generated, seed 1; another code", True),
+    ("AC156, S_DS = 1.2 g", True),
+    ("seed 7", True),
+    ("AC156 at z/h 0.50", True),
+    ("AC156 at S_DS 1.566 g", False),
+    ("by the testing laboratory, 2025", False),
+    (None, False),
+]
+
+
+@pytest.mark.parametrize(("source", "is_other"), by_day(SOURCES, 1))
 def test_a_source_that_a_person_typed_is_another_by_its_numbers(tmp_path, quick, source, is_other):
     path = make(tmp_path)
     commands.printed(*suite(tmp_path / "made", "--into", path), "--sds", 1.566, "--code", "pv1")
@@ -185,7 +190,7 @@ def test_a_source_that_a_person_typed_is_another_by_its_numbers(tmp_path, quick,
     assert bool(found) == is_other
 
 
-@pytest.mark.parametrize("content", [b"", b"[]", b'{"motions": 1}', b'{"motions": []}'])
+@pytest.mark.parametrize("content", by_day([b"", b"[]", b'{"motions": 1}', b'{"motions": []}'], 1))
 def test_a_suite_json_that_is_of_other_records_or_damaged_says_nothing(tmp_path, quick, content):
     path, made = make(tmp_path), tmp_path / "made"
     commands.printed(*suite(made, "--into", path))

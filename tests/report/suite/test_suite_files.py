@@ -22,9 +22,12 @@ from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS
 from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
 
-pytestmark = pytest.mark.skipif(
-    numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
-)
+pytestmark = [
+    pytest.mark.skipif(
+        numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
+    ),
+    pytest.mark.quick,
+]
 
 AC156 = ("--sds", 1.2, "--code", "asce7-16")
 G = 9.80665
@@ -53,12 +56,14 @@ def records(folder, motion):
     return [read_record(folder / f"motion-{motion:02d}-{axis}.csv", units="g") for axis in "xyz"]
 
 
+@pytest.mark.nightly
 def test_every_file_is_written_and_nothing_else(made):
     names = {f"motion-0{k}-{axis}.csv" for k in (1, 2) for axis in "xyz"}
     assert {path.name for path in made[0].iterdir()} == names | {"suite.json", "suite.png", STAMP}
     assert (made[0] / "suite.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.nightly
 def test_the_files_agree_with_suite_json(made, document):
     freq_hz = 0.1 * 2.0 ** (np.arange(101) / 12.0)
     assert document["seed"] == 5
@@ -90,6 +95,7 @@ def test_the_files_agree_with_suite_json(made, document):
             assert part["grew_from"] == "noise"
 
 
+@pytest.mark.nightly
 def test_the_rows_of_the_acceptance_are_stated(made, document):
     rows = document["acceptance"]
     assert len(rows) == 10
@@ -114,6 +120,7 @@ def test_the_rows_of_the_acceptance_are_stated(made, document):
         assert ours[1]["found"] <= np.mean(spectra, axis=0).min() * (1 + 1e-9)
 
 
+@pytest.mark.nightly
 def test_every_file_states_the_hold_of_its_envelope(made, tmp_path):
     path = made[0] / "motion-01-x.csv"
     assert path.read_text().startswith("# generated; hold of the envelope 20 s\ntime_s,")
@@ -123,6 +130,7 @@ def test_every_file_states_the_hold_of_its_envelope(made, tmp_path):
     assert math.isnan(read_motion_file(plain).hold_s)
 
 
+@pytest.mark.nightly
 def test_the_target_is_that_of_the_code(document):
     target = document["target"]
     across = ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0)
@@ -132,6 +140,7 @@ def test_the_target_is_that_of_the_code(document):
     assert (target["tail"], target["tail_rule"]) == ("AC156", Tail.AC156.sentence)
 
 
+@pytest.mark.nightly
 def test_the_table_states_target_tail_seed_and_the_fit_of_each_component(made):
     lines = made[1].splitlines()
     assert "AC156 with ASCE 7-16, S_DS 1.2 g, z/h 1: A_FLX 1.92 g, A_RIG 1.44 g" in made[1]
@@ -158,12 +167,13 @@ def test_the_same_seed_gives_the_same_bytes_whatever_the_count(made, tmp_path):
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
+@pytest.mark.nightly
 def test_motions_of_an_earlier_suite_never_remain_beside_the_new_ones(made):
     output = run(made[0], *AC156, "--count", 1, exit_code=2)
     assert "motion-02-x.csv and 2 other files of an earlier suite would remain" in output
 
 
-@pytest.mark.nightly("report/suite/files.py", "report/suite/inputs.py")
+@pytest.mark.nightly
 def test_records_seed_the_motions(made, tmp_path):
     x, y, z = (made[0] / f"motion-01-{axis}.csv" for axis in "xyz")
     other = made[0] / "motion-02-x.csv"
@@ -184,6 +194,7 @@ def test_records_seed_the_motions(made, tmp_path):
 
 
 @pytest.mark.parametrize("again", [(), ("--records",)])
+@pytest.mark.nightly
 def test_records_are_listed_or_the_option_is_repeated(made, tmp_path, again):
     first, gone = made[0] / "motion-01-x.csv", tmp_path / "gone.csv"
     words = ("--count", 2, "--records", first, *again, gone)
@@ -219,7 +230,7 @@ def test_too_many_channels_and_every_unreadable_file_are_reported(tmp_path):
     assert problems[2].startswith("a.csv: no such file")
 
 
-@pytest.mark.nightly("report/suite/target_table.py", "report/suite/inputs.py")
+@pytest.mark.nightly
 def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
     workbook = Workbook()
     workbook.active.title = "Site"
@@ -276,6 +287,7 @@ def test_a_folder_that_cannot_be_written_is_reported(tmp_path):
     assert "is a file, not a folder" in run(*words, exit_code=2)
 
 
+@pytest.mark.nightly
 def test_a_component_outside_the_limits_is_counted(made):
     """Motions for 1.2 g, beside the target of 2.4 g."""
     from solver.synthesis.suite import SuiteMotion

@@ -13,6 +13,8 @@ from report.words.units import G_MPS2
 from solver.rules.spectra import Tail
 from waves import PEAK_G
 
+pytestmark = pytest.mark.quick
+
 
 def test_the_files_of_a_suite_say_what_its_samples_are():
     suite = waves.suite(1)

@@ -9,6 +9,8 @@ from openpyxl import Workbook
 from report.suite.target_table import MAX_ROWS, read_target
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 ROWS = [("Period [s]", "Horizontal [g]", "Vertical [g]")] + [
     (period, 1.0 / (1.0 + period), 0.5) for period in (0.02, 0.1, 0.5, 1.0, 4.0)
 ]

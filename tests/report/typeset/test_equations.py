@@ -4,6 +4,8 @@ import pytest
 
 from report.typeset.equations import SIZE_PT, formula, fraction, symbol
 
+pytestmark = pytest.mark.quick
+
 
 def test_a_formula_is_one_outline_without_references():
     made = formula(r"\Delta=\frac{1}{n}\sum_{i=1}^{n}\mathrm{PRD}_i")

@@ -33,18 +33,21 @@ def fonts(tmp_path, monkeypatch):
     return have
 
 
+@pytest.mark.quick
 def test_the_letters_of_a_package_can_be_drawn_without_asking_the_machine(fonts):
     asked = fonts()
     assert undrawable("Alameda Warehouse, 3° slope, ½ in, μ = 0.45 — Łódź, Ωδ") == ""
     assert asked() == 0
 
 
+@pytest.mark.quick
 def test_a_letter_of_a_font_of_the_machine_can_be_drawn(fonts):
     asked = fonts("倉")
     assert undrawable("倉庫倉") == "庫"
     assert asked() == 2
 
 
+@pytest.mark.quick
 def test_without_fontconfig_only_the_letters_of_a_package_can_be_drawn(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     assert undrawable("屋a根屋") == "屋根"

@@ -15,6 +15,8 @@ from report.typeset.finish import LEVEL
 from report.typeset.pdf import lay_out
 from solver.model import DefectError
 
+pytestmark = pytest.mark.quick
+
 
 def page(body):
     return (
@@ -85,6 +87,7 @@ gc.freeze()
 """
 
 
+@pytest.mark.nightly
 def test_a_process_that_laid_out_a_document_ends_without_a_word_and_leaves_no_fonts(tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM, page("<p>a</p>")],

@@ -4,6 +4,8 @@ import pytest
 
 from report.words.counts import capitalized, counted, named, ranged, spelled
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("count", "text"),

@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from report.words.formats import csv_text
 
+pytestmark = pytest.mark.quick
+
 
 def fields(*values):
     return next(csv.reader(io.StringIO(csv_text([values]))))

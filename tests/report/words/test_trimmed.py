@@ -7,6 +7,8 @@ import pytest
 from growth import grows_faster
 from report.words.letters import trimmed
 
+pytestmark = pytest.mark.quick
+
 WIDTHLESS = "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
 
 

@@ -20,6 +20,8 @@ from report.words.units import (
     round_down,
 )
 
+pytestmark = pytest.mark.quick
+
 LENGTHS_M = st.floats(0.01, 20.0)
 
 

@@ -8,6 +8,8 @@ from report.words.validation import NOT_VALIDATED, explained, validation
 from solver.verification.shake_table import compare
 from solver.verification.table_tests import table_tests
 
+pytestmark = pytest.mark.quick
+
 compiled = pytest.mark.skipif(numba.config.DISABLE_JIT, reason="runs of whole records")
 
 

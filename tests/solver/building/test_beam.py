@@ -48,6 +48,7 @@ def finite_elements(alpha0, heights, count=48):
 
 
 @pytest.mark.parametrize("alpha0", ALPHAS[:-2])
+@pytest.mark.quick
 def test_modes_agree_with_finite_elements(alpha0):
     heights = [0.25, 0.5, 0.75, 1.0]
     modes = beam_modes(alpha0, 4, heights)
@@ -139,6 +140,7 @@ def test_factors_of_all_modes_sum_to_one_at_any_height(alpha0):
 
 
 @pytest.mark.parametrize("stories", [1, 2, 3, 8, 40, 100])
+@pytest.mark.quick
 def test_a_shear_building_of_stories_has_its_closed_form(stories):
     modes = story_modes(math.inf, stories)
     angle = (2 * np.arange(1, stories + 1) - 1) * math.pi / (2 * stories + 1)
@@ -184,6 +186,7 @@ def test_a_stiffness_ratio_out_of_range_is_refused(alpha0):
 
 
 @pytest.mark.parametrize("stories", [0, -1, 101])
+@pytest.mark.quick
 def test_stories_out_of_range_are_refused(stories):
     with pytest.raises(InputError, match="whole number from 1 to 100"):
         story_modes(1.0, stories)

@@ -5,6 +5,8 @@ import pytest
 from refused import refused
 from solver.building.periods import APPROXIMATE_PERIODS, FOOT_M, approximate_period_s
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(
     ("system", "height_ft", "period_s"),

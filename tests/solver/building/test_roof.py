@@ -60,6 +60,7 @@ def test_an_oscillator_agrees_with_the_matrix_exponential(ground, period_s, zeta
     assert np.abs(accelerations - expected).max() < 1e-10 * np.abs(expected).max()
 
 
+@pytest.mark.quick
 def test_a_step_gives_the_closed_form():
     dt, w, zeta = 0.01, 7.0, 0.03
     t = np.arange(800) * dt
@@ -235,6 +236,7 @@ def test_all_components_have_one_step_and_one_length(ground):
     np.testing.assert_allclose(roof.vertical_mps2[1:1999:2], between, atol=1e-15)
 
 
+@pytest.mark.quick
 def test_without_vertical_there_is_none_at_the_roof(ground):
     roof = shaking_to_roof([ground], [], 0.01, [building_of_periods([0.5])])
     assert roof.vertical_mps2.size == 0
@@ -365,6 +367,7 @@ class TestWholeMotion:
             assert not mine[alone.a_mps2.size :].any()
         np.testing.assert_array_equal(roof.az_mps2[: noise.size], ground.az_mps2)
 
+    @pytest.mark.quick
     def test_one_building_is_that_of_both_directions(self, noise):
         building = building_of_periods([0.3], stories=1)
         ground = solver.motion(noise, noise, dt_s=0.01)

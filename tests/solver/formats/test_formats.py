@@ -12,6 +12,8 @@ from places import SAMPLES
 from refused import refused
 from solver.formats import read_motion_file
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 # fmt: off
 WAVE = np.array([0.25, -1.5, 12.125, -34.5, 98, -123.456, 77.125, -45.25, 30.5, -20, 15.75, -9.5,

@@ -12,6 +12,8 @@ from solver.formats.motionfile import distinct
 from solver.formats.source import Source
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 SOURCE = Source(name="a.v2", lines=[], units="", dt_s=math.nan)
 

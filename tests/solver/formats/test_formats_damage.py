@@ -9,6 +9,8 @@ from refused import refused
 from solver.formats import read_motion_file
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 # A text without remarks states neither its length nor its channels.
 TEXTS = ["columns.csv", "one.txt", "remark.csv", "uneven.txt"]
 NAMES = sorted({path.name for path in SAMPLES.iterdir()} - {*TEXTS, "README.md"})
@@ -55,7 +57,7 @@ def unnoticed(path, whole, at_lines):
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.nightly("solver/formats/")
+@pytest.mark.nightly
 def test_no_damage_of_a_line_changes_a_record_without_a_word(tmp_path, name):
     count = len((SAMPLES / name).read_bytes().splitlines())
     assert unnoticed(tmp_path / name, SAMPLES / name, range(count)) == []
@@ -141,7 +143,7 @@ def test_a_value_cut_short_or_a_duration_that_is_not_there_is_refused(
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.nightly("solver/formats/")
+@pytest.mark.nightly
 def test_no_cut_within_the_last_value_changes_a_record_without_a_word(tmp_path, name):
     whole = SAMPLES / name
     left = {lost: whole.read_bytes()[:-lost] for lost in range(1, 40)}

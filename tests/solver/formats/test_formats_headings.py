@@ -8,6 +8,8 @@ from solver.formats.headings import Kind, parse, remark, settled, step_in, units
 from solver.records.record import UNITS
 from solver.records.units import UNIT_CHOICES, is_other_unit, unit_size
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 
 

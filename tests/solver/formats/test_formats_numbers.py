@@ -22,6 +22,8 @@ from solver.formats.numbers import (
 from solver.formats.source import Source
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 
 def source(*lines):
     return Source(name="a", lines=list(lines), units="", dt_s=math.nan)

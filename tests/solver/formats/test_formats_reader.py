@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from test_formats import HELD
 
+from nightly import by_day
 from places import RECORDS, ROOT, SAMPLES
 from solver.formats import read_motion_file, read_record
 from solver.model import InputError
@@ -54,6 +55,7 @@ def test_real_records_have_the_step_count_and_peak_of_the_manifest(row):
 
 
 @pytest.mark.parametrize("name", sorted(FORMATS))
+@pytest.mark.quick
 def test_the_content_tells_the_format_whatever_the_name(file, name):
     path = file((SAMPLES / name).read_bytes(), "motion.dat")
     motion_file = read_motion_file(path, **(BARE if name == "one.txt" else {}))
@@ -65,10 +67,12 @@ def test_the_content_tells_the_format_whatever_the_name(file, name):
         assert record.a_mps2.ndim == 1
 
 
+@pytest.mark.quick
 def test_every_sample_is_listed():
     assert {path.name for path in SAMPLES.iterdir()} == {*FORMATS, "README.md"}
 
 
+@pytest.mark.quick
 def test_a_record_is_one_channel_of_a_file():
     record = read_record(SAMPLES / "renadic.v1", channel="chan 2: v (sta chn: 2)")
     (_, expected, _) = read_motion_file(SAMPLES / "renadic.v1").channels
@@ -97,16 +101,15 @@ hostile = settings(max_examples=60, suppress_health_check=[HealthCheck.function_
 @hostile
 @pytest.mark.parametrize("name", sorted(FORMATS))
 @given(data=st.data())
-@pytest.mark.nightly("solver/formats/")
+@pytest.mark.nightly
 def test_a_file_cut_anywhere_is_read_or_refused(file, name, data):
     content = (SAMPLES / name).read_bytes()
     read_or_refuse(file(content[: data.draw(st.integers(0, len(content)))], name))
 
 
 @hostile
-@pytest.mark.parametrize("name", sorted(FORMATS))
+@pytest.mark.parametrize("name", by_day(sorted(FORMATS), 10))
 @given(data=st.data())
-@pytest.mark.by_day(5)
 def test_lines_lost_doubled_or_swapped_are_read_or_refused(file, name, data):
     lines = (SAMPLES / name).read_bytes().split(b"\n")
     index = st.integers(0, len(lines) - 1)

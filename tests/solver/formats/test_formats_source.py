@@ -8,6 +8,8 @@ import pytest
 from refused import refused
 from solver.formats.source import MAX_BYTES, Stated, open_source
 
+pytestmark = pytest.mark.quick
+
 
 def problems_of(path, units="g", dt_s=math.nan):
     return refused(open_source, path, units=units, dt_s=dt_s)

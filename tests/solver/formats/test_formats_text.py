@@ -8,6 +8,8 @@ import pytest
 from refused import refused
 from solver.formats import read_motion_file, read_record
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 
 

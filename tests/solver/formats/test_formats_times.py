@@ -10,6 +10,8 @@ from solver.formats import read_motion_file, read_record
 from solver.formats.source import Source
 from solver.formats.times import LOSS, is_even, sampled
 
+pytestmark = pytest.mark.quick
+
 SOURCE = Source(name="a.csv", lines=[], units="g", dt_s=float("nan"))
 
 

@@ -18,7 +18,7 @@ import test_two_axes_kernel
 from places import ROOT
 from solver.kernels import row
 
-pytestmark = pytest.mark.nightly("solver/kernels/compiler.py")
+pytestmark = pytest.mark.nightly
 
 RUN = (
     "import numpy as np; from solver.kernels import one_axis as kernels; "

@@ -10,6 +10,8 @@ from solver.sliding import two_axes
 from solver.verification.model_checks import stopped_scene
 from solver.verification.plane_scipy import samples_of
 
+pytestmark = pytest.mark.quick
+
 
 def run(scene, substeps, holds):
     rows = samples_of(scene)

@@ -9,6 +9,8 @@ import pytest
 from blocks import SCENES, readonly
 from solver.kernels import one_axis, oscillator
 
+pytestmark = pytest.mark.quick
+
 G = 10.0
 
 
@@ -60,7 +62,7 @@ def run_all(compiled):
     return np.array(numbers, dtype=float)
 
 
-@pytest.mark.nightly("solver/kernels/one_axis.py", "solver/kernels/oscillator.py")
+@pytest.mark.nightly
 def test_compiled_and_plain_kernels_give_the_same_bits():
     np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
 

@@ -8,6 +8,8 @@ import pytest
 from blocks import readonly
 from solver.kernels import oscillator
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3])
 def test_a_sudden_load_overshoots_by_the_textbook_factor(zeta):

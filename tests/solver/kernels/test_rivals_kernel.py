@@ -9,6 +9,8 @@ import pytest
 from blocks import SCENES, readonly
 from solver.kernels import rivals
 
+pytestmark = pytest.mark.quick
+
 G = 10.0
 
 

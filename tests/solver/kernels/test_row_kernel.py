@@ -8,6 +8,8 @@ import pytest
 from blocks import readonly
 from solver.kernels import row
 
+pytestmark = pytest.mark.quick
+
 # Pushes, normal forces, friction and masses of the blocks, stiffness, damping.
 SCENES = [
     ([2.0, 6.0, -7.0, 3.0, 0.0, 0.0], [10.0] * 6, [0.2, 0.5], [1.0, 1.0], 40.0, 2.0),
@@ -35,7 +37,7 @@ def run_all(follow):
     return np.array(numbers, dtype=float)
 
 
-@pytest.mark.nightly("solver/kernels/row.py")
+@pytest.mark.nightly
 def test_compiled_and_plain_kernels_give_the_same_motion():
     """To rounding: the compiler may contract a product and a sum."""
     follow = row.slide_row

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from solver.kernels import one_axis, two_axes
-from uncompiled import assert_every_line_runs
+
+pytestmark = pytest.mark.quick
 
 G = 10.0
 
@@ -76,7 +77,7 @@ def run_all(scenes=SCENES):
     return np.array(numbers, dtype=float)
 
 
-@pytest.mark.nightly("solver/kernels/two_axes.py")
+@pytest.mark.nightly
 def test_compiled_and_plain_kernels_give_the_same_bits(tmp_path):
     """Plain in a process of its own: here, the functions inside would be compiled all the same."""
     if "NUMBA_DISABLE_JIT" in os.environ:
@@ -185,9 +186,3 @@ def test_blocks_passed_over_change_nothing(shaking, sn):
         assert runs[0] == runs[1]
         assert runs[0][0] == two_axes.FOLLOWED
         assert runs[0][3] > 0
-
-
-@pytest.mark.skipif("NUMBA_DISABLE_JIT" in os.environ, reason="this is the run inside the test")
-@pytest.mark.nightly("solver/kernels/two_axes.py")
-def test_every_line_of_the_kernels_is_run_with_the_compiler_off(tmp_path):
-    assert_every_line_runs("solver/kernels/two_axes.py", __file__, tmp_path)

@@ -72,6 +72,7 @@ def spectrum_g(alone):
 
 
 class TestSpectrum:
+    @pytest.mark.quick
     def test_the_points_lie_at_most_1_24_octave_apart_from_end_to_end(self):
         assert POINTS_HZ[[0, 92, -1]] == pytest.approx([0.1, 1.3, 33.3], rel=1e-12)
         assert len(POINTS_HZ) == 93 + 117 - 1
@@ -212,6 +213,7 @@ class TestStrongMotion:
         assert short.missed[-1] is row
 
     @pytest.mark.parametrize(("hold_s", "ok"), [(20.0, True), (19.9, False)])
+    @pytest.mark.quick
     def test_of_generated_motions_the_hold_of_the_envelope_counts(self, hold_s, ok):
         both = [motion("M1"), motion("M2", 2)]
         found = accepted(*both, holds_s=[30.0, hold_s])
@@ -247,6 +249,7 @@ class TestCorrelation:
         assert found.motions[0].correlations["x-y"] == 0.0
 
 
+@pytest.mark.quick
 def test_a_limit_of_the_program_is_one_in_another_process_too():
     made = Limit(title="", found=1.0, limit=1.0, is_at_least=True, provision=PROGRAM)
     assert pickle.loads(pickle.dumps(made)).is_program_limit

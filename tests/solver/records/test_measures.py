@@ -12,6 +12,8 @@ from scipy.interpolate import PPoly
 from solver.records.measures import measures, velocity_displacement
 from solver.records.record import Record
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 
 motions = st.lists(st.floats(-20.0, 20.0, width=16), min_size=2, max_size=30).map(np.array)

@@ -12,6 +12,8 @@ from solver.records.processing import Processing, process, process_together
 from solver.records.record import Record
 from solver.sliding.checked import slide
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 
 

@@ -27,6 +27,7 @@ def made(values, dt_s=0.01):
 
 
 class TestPastedValues:
+    @pytest.mark.quick
     def test_pasted_values_at_fault_are_named_by_their_place(self):
         values = [0.1, None, "0,2", math.nan, 3, True, 10**400]
         problems = refused(record_from_values, "Motions!D", values, units="g", dt_s=0.01)
@@ -143,6 +144,7 @@ class TestSpectrum:
         a = np.full(101, 3.0)
         assert response_spectrum(a, 0.01, [0.2], 0.0) == pytest.approx([6.0], rel=1e-13)
 
+    @pytest.mark.quick
     def test_a_ramp_is_followed_in_closed_form(self):
         # omega^2 u = -r (t - sin(omega t) / omega) without damping.
         t = 0.01 * np.arange(300)
@@ -238,6 +240,7 @@ class TestSpectrum:
             ({"damping": 1.0}, "damping is 1.0; give a fraction from 0 to below 1"),
         ],
     )
+    @pytest.mark.quick
     def test_impossible_arguments_are_refused(self, how, expected):
         arguments = {"a_mps2": [0.0, 1.0], "dt_s": 0.1, "periods_s": [1.0]} | how
         assert refused(response_spectrum, **arguments)[0].startswith(expected)

@@ -13,6 +13,8 @@ from solver.records.scaling import design_spectrum, factor_to_target
 from solver.records.spectrum import response_spectrum
 from solver.rules.spectra import ac156_vertical, target_sa_g
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 LEVEL = partial(target_sa_g, (np.array([0.1, 100.0]), np.array([1.0, 1.0])))
 

@@ -7,6 +7,8 @@ import solver
 from solver import InputError, Record
 from solver.records.spectrum import PERIODS_S, response_spectrum
 
+pytestmark = pytest.mark.quick
+
 PERIODS = [0.0, 0.3, 1.0]
 
 

@@ -52,6 +52,7 @@ def link_at(radians, dt, substeps):
 
 
 @pytest.mark.parametrize("name", METHODS)
+@pytest.mark.quick
 def test_a_method_states_its_facts(name):
     method = METHODS[name]
     assert method.name == name
@@ -258,6 +259,7 @@ def test_errors_of_a_link_fall_with_its_stiffness_below_a_ceiling(noise, name):
         assert errors(noise, 0.01, name, **some).max() < ceiling
 
 
+@pytest.mark.quick
 def test_real_records_are_met_by_every_stepping_method(real_records):
     ax, dt = real_records["Kobe_Japan_1995_KJM-000"]
     ceilings = {"paper": 0.01, "linear": 0.003, **dict.fromkeys(LINKS, 0.01)}
@@ -430,6 +432,7 @@ def test_parameters_at_fault_raise_the_input_error(name, parameters, message):
         slide([0.0, 1.0, 0.0], 0.1, slope_rad=0.0, mu=0.5, method=name, **parameters)
 
 
+@pytest.mark.quick
 def test_whole_numbers_of_any_kind_are_sub_steps(noise):
     scene = {"slope_rad": 0.0, "mu": 0.3, "method": "linear"}
     result, *others = (slide(noise, 0.01, **scene, substeps=p) for p in (8, 8.0, np.int64(8)))

@@ -12,6 +12,8 @@ from solver.rules.hazard import (
 )
 from solver.rules.spectra import ac156_horizontal, ac156_vertical
 
+pytestmark = pytest.mark.quick
+
 E16, E22 = EDITIONS["ASCE 7-16"], EDITIONS["ASCE 7-22"]
 
 

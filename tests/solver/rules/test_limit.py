@@ -6,6 +6,8 @@ import pytest
 
 from solver.rules.limit import MOTIONS, PROGRAM, Limit, Measure
 
+pytestmark = pytest.mark.quick
+
 
 def made(found, limit=20.0, **more):
     return Limit(title="", found=found, limit=limit, **{"is_at_least": True} | more)

@@ -31,6 +31,8 @@ from solver.rules.provisions import (
 from solver.rules.rulesets import ALLOWED
 from solver.rules.spectra import Tail, ac156_horizontal, ac156_vertical
 
+pytestmark = pytest.mark.quick
+
 PV1, A16, A22 = (RULE_SETS[name] for name in ("SEAOC PV1-2012", "ASCE 7-16", "ASCE 7-22"))
 E16, E22 = EDITIONS["ASCE 7-16"], EDITIONS["ASCE 7-22"]
 INCH = 0.0254

@@ -6,6 +6,8 @@ import pytest
 
 from solver.rules.rulesets import ALLOWED, RULE_SETS, Allowed, Confidence, usual
 
+pytestmark = pytest.mark.quick
+
 # Provision, the least and the greatest number allowed, and of those that are usual.
 RANGES = """
 prescriptive_factor_in      1    600   30      120

@@ -7,6 +7,8 @@ import pytest
 from solver.rules.hazard import EDITIONS
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient, site_specific_reason
 
+pytestmark = pytest.mark.quick
+
 E16, E22 = EDITIONS["ASCE 7-16"], EDITIONS["ASCE 7-22"]
 
 

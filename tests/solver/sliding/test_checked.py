@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import oracle
 import solver
 from blocks import trapezoid
+from nightly import by_day
 from solver.model import EventKind, Friction, InputError, Status
 from solver.sliding.checked import slide, slide_history
 from solver.verification import problems
@@ -42,6 +43,7 @@ def assert_agrees(result, exact, floor_m=1e-3):
 
 
 @pytest.mark.parametrize(("amplitude", "mu", "duration"), [(0.4, 0.1, 0.2), (1.0, 0.4, 0.1)])
+@pytest.mark.quick
 def test_a_ramped_pulse_on_a_flat_roof_is_met_to_rounding(amplitude, mu, duration):
     dt, plateau = duration / 20, 20
     expected = problems.pulse_travel(amplitude * G, mu * G, plateau * dt, dt)
@@ -143,9 +145,8 @@ GRID = [
 """Every slope with every friction coefficient, the scale cycling through."""
 
 
-@pytest.mark.parametrize("name", ["Kobe_Japan_1995_KJM-000", "Northridge_1994_RRS-228"])
+@pytest.mark.parametrize("name", by_day(["Kobe_Japan_1995_KJM-000", "Northridge_1994_RRS-228"], 1))
 @pytest.mark.parametrize("with_vertical", [False, True])
-@pytest.mark.by_day(2)
 def test_real_records_agree_with_forty_digits(real_records, name, with_vertical):
     ax, dt = real_records[name]
     other = real_records[name[:-3] + {"000": "090", "228": "318"}[name[-3:]]][0]
@@ -337,6 +338,7 @@ def test_results_of_the_same_run_are_equal_though_one_time_is_nan(noise):
     assert first != "a result"
 
 
+@pytest.mark.quick
 def test_a_history_at_rest_is_zero_with_no_events():
     history = slide_history([0.0, 1.0, 0.0], 0.1, slope_rad=0.0, mu=0.5)
     assert history.events == ()
@@ -526,12 +528,14 @@ def test_every_public_call_checks_a_scene_made_by_hand():
         assert len(error.value.problems) == 2
 
 
+@pytest.mark.quick
 def test_a_solved_scene_has_a_history():
     scene = solver.scene(SWAY, 0.1, slope_rad=0.0, mu=0.1)
     solution = solver.solve(scene)
     assert solver.history(scene, solution).result == solution.result
 
 
+@pytest.mark.nightly
 def test_results_are_short_to_read_and_tables_where_they_are_rows():
     scene = solver.scene([0.0] * 6000, 0.005, slope_rad=0.02, mu=0.5)
     history = solver.slide_history(SWAY, 0.1, slope_rad=0.0, mu=0.1)

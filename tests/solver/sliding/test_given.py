@@ -9,6 +9,8 @@ import pytest
 import solver
 from solver import METHODS, InputError, Model, Motion, Outcome, Record, Settings, Status
 
+pytestmark = pytest.mark.quick
+
 DT_S = 0.01
 SCENE = {"slope_rad": 0.03, "mu": 0.3}
 
@@ -45,6 +47,7 @@ def test_a_motion_is_its_components_with_its_scale(components):
     assert history.result == solver.slide(motion, **SCENE)
 
 
+@pytest.mark.nightly
 def test_a_sweep_takes_a_record_and_a_motion_of_one_axis(components):
     x, _, z = components
     axes = {"slopes_rad": [0.0, 0.03], "mus": [0.2, 0.3], "scales": [0.5, 1.0]}

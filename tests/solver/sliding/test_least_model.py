@@ -12,6 +12,8 @@ from solver.model import Friction, InputError, Status, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.sliding.least_model import Model, Settings, history, solve
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 DT = 0.01
 LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")

@@ -10,6 +10,8 @@ from campaign import campaign, run_pair
 from solver.verification import random_pairs
 from solver.verification.random_pairs import KINDS, pair
 
+pytestmark = pytest.mark.quick
+
 COUNT = 560
 """Pairs of each kind: some 10,000 runs in all."""
 
@@ -19,13 +21,14 @@ def ended():
     return campaign(run_pair, [(kind, index) for kind in KINDS for index in range(COUNT)])
 
 
-@pytest.mark.nightly("solver/kernels/", "solver/sliding/")
+@pytest.mark.nightly
 def test_no_run_hangs_or_crashes_or_has_no_answer(ended):
     assert len(ended) == COUNT * len(KINDS)
     assert [call for call in ended if call.trouble] == []
 
 
 @pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.nightly
 def test_no_pair_differs_by_more_than_its_bounds(ended, kind):
     calls = [call for call in ended if call.arguments[0] == kind]
     assert max(call.outcome.ratio for call in calls) <= 1.0

@@ -7,6 +7,8 @@ import pytest
 
 from solver import Model, Settings, scene, slide, solve
 
+pytestmark = pytest.mark.quick
+
 RUNS = range(60)
 G = 9.80665
 

@@ -42,6 +42,7 @@ def constant(a, seconds, dt=0.01):
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("slope", [0.0, 0.05, -0.1])
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.5])
+@pytest.mark.quick
 def test_a_row_of_one_block_is_the_block_with_vertical_shaking(seed, slope, mu):
     run = shaken(seed, slope)
     result, exact = slide_row(run, BlockRow(mus=(mu,), stiffness_per_s2=1e3)), alone(run, mu)
@@ -138,6 +139,7 @@ def test_friction_ends_a_swing_after_as_many_reversals_as_the_closed_form_has(a,
     assert (result.n_stops, result.status) == (n_stops, Status.OK)
 
 
+@pytest.mark.quick
 def test_a_block_too_steep_to_rest_by_itself_comes_to_rest_on_its_link():
     slope, mu, k = 0.3, 0.1, 50.0
     still = scene(np.zeros(1001), slope=slope)
@@ -176,7 +178,7 @@ def test_the_mirrored_row_under_the_mirrored_motion_goes_the_mirrored_way():
     assert (seen.stretch_m, seen.n_stops) == (result.stretch_m, result.n_stops)
 
 
-@pytest.mark.nightly("solver/kernels/row.py")
+@pytest.mark.nightly
 def test_blocks_that_mirror_each_other_without_a_slope_stop_and_slip_together():
     """Every event of one end is one of the other at the same time."""
     row = BlockRow(mus=(0.3, 0.3, 0.6, 0.6, 0.3, 0.3), stiffness_per_s2=1e3)
@@ -267,7 +269,7 @@ def by_scipy(run, row):
     ],
 )
 @pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.nightly("solver/kernels/row.py", "solver/sliding/row.py")
+@pytest.mark.nightly
 def test_an_adaptive_solver_stopped_at_every_event_gives_the_same_motion(mus, shares, k, c, seed):
     rng = np.random.default_rng(seed)
     ax, az = (np.pad(rng.normal(0.0, peak, 24), (1, 2)) for peak in (6.0, 1.5))
@@ -280,6 +282,7 @@ def test_an_adaptive_solver_stopped_at_every_event_gives_the_same_motion(mus, sh
 # Results and refusals
 
 
+@pytest.mark.nightly
 def test_a_history_ends_where_the_result_does_and_never_leaves_its_peaks():
     run, result = shaken(7), slide_row(shaken(7), MIXED)
     history = row_history(run, MIXED)
@@ -307,6 +310,7 @@ def test_a_row_that_is_given_up_gives_no_number():
     assert result.rigid.status is Status.OK
 
 
+@pytest.mark.quick
 def test_every_fault_of_a_row_is_named():
     bad = BlockRow(mus=(-0.1, 0.3), stiffness_per_s2=math.inf, damping_per_s=-1.0, shares=(1.0,))
     with pytest.raises(InputError) as caught:

@@ -12,6 +12,8 @@ from solver.model import InputError, Status
 from solver.sliding.checked import slide
 from solver.sliding.sweep import STATUSES, order_alike, sweep
 
+pytestmark = pytest.mark.quick
+
 SLOPES = [-0.5, -0.05, 0.0, 0.07]
 FRICTIONS = [0.0, 0.02, 0.3]
 SCALES = [0.0, 0.7, 2.0]

@@ -9,6 +9,8 @@ from blocks import block
 from solver.model import Friction, InputError
 from solver.sliding.tipping import Supports, tipping
 
+pytestmark = pytest.mark.quick
+
 G = 10.0
 
 

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import plane_oracle
+from nightly import nightly
 from places import RECORDS
 from solver.formats.reader import read_motion_file
 from solver.model import EventKind, Friction, Scene, coulomb
@@ -59,6 +60,7 @@ def places(outcome):
 @pytest.mark.parametrize("degrees", [-6.0, 0.0, 4.0])
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.45])
 @pytest.mark.parametrize("with_vertical", [False, True])
+@pytest.mark.quick
 def test_without_transverse_shaking_it_is_the_exact_one_axis_motion(degrees, mu, with_vertical):
     ax, _, az = shaking(1)
     az = az if with_vertical else NONE
@@ -171,6 +173,7 @@ def test_without_friction_it_is_the_record_summed_twice():
     assert outcome.error_m >= 0.5 * (399 * 0.01) ** 2 * G * 2.0**-52
 
 
+@pytest.mark.quick
 def test_a_steep_roof_slides_without_shaking():
     outcome = follow(scene(np.zeros(201), np.zeros(201), 0.01, degrees=25.0, friction=0.3))
     sn, cs = math.sin(math.radians(25.0)), math.cos(math.radians(25.0))
@@ -222,7 +225,6 @@ TRAPS = {
 
 @pytest.mark.parametrize("name", TRAPS)
 @pytest.mark.parametrize("mu", [0.2, 2.0 / G])
-@pytest.mark.by_day(2)
 def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
     exact = plane_oracle.slide(ax, ay, 0.05, slope_rad=0.0, mu=mu, g=G)
@@ -257,8 +259,7 @@ def assert_every_tolerance_is_kept_to(block):
 
 
 @pytest.mark.parametrize(("degrees", "mu"), [(0.0, 0.3), (5.0, 0.4)])
-@pytest.mark.by_day(1)
-@pytest.mark.nightly("solver/kernels/two_axes.py", "solver/sliding/two_axes.py")
+@pytest.mark.nightly
 def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
     ax, ay, az = shaking(7, n=45, dt=0.04)
     assert_every_tolerance_is_kept_to(scene(ax, ay, 0.04, degrees=degrees, friction=mu, az=az))
@@ -268,10 +269,9 @@ def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
     ("name", "degrees", "mu", "scale"),
     [
         ("20161113_110259_WTMC_20.V2A", 4.0, 0.3, 0.4),
-        ("20161113_110300_HSES_20.V2A", 7.0, 0.5, 3.0),
+        nightly(("20161113_110300_HSES_20.V2A", 7.0, 0.5, 3.0)),
     ],
 )
-@pytest.mark.by_day(1)
 def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     if not (RECORDS / name).is_file():
         pytest.skip("the real records are not here; noise covers the same code")
@@ -282,7 +282,7 @@ def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     assert_every_tolerance_is_kept_to(block)
 
 
-@pytest.mark.nightly("solver/sliding/two_axes.py", "solver/kernels/two_axes.py")
+@pytest.mark.nightly
 def test_the_history_is_that_of_scipy_and_its_events_alternate():
     ax, ay, az = shaking(8, n=40, dt=0.04)
     exact = plane_oracle.slide(ax, ay, 0.04, slope_rad=0.05, mu=0.35, az=az, g=G)
@@ -340,6 +340,7 @@ def test_a_motion_and_gravity_scaled_scale_the_answer(seed, mu, scale):
 
 # Events went back by a rounding in these scenes, in one axis or in two.
 @pytest.mark.parametrize("number", [362, 732, 1560, 1828, 3826, 5766, 8325, 9753])
+@pytest.mark.quick
 def test_events_never_go_back_where_the_push_rests_exactly_at_the_limit(number):
     rng = np.random.default_rng([9, number])
     n, dt = rng.integers(4, 14), rng.choice([0.005, 0.01, 0.02, 0.1])

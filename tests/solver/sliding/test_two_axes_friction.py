@@ -8,6 +8,7 @@ import pytest
 from test_two_axes import G, places, readonly, scene, shaking
 
 import plane_oracle
+from nightly import by_day
 from solver.model import Friction, Status, coulomb
 from solver.sliding.two_axes import follow, follow_history
 
@@ -24,6 +25,7 @@ def law_of(friction):
 
 @pytest.mark.parametrize("friction", [GROWING, FALLING])
 @pytest.mark.parametrize("turn", [0.0, 0.7])
+@pytest.mark.quick
 def test_under_a_constant_push_the_speed_follows_its_closed_form(friction, turn):
     # w' = A + B exp(-r w) is linear in exp(r w).
     push, r, dt = 5.0, friction.rate_s_per_m, 0.01
@@ -69,10 +71,7 @@ def test_as_the_difference_vanishes_it_is_coulombs_friction(transverse, sign):
 
 
 # SciPy's steps are short where friction grows: ten times those of the others.
-@pytest.mark.parametrize(
-    "friction", [pytest.param(GROWING, marks=pytest.mark.nightly), BOTH, FALLING, HELD]
-)
-@pytest.mark.by_day(1)
+@pytest.mark.parametrize("friction", by_day([BOTH, FALLING, HELD, GROWING], 1))
 def test_it_is_as_scipy_follows_it(friction):
     ax, ay, az = shaking(12, n=45, dt=0.04, peak=5.0)
     block = scene(ax, ay, 0.04, degrees=2.0, friction=friction, az=az)
@@ -113,6 +112,7 @@ def test_friction_that_turns_within_a_step_is_seen(rate, seed):
 
 @pytest.mark.parametrize("rate", [1.0, 30.0, 200.0])
 @pytest.mark.parametrize("seed", range(4))
+@pytest.mark.quick
 def test_a_stop_under_a_constant_push_counts_the_friction_of_its_speed(rate, seed):
     friction = Friction(mu_slow=0.4, mu_fast=0.6, rate_s_per_m=rate, mu_static=0.4)
     waves = [np.where(np.abs(w) > 4.0, 8.0 * np.sign(w), 0.0) for w in shaking(seed, 50, 0.1)[:2]]
@@ -157,7 +157,7 @@ def nearly_stops(seed):
 
 # At the step of tolerance 1e-3 the PRDs were 16.421 and 11.346 m.
 @pytest.mark.parametrize(("seed", "rough_m"), [(16174, 16.421), (3889, 11.346)])
-@pytest.mark.nightly("solver/kernels/two_axes.py")
+@pytest.mark.nightly
 def test_a_rough_tolerance_does_not_decide_whether_a_block_stops(seed, rough_m):
     block = nearly_stops(seed)
     theirs = plane_oracle.slide(
@@ -216,6 +216,7 @@ def test_an_estimated_error_is_no_less_than_that_to_a_much_finer_run(number):
 
 @pytest.mark.parametrize("friction", [FALLING, HELD, BOTH])
 @pytest.mark.parametrize("peak", [0.5, 8.0])
+@pytest.mark.quick
 def test_an_error_is_never_less_than_rounding(friction, peak):
     ax, ay, az = shaking(12, n=45, dt=0.04, peak=peak)
     for tolerance in (1e-3, 1e-6, 1e-10):

@@ -16,6 +16,8 @@ from places import DATA
 from solver.model import EventKind, Friction, Scene
 from solver.sliding.two_axes import follow, follow_history
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 SCENES = {row["name"]: row for row in json.loads((DATA / "known_motions.json").read_text("utf-8"))}
 

@@ -10,6 +10,8 @@ from solver.model import Status
 from solver.sliding import one_axis
 from solver.sliding.uplift import uplift
 
+pytestmark = pytest.mark.quick
+
 G = 10.0
 
 

@@ -52,7 +52,6 @@ def is_just_below(found, exact):
     [("x", 2.0, 0.3, 0.02), ("x", 0.0, 0.5, 0.01), ("xz", 2.0, 0.4, 0.05), ("xz", 6.0, 0.3, 0.1)],
 )
 @pytest.mark.parametrize("number", range(2))
-@pytest.mark.by_day(1)
 def test_one_axis_capacity_is_the_first_of_a_dense_scan(letters, slope, mu, limit, number):
     curve = curve_of(motion(number, letters), slope, mu)
     found = searched(curve, limit)
@@ -68,6 +67,7 @@ def test_one_axis_capacity_is_the_first_of_a_dense_scan(letters, slope, mu, limi
     assert not single(motion(number, letters), slope, mu, at * (1.0 + 1.1 * ACCURACY)) <= limit
 
 
+@pytest.mark.quick
 def test_two_axes_capacity_is_bracketed_by_single_runs_and_none_before_it_exceeds():
     one = motion(1, "xyz")
     at = searched(curve_of(one, 2.0, 0.4), 0.05).intensity[0]
@@ -137,6 +137,7 @@ def test_slip_begins_where_the_forces_at_a_sample_reach_the_cone(letters, slope,
     assert not found.is_censored[0]
 
 
+@pytest.mark.quick
 def test_a_run_without_a_value_is_an_exceedance_or_censors_its_motion():
     one = motion(1, "xz")
     curve, levels = curve_of(one, 2.0, 0.6), np.linspace(0.5, 12.0, 24)
@@ -179,6 +180,7 @@ def test_the_intensities_of_a_search_are_counted_and_are_no_more_than_is_said(st
 
 
 @pytest.mark.parametrize("most", [0, 1, 3, 5])
+@pytest.mark.quick
 def test_a_search_that_may_run_no_more_takes_the_capacity_from_below(monkeypatch, most):
     monkeypatch.setattr("solver.studies.capacity.MOST_CLOSER", most)
     curve, levels = Formula(lambda x: 0.08 * x * x), np.array([3.0])

@@ -7,6 +7,8 @@ import pytest
 
 from solver.studies.curves import first_allowed, statistics
 
+pytestmark = pytest.mark.quick
+
 NONE = math.nan
 
 

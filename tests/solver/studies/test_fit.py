@@ -8,6 +8,8 @@ import pytest
 from solver.model import InputError
 from solver.studies.fit import DIGITS, fit_prd
 
+pytestmark = pytest.mark.quick
+
 TRUTH = (-2.0, 2.5, -1.2, 0.9, 3.0)
 PPA = 1.3
 

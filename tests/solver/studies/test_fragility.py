@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import minimize
 from scipy.stats import goodness_of_fit, norm
 
+from nightly import by_day
 from solver.studies.capacity import Capacities
 from solver.studies.fragility import (
     fit_lognormal,
@@ -42,6 +43,7 @@ def fitted(found, seed=1):
 
 
 @pytest.mark.parametrize("seed", range(8))
+@pytest.mark.quick
 def test_the_likelihood_of_censored_capacities_is_largest_as_another_optimizer_finds(seed):
     rng = np.random.default_rng(seed)
     found = drawn(rng, 12, 0.3, rng.uniform(0.9, 1.3))
@@ -94,16 +96,14 @@ def held(motions, beta, end, sets):
     return np.mean(inside, axis=0)
 
 
-@pytest.mark.parametrize("beta", [0.05, 0.2, 0.4])
+@pytest.mark.parametrize("beta", by_day([0.05, 0.2, 0.4], 1))
 @pytest.mark.parametrize("motions", [7, 20, 40])
-@pytest.mark.by_day(1)
 def test_the_intervals_hold_the_truth_in_88_to_92_percent_of_sets(motions, beta):
     share = held(motions, beta, math.inf, 2000)
     assert ((share >= 0.88) & (share <= 0.92)).all(), share
 
 
 @pytest.mark.parametrize(("motions", "beyond"), [(7, 0.1), (20, 0.25), (40, 0.25), (40, 0.5)])
-@pytest.mark.by_day(1)
 def test_the_intervals_of_censored_capacities_hold_it_about_as_often(motions, beyond):
     """400 sets: 0.90 within three standard errors of 0.015."""
     share = held(motions, 0.2, math.exp(0.2 * norm.isf(beyond)), 400)
@@ -123,6 +123,7 @@ def test_scaling_the_intensity_scales_the_median_alone():
     assert np.array(two.theta_range) == pytest.approx(3.0 * np.array(one.theta_range), rel=1e-6)
 
 
+@pytest.mark.quick
 def test_a_censored_run_is_in_no_count_and_is_stated():
     found = drawn(3, 45, 0.4)
     exceeds = found.intensity[:, None] <= LEVELS
@@ -167,6 +168,7 @@ def test_the_critical_value_is_where_the_p_value_reaches_5_percent():
     assert lilliefors_p(at, 9) <= 0.05 < lilliefors_p(at * (1.0 - 1e-9), 9) + 1e-4
 
 
+@pytest.mark.quick
 def test_a_set_of_two_groups_is_no_lognormal_and_a_censored_one_has_no_p_value():
     groups = np.concatenate([np.linspace(0.5, 0.51, 10), np.linspace(2.0, 2.02, 10)])
     assert fitted(known(groups)).p_value < 0.001

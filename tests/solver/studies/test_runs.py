@@ -18,6 +18,8 @@ from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
 from solver.verification.scenes import own_records, scale_to
 from studied import INTENSITIES, MUS, SLOPES, campaign, motion
 
+pytestmark = pytest.mark.quick
+
 
 def run_all(c):
     return run_part(Runner(c), slice(0, len(c.cases)))
@@ -86,7 +88,7 @@ def test_a_part_without_vertical_agrees_with_a_sweep():
     np.testing.assert_array_equal(rows.lengths[0, :, 0], swept.prd_m.ravel())
 
 
-@pytest.mark.nightly("solver/studies/runs.py")
+@pytest.mark.nightly
 def test_curves_are_those_of_the_paper_procedure():
     """Figs. 10 to 12: both signs of the slope are both polarities of the record."""
     record = own_records(True)[0]

@@ -7,6 +7,8 @@ from solver.studies import campaign as made
 from solver.studies.campaign import cases_of, grid, joined
 from studied import campaign
 
+pytestmark = pytest.mark.quick
+
 
 def test_a_grid_has_every_combination_once():
     cases = grid(2, [0.0, 0.1], [0.3, 0.4, 0.5], [1.0, 2.0])

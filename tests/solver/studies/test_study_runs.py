@@ -10,6 +10,8 @@ import solver
 from solver import InputError, Model, Status, coulomb
 from solver.studies.curves import statistics
 
+pytestmark = pytest.mark.quick
+
 SLOPES, MUS, LEVELS = [0.0, 0.25], [0.2, 0.3, 0.5], [0.5, 1.0]
 
 

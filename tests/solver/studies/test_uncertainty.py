@@ -17,6 +17,8 @@ from solver.studies.uncertainty import (
     tornado,
 )
 
+pytestmark = pytest.mark.quick
+
 FRICTION, SLOPE = Spread(center=0.5, beta=0.1), Spread(center=2.0, half=0.25)
 
 

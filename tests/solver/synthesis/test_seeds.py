@@ -18,7 +18,7 @@ pytestmark = [
     pytest.mark.skipif(
         numba.config.DISABLE_JIT, reason="each motion takes minutes without compiled kernels"
     ),
-    pytest.mark.nightly("solver/synthesis/", "solver/records/"),
+    pytest.mark.quick,
 ]
 
 G = 9.80665
@@ -42,6 +42,7 @@ def falling(seed):
     return Record(name=f"falling-{seed}", dt_s=0.01, a_mps2=np.append(np.zeros(300), a))
 
 
+@pytest.mark.nightly
 def test_every_component_keeps_to_its_target_and_is_strong_for_long(made):
     for motion in made[1]:
         targets = (HORIZONTAL, HORIZONTAL, VERTICAL)
@@ -57,6 +58,7 @@ def test_every_component_keeps_to_its_target_and_is_strong_for_long(made):
         assert max(map(abs, motion.correlations)) <= 0.3
 
 
+@pytest.mark.nightly
 def test_phases_are_the_records_own_the_first_time_round(made):
     (first, second), (own, later) = made
     assert likeness(own.x, first) > 0.6
@@ -81,6 +83,7 @@ def likeness(made, record):
     return float(cosine.mean(axis=1).mean())
 
 
+@pytest.mark.nightly
 def test_frequencies_follow_one_another_as_in_the_record(made):
     for record in (r for motion in made[1] for r in motion.components):
         early, late = (record.a_mps2[k : k + 1000] for k in (1400, 3800))
@@ -95,6 +98,7 @@ def share_of_high(a):
     return float(power[high].sum() / power[low & ~high].sum())
 
 
+@pytest.mark.nightly
 def test_what_each_component_grew_from_is_told(made):
     own, later = made[1]
     assert own.seeds == ("falling-1", "falling-2", "falling-1, random phases")
@@ -103,13 +107,14 @@ def test_what_each_component_grew_from_is_told(made):
     assert noise.seeds == ("noise", "noise", "noise")
 
 
+@pytest.mark.nightly
 def test_a_motion_of_records_is_the_same_whatever_the_count(made):
     again = make_suite(HORIZONTAL, VERTICAL, count=1, seed=7, records=[made[0]])[0]
     for record, other in zip(again.components, made[1][0].components, strict=True):
         assert np.array_equal(record.a_mps2, other.a_mps2)
 
 
-@pytest.mark.nightly("solver/synthesis/suite.py", "solver/synthesis/seeds.py")
+@pytest.mark.nightly
 def test_phases_of_components_alike_are_turned(made):
     same = made[0][0]
     motion = make_suite(HORIZONTAL, VERTICAL, count=1, seed=1, records=[(same, same, same)])[0]
@@ -136,6 +141,7 @@ def test_a_short_record_stands_in_the_middle_at_the_motions_step():
 
 
 @pytest.mark.parametrize("size", [1e-300, 1e-6, 1e300])
+@pytest.mark.nightly
 def test_the_size_of_a_record_does_not_matter(made, size):
     first = made[0][0]
     sized = Record(name="falling-1", dt_s=0.01, a_mps2=first.a_mps2 * size)

@@ -50,13 +50,7 @@ def counts(record):
     return [round(a) for a in (record.a_mps2 / G * 1e5).tolist()]
 
 
-@pytest.fixture(
-    scope="module",
-    params=[
-        pytest.param(range(3), id="three"),
-        pytest.param(range(10), id="ten", marks=pytest.mark.nightly),
-    ],
-)
+@pytest.fixture(scope="module", params=[range(3), range(10)], ids=["three", "ten"])
 def suites(request):
     return [make_suite(HORIZONTAL, VERTICAL, count=1, seed=seed)[0] for seed in request.param]
 
@@ -67,7 +61,7 @@ def components(suites):
     return [pair for motion in suites for pair in zip(motion.components, targets, strict=True)]
 
 
-@pytest.mark.nightly("solver/synthesis/", "solver/records/")
+@pytest.mark.nightly
 class TestSuite:
     def test_every_component_keeps_to_its_target(self, components):
         # The fit itself is held against another way in `TestFit`.
@@ -77,7 +71,7 @@ class TestSuite:
             assert fit.maximum <= 1.30
             assert 1.0 <= fit.mean <= 1.07
 
-    @pytest.mark.parametrize("count", [2, pytest.param(6, marks=pytest.mark.nightly)])
+    @pytest.mark.parametrize("count", [2, 6])
     def test_no_point_of_a_sixth_of_an_octave_is_below_the_target_wherever_the_first_lies(
         self, components, count
     ):
@@ -89,7 +83,6 @@ class TestSuite:
             assert 1.0 <= ratio.min() < 1.003
             assert ratio.max() <= 1.3
 
-    @pytest.mark.nightly("solver/synthesis/suite.py")
     def test_the_suite_that_failed_between_the_points_keeps_every_row_on_every_grid(self):
         # 1.3 x 2^(k/6) Hz: 4 of 18 components were below the target at 2.6 and 2.92 Hz.
         across, upward = corners(1.6 * 1.7, 0.4 * 1.7 * 2.25 / 1.3), corners(0.67 * 1.7, 0.27 * 1.7)
@@ -150,7 +143,6 @@ class TestSuite:
             assert 19.99 < 0.005 * (strong[1] - strong[0]) < 24.0
             assert energy[400] < 0.02 * energy[-1] > energy[-1] - energy[-401]
 
-    @pytest.mark.nightly
     def test_motion_k_of_a_seed_is_the_same_whatever_the_count(self, suites):
         again = make_suite(HORIZONTAL, VERTICAL, count=2, seed=1)
         for component, other in zip(again[0].components, suites[1].components, strict=True):
@@ -182,7 +174,6 @@ class TestSuite:
 
 class TestSynthesis:
     @pytest.mark.parametrize(("dt_s", "duration_s"), [(0.01, 20.0), (0.0025, 12.0), (0.005, 60.0)])
-    @pytest.mark.by_day(1)
     def test_a_long_period_tail_is_met_at_other_samplings(self, dt_s, duration_s):
         # 1/T beyond 0.77 s, then flat and falling.
         tail = np.array([0.1, 1.0 / 0.77, 8.3, 33.3]), np.array([0.077, 1.0, 1.0, 0.75])
@@ -191,11 +182,13 @@ class TestSynthesis:
         ratio = psa_over(record, tail, BAND)
         assert 0.9 <= ratio.min() <= ratio.max() <= 1.3
 
+    @pytest.mark.nightly
     def test_a_target_that_begins_above_the_band_is_flat_below(self):
         flat = np.array([2.0, 20.0]), np.array([1.0, 1.0])
         record, _ = synthesize(make_frame(flat, 0.01, 20.0), NOISE, rng(1), "flat")
         assert psa_over(record, flat, BAND[:24]) == pytest.approx(1.0, abs=0.1)
 
+    @pytest.mark.nightly
     def test_a_motion_like_another_is_drawn_again(self):
         frame = make_frame(HORIZONTAL, 0.01, 12.0)
         first, again = (synthesize(frame, NOISE, rng(1), "x")[0] for _ in range(2))
@@ -203,6 +196,7 @@ class TestSynthesis:
         second, _ = synthesize(frame, NOISE, rng(1), "x", unlike=(first,))
         assert abs(np.corrcoef(first.a_mps2, second.a_mps2)[0, 1]) <= 0.3
 
+    @pytest.mark.nightly
     def test_a_target_out_of_reach_is_told(self, monkeypatch):
         monkeypatch.setattr(suite, "DRAWS", 2)
         monkeypatch.setattr(target, "LEAST", 1.5)
@@ -226,6 +220,7 @@ class TestSynthesis:
             ({"duration_s": np.inf}, "duration is inf; give from 10 s"),
         ],
     )
+    @pytest.mark.quick
     def test_impossible_arguments_are_refused(self, how, expected):
         usual = {"target": HORIZONTAL, "dt_s": 0.005, "duration_s": 30.0}
         with pytest.raises(InputError, match=expected):
@@ -238,6 +233,7 @@ def record():
 
 
 class TestFit:
+    @pytest.mark.quick
     def test_the_target_is_straight_on_log_log_axes(self):
         # AC156 with A_FLX = 1.6 and A_RIG = 1.2, worked by hand.
         freq_hz = np.array([0.05, 0.1, 0.2, 0.5, 1.0, 1.3, 8.3, 10.0, 15.0, 20.0, 33.3, 60.0])

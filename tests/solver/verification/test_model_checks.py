@@ -10,6 +10,8 @@ from solver.verification import model_checks
 from solver.verification.evidence import SECTIONS
 from solver.verification.triples import own_triples
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def rows():

@@ -22,6 +22,8 @@ from solver.verification.model_evidence import (
 )
 from solver.verification.triples import own_triples, scale_to
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def study():

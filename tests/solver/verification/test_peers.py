@@ -11,6 +11,8 @@ from solver.verification import peers
 from solver.verification.scenes import near_fault_pulse
 from solver.verification.triples import own_triples
 
+pytestmark = pytest.mark.quick
+
 RECORD = near_fault_pulse()
 
 

@@ -14,7 +14,7 @@ from solver.verification.model_checks import stopped_scene
 from solver.verification.scenes import Case
 from solver.verification.triples import cut, own_triples, scene_of
 
-pytestmark = pytest.mark.nightly("solver/kernels/two_axes.py", "solver/verification/")
+pytestmark = pytest.mark.quick
 
 
 def assert_followed(scene):

@@ -8,6 +8,8 @@ import pytest
 from solver.verification import plane_scipy, plane_work
 from solver.verification.triples import own_triples
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def points():

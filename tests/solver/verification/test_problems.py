@@ -12,6 +12,8 @@ from solver.verification.problems import (
     yield_accelerations,
 )
 
+pytestmark = pytest.mark.quick
+
 G = 9.81
 
 

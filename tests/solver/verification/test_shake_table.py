@@ -16,6 +16,8 @@ from solver.verification.checks import G, trapezoid
 from solver.verification.shake_table import compare
 from solver.verification.table_tests import MOST_TESTS, Data, table_tests
 
+pytestmark = pytest.mark.quick
+
 GOOD = ("P1", "computed", "made", "x.csv", "", "", "0", "0.1", "100", "")
 
 

@@ -6,6 +6,8 @@ import pytest
 from solver.verification import stability
 from solver.verification.scenes import near_fault_pulse
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def record():

@@ -8,6 +8,8 @@ from solver.verification import model_study, static_study
 from solver.verification.study import MODEL_CASES, TIGHT
 from solver.verification.triples import own_triples, scene_of
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def evidence():

@@ -9,6 +9,8 @@ from places import RECORDS, SAMPLES
 from solver.verification.scenes import own_records
 from solver.verification.triples import RECORDED, cut, own_triples, recorded_triples, scale_to
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def own():

@@ -13,6 +13,8 @@ from solver.verification import study
 from solver.verification.scenes import Case, near_fault_pulse, scale_to, shortened
 from solver.verification.triples import AS_RECORDED
 
+pytestmark = pytest.mark.quick
+
 X, Y, Z = map(readonly, ([0, 6, -6, 0], [0, 1, 2, 0], [0, 1, -1, 0]))
 MADE = motion(X, Y, Z, dt_s=0.1, id="made")
 

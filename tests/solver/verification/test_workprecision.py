@@ -13,6 +13,8 @@ from solver.rivals.methods import METHODS
 from solver.verification import study, workprecision
 from solver.verification.scenes import CASES, near_fault_pulse, shortened
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.fixture(scope="module")
 def record():
