@@ -91,7 +91,7 @@ def test_every_dependency_is_locked_with_hashes_and_without_addresses():
 
 
 def test_every_dependency_is_imported(tracked):
-    sources = [p.read_text() for p in tracked if p.suffix == ".py" and "tests" not in p.parts]
+    sources = [p.read_text() for p in tracked if p.suffix == ".py" and TESTS not in p.parents]
     lines = {
         line for text in sources for line in re.findall(r"^ *(?:from|import) (\w+)", text, re.M)
     }

@@ -71,11 +71,17 @@ def launcher(tmp_path, name="copy", stamp=""):
     bin_.mkdir(parents=True)
     for file in ("roofslip", "pyproject.toml", "requirements.lock"):
         shutil.copy(ROOT / file, folder)
-    for tool in ("uv", "python"):
+    for tool in TOOLS:
         (bin_ / tool).write_text(NOTING)
         (bin_ / tool).chmod(0o755)
     (folder / ".venv" / ".set-up-from").write_text(stamp)
     return folder
+
+
+TOOLS = (
+    "uv", "python", "apt-get", "ldconfig", "ruff", "codespell", "oxlint", "mypy", "lint-imports",
+    "hadolint", "pytest", "coverage",
+)  # fmt: skip
 
 
 NOTING = """#!/bin/sh
@@ -83,9 +89,11 @@ echo "$(basename -- "$0") $*" >>"$(dirname -- "$0")/seen"
 """
 
 
-def calls_of(folder, program):
+def calls_of(folder, program, *words, status=0):
     path = f"{folder / '.venv' / 'bin'}:{os.environ['PATH']}"
-    subprocess.run([program, "check", "x"], env={"PATH": path}, capture_output=True, check=True)
+    command = [program, *(words or ("check", "x"))]
+    done = subprocess.run(command, env={"PATH": path}, capture_output=True, check=False)
+    assert done.returncode == status, done.stderr
     return (folder / ".venv" / "bin" / "seen").read_text().splitlines()
 
 
@@ -110,6 +118,33 @@ def test_an_environment_that_was_copied_is_made_anew_where_it_is(tmp_path):
     calls = calls_of(other, other / "roofslip")
     assert any(call.startswith("uv venv --quiet --clear") for call in calls)
     assert any(call.endswith(f"-e {other}") for call in calls)
+
+
+@pytest.mark.parametrize(
+    ("words", "chosen"),
+    [
+        ([], "-m not nightly"),
+        (["--quick"], "-m quick and not nightly"),
+        (["-x", "tests/solver"], "-x tests/solver"),
+        (["--nightly", "tests/solver"], "-m nightly tests/solver"),
+    ],
+)
+def test_the_launcher_runs_the_tests_of_a_path_a_day_or_a_minute(tmp_path, words, chosen):
+    folder = launcher(tmp_path)
+    assert calls_of(folder, folder / "roofslip", "test", *words)[-1] == (
+        f"pytest --numprocesses 2 --dist worksteal {chosen}"
+    )
+
+
+@pytest.mark.parametrize("part", ["run", "report", "none"])
+def test_the_night_fails_where_a_test_or_the_coverage_does(tmp_path, part):
+    folder = launcher(tmp_path)
+    coverage = folder / ".venv" / "bin" / "coverage"
+    coverage.write_text(f'{NOTING}[ "$1" != {part} ]\n')
+    calls = calls_of(folder, folder / "roofslip", "test", "--nightly", status=int(part != "none"))
+    done = [call.split()[1] for call in calls if call.startswith("coverage ")]
+    assert done == ["erase", "run", "run", "combine", "report", "report"]
+    assert calls[-1] == "coverage report"
 
 
 def test_the_launcher_takes_nothing_from_where_it_is_called(tmp_path):
