@@ -19,6 +19,8 @@ from places import ROOT
 from report.cli.serve import listen, names_of
 from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER
 
+pytestmark = pytest.mark.quick
+
 WAIT_S = 120.0
 TOKEN = "a-token-of-twenty-letters"
 
@@ -69,6 +71,7 @@ def asked(url, method, **headers):
 
 
 @pytest.mark.parametrize("end", ["SIGTERM", "SIGHUP"])
+@pytest.mark.nightly
 def test_the_server_answers_and_leaves_nothing_behind(tmp_path, end):
     token = tmp_path / "token"
     token.write_text(f"{TOKEN}\n")

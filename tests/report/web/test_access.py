@@ -4,6 +4,8 @@ import pytest
 
 from report.web.access import ENTRY, HEADERS, KEY_HEADER, TOKEN_HEADER, Keys
 
+pytestmark = pytest.mark.quick
+
 FILE = "a-token-of-a-file-with-letters"
 
 

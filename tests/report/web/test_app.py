@@ -51,6 +51,7 @@ def uploads(desk):
     return [each.name for each in desk.folder.glob("upload-*")]
 
 
+@pytest.mark.quick
 def test_a_first_visit_shows_the_example_with_its_answer(client):
     state = state_of(client)
     assert state["project"]["is_example"]
@@ -120,6 +121,7 @@ def test_a_request_that_is_not_one_of_the_page_is_refused(client, body):
     assert error_of(answer).endswith("load the page again")
 
 
+@pytest.mark.quick
 def test_a_form_of_another_page_is_no_request(client):
     assert client.post("/api/assess", data={"values": "{}"}).status_code == 415
 
@@ -132,6 +134,7 @@ def test_a_view_without_its_subject_is_refused_by_name(client, view, missing):
     assert told.startswith(f"The request lacks {missing};")
 
 
+@pytest.mark.nightly
 def test_views_answer_from_the_values_of_the_sliders(client):
     about = {"page": "p", "n": 1, "array": "A2", "motion": "RM6", "values": {}}
     first = client.post("/api/slide", json=about).json()
@@ -150,6 +153,7 @@ def sent(client, files):
     return client.post("/api/upload", files=[("files", file) for file in files])
 
 
+@pytest.mark.nightly
 def test_a_folder_and_its_zip_give_the_same_state(client):
     files = folder_of(EXAMPLE)
     first = sent(client, files).json()
@@ -183,6 +187,7 @@ def test_of_two_uploads_the_last_is_open_whichever_arrives_first(client, monkeyp
     assert state["answer"]["verdict"]["text"] == "NG"
 
 
+@pytest.mark.nightly
 def test_an_upload_that_cannot_be_read_leaves_open_what_was_open(client, desk):
     before = sent(client, folder_of(EXAMPLE)).json()["opened"]
     assert len(sent(client, [("input.xlsx", b"no workbook")]).json()["problems"]) == 1
@@ -253,7 +258,6 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
 
 
 @pytest.mark.parametrize("name", ["assess", "slide", "contour", "paths", "workbook", "package"])
-@pytest.mark.by_day(1)
 def test_a_page_that_shows_another_project_than_is_open_is_told(client, name):
     shown = sent(client, folder_of(EXAMPLE)).json()["opened"]
     body = {"values": {}, "array": "A1", "motion": "RM1"}
@@ -278,6 +282,7 @@ def test_the_workbook_with_the_values_is_read_back_as_what_was_assessed(client, 
     assert shown["friction"].startswith("0.465 (A1, A2)")
 
 
+@pytest.mark.quick
 def test_a_package_is_begun_and_canceled(client):
     package = begun(client, friction=0.9)
     made = package["id"]
@@ -326,6 +331,7 @@ def over(client, made):
     raise AssertionError(about)
 
 
+@pytest.mark.nightly
 def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, desk):
     files = dict(folder_of(EXAMPLE))
     content = files.pop("example/input.xlsx")
@@ -338,6 +344,7 @@ def test_a_package_is_made_from_the_workbook_that_is_open_and_no_other(client, d
     assert about["words"].startswith("Motions!")
 
 
+@pytest.mark.nightly
 def test_a_package_of_a_workbook_that_is_no_longer_open_is_not_begun(client, monkeypatch):
     def meanwhile(workbook, folder):
         client.post("/api/example")
@@ -358,6 +365,7 @@ def test_a_process_that_is_killed_is_replaced(client):
     assert not set(before) & set(active_children())
 
 
+@pytest.mark.nightly
 def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(client, tmp_path):
     assert not state_of(client)["project"]["lacks_clearances"]
     folder = tmp_path / "roof"

@@ -14,6 +14,8 @@ from starlette.routing import Route
 from report.web.access import KEY_HEADER, Access, Keys
 from report.web.connections import MOST, Strangers
 
+pytestmark = pytest.mark.quick
+
 WAIT_S = 10.0
 
 

@@ -198,6 +198,7 @@ def test_where_no_process_starts_no_job_waits_and_the_next_one_is_answered_once_
     assert done(script) == ([LostError], ["b"])
 
 
+@pytest.mark.quick
 def test_an_upload_replaces_the_files_of_the_one_before(tmp_path):
     desk = Desk(tmp_path)
     assert desk.opened == "example"

@@ -13,6 +13,8 @@ from report.web import receiving
 from report.web.access import KEY_HEADER
 from sheets import type_into
 
+pytestmark = pytest.mark.quick
+
 EXAMPLE = ROOT / "projects" / "example"
 
 
@@ -70,6 +72,7 @@ def test_a_request_that_is_too_long_is_refused(client):
     assert client.post("/api/assess", content=long, headers=headers).status_code == 413
 
 
+@pytest.mark.nightly
 def test_a_workbook_that_names_files_of_the_machine_reads_none(client, tmp_path):
     path = tmp_path / "input.xlsx"
     path.write_bytes((EXAMPLE / "input.xlsx").read_bytes())
@@ -94,6 +97,7 @@ def test_static_files_are_those_of_the_page_alone(client, path):
     assert client.get(path).status_code in (404, 405)
 
 
+@pytest.mark.nightly
 def test_no_answer_names_a_folder_of_the_server(client):
     asked = (client.post(f"/api/{name}", json={"values": {}}) for name in ("assess", "workbook"))
     for answer in (sent(client, ("input.xlsx", b"x")), *asked):

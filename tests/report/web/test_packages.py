@@ -13,6 +13,8 @@ from report.web.packages import Packages, State
 from report.web.worker import in_words, made
 from solver.model import DefectError, InputError
 
+pytestmark = pytest.mark.quick
+
 
 class Making(SameProcess):
     """A process that makes a package until it is ended."""

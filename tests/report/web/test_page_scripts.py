@@ -423,6 +423,7 @@ def test_a_subscript_is_set_as_one(page):
     assert words == "S<sub>DS</sub> and F<sub>a</sub> of A<sub>1B</sub>, a_b"
 
 
+@pytest.mark.quick
 def test_no_script_or_page_uses_the_network_or_inline_code():
     for file in STATIC.iterdir():
         text = file.read_text()
@@ -446,6 +447,7 @@ def _contrast(a, b):
 
 
 @pytest.mark.parametrize("theme", [0, 1], ids=["light", "dark"])
+@pytest.mark.quick
 def test_text_has_the_contrast_of_wcag_aa(theme):
     blocks = re.findall(r":root \{(.*?)\}", (STATIC / "style.css").read_text(), re.DOTALL)
     colors = dict(_COLOR.findall(blocks[theme]))

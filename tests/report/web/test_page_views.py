@@ -307,6 +307,7 @@ def test_it_plays_at_a_speed_pauses_and_stops_when_a_slider_moves(page, run):
     assert page.evaluate("asked.length") == 1  # the same values: nothing is asked again
 
 
+@pytest.mark.nightly
 def test_where_motion_is_to_be_reduced_it_goes_from_event_to_event(browser, run):
     with scripts(browser, reduced_motion="reduce") as page:
         page.clock.install()
@@ -456,6 +457,7 @@ def test_a_span_is_enlarged_by_dragging_over_it(page, run):
     assert last - first == pytest.approx(8.0 * 100 / (590 - 46 - 8), abs=0.02)
 
 
+@pytest.mark.nightly
 def test_a_reading_is_that_of_its_sample_in_a_record_of_more_than_the_page_is_wide(page):
     motions = stand_in.motions(1, seconds=20.0)
     data = views.slide(stand_in.assess_input(DATA, motions), "A1", "M1")
@@ -536,7 +538,7 @@ CLIPPED = """() => [...document.querySelectorAll('.view, .panel-head')]
 
 
 @pytest.mark.parametrize("wide", [411, 590, 760])
-@pytest.mark.by_day(1)
+@pytest.mark.nightly
 def test_nothing_of_a_view_is_cut_off_in_any_width_of_the_page(page, run, assessment, wide):
     drawn = {"slide": run, "histories": run}
     drawn |= {name: getattr(views, name)(assessment, "A1") for name in ("contour", "paths")}

@@ -1,8 +1,11 @@
 import math
 
 import numpy as np
+import pytest
 
 from report.web.thinning import beside, peaks_kept
+
+pytestmark = pytest.mark.quick
 
 
 def test_thinning_keeps_the_extremes_of_each_part_and_no_more_than_asked():

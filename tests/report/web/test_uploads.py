@@ -9,6 +9,8 @@ import pytest
 from report.web.uploads import checked, store
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 
 def sent(*names, content=b"x"):
     return [(name, io.BytesIO(content)) for name in names]

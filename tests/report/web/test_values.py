@@ -87,7 +87,7 @@ def rows(table):
         ("school", {"friction": 0.9, "intensity": 1.04, "clearance": 50.0}),
     ],
 )
-@pytest.mark.by_day(1)
+@pytest.mark.nightly
 def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     project, values, tmp_path
 ):
@@ -100,7 +100,6 @@ def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
 
 
 @pytest.mark.parametrize("project", ["example", "school", "conditions"])
-@pytest.mark.by_day(1)
 def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
     given = start(project)
     values = {"friction": 0.87, "slope": 0.3, "intensity": 0.94, "clearance": 2.0}
@@ -110,6 +109,7 @@ def test_the_written_workbook_is_the_model_that_was_assessed(project, tmp_path):
     assert again.sheet.project != given.sheet.project
 
 
+@pytest.mark.quick
 def test_where_no_run_gives_a_displacement_the_page_says_no_value():
     lifted = stand_in.motions(1, seconds=4.0)[0]
     lifted = stand_in.motion("M1", lifted.ax_mps2, 4.0 * lifted.az_mps2, dt_s=0.005)
@@ -155,6 +155,7 @@ def test_a_motion_scaled_to_a_target_keeps_its_factor_when_s_ds_changes(tmp_path
         assert motion.scale == pytest.approx(factor * scale, rel=1e-5)
 
 
+@pytest.mark.quick
 def test_clearances_follow_the_sides_of_the_arrays():
     given = start("example")
     before = given.sheet.project.clearances

@@ -61,6 +61,7 @@ def values(series):
 
 
 @pytest.mark.parametrize("array", ["A1", "A2"])
+@pytest.mark.quick
 def test_a_run_is_that_of_the_solver_to_the_last_bit(usual, array):
     answer = views.slide(usual, array, "M2")
     scene, history = solved(usual, array, "M2", answer["run"])
@@ -176,6 +177,7 @@ def test_in_one_axis_the_forces_are_those_of_the_model(along):
     assert [one["label"][0] for one in answer["runs"]] == ["+", "−"]
 
 
+@pytest.mark.quick
 def test_a_run_that_lifts_off_has_forces_and_no_displacement():
     assessment = made(stand_in.motion("M1", X_MPS2, 3.0 * LONG[0].az_mps2, dt_s=DT_S))
     answer = views.slide(assessment, "A2", "M1")
@@ -199,6 +201,7 @@ def test_a_block_that_never_slips_uses_what_friction_is_demanded():
     assert answer["texts"]["prd"] == "PRD 0.0 in (0 mm) at 0.00 s"
 
 
+@pytest.mark.nightly
 def test_a_slip_that_the_record_cuts_off_ends_with_it():
     assessment = made(stand_in.motion("M1", X_MPS2[:1800:2]))
     answer = views.slide(assessment, "A2", "M1")
@@ -261,6 +264,7 @@ def test_paths_are_those_of_the_governing_runs_and_keep_their_peaks(usual):
         (("A1", "M1", "up"), "there is no run 'up'; choose one of record +"),
     ],
 )
+@pytest.mark.quick
 def test_what_the_project_does_not_have_is_named_with_what_it_has(usual, asked, found):
     with pytest.raises(InputError, match=found.replace("+", r"\+")):
         views.slide(usual, *asked)

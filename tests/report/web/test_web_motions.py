@@ -44,6 +44,7 @@ def test_a_workbook_with_motions_or_none_at_all_is_not(tmp_path):
     assert not perform({"do": "state", "workbook": str(path)})["answer"]["lacks_motions"]
 
 
+@pytest.mark.nightly
 def test_motions_are_made_into_the_copy_and_its_zip(tmp_path, monkeypatch):
     told = []
 
@@ -77,6 +78,7 @@ def test_a_site_that_lacks_a_value_is_told_with_its_cell(tmp_path, monkeypatch):
     assert path.read_bytes() == before
 
 
+@pytest.mark.nightly
 def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(client, tmp_path):
     path = without_motions(tmp_path, **{"Rule set": None})
     files = [("files", ("p/input.xlsx", path.read_bytes()))]
@@ -93,6 +95,7 @@ def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(cli
     assert client.post("/api/motions", files=[("files", ("../x.xlsx", b""))]).status_code == 422
 
 
+@pytest.mark.quick
 def test_a_suite_that_is_being_made_ends_where_another_project_is_opened(client, tmp_path):
     files = [("files", ("p/input.xlsx", without_motions(tmp_path).read_bytes()))]
     made = client.post("/api/motions", files=files).json()["id"]
