@@ -6,10 +6,7 @@ A template that is given the data of a package calls it `p`. Owns no content.
 
 from __future__ import annotations
 
-import hashlib
 import math
-import os
-import sys
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
@@ -38,7 +35,7 @@ from report.words.letters import below_mm, lettered, power_above
 from report.words.units import digits_down, digits_up, number, ratio
 
 if TYPE_CHECKING:
-    from jinja2 import BytecodeCache, Environment
+    from jinja2 import Environment
     from jinja2.runtime import Context
 
 
@@ -74,8 +71,6 @@ def _environment(folder: Path) -> Environment:
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
-        optimized=False,  # or what a filter gave of a constant would be kept with the code
-        bytecode_cache=_kept_code(Path(__file__)),
     )
     environment.filters |= {
         "below_mm": below_mm,
@@ -112,20 +107,6 @@ def _environment(folder: Path) -> Environment:
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
     environment.globals |= {"fraction": fraction, "headed": headed, "rows": _rows}
     return environment
-
-
-def _kept_code(module: Path) -> BytecodeCache | None:
-    """Return where compiled templates are kept, as Python keeps the code of this module.
-
-    By the hash of the module, which says how templates are compiled; that of the template is kept.
-    """
-    from jinja2 import FileSystemBytecodeCache
-
-    folder = module.with_name("__pycache__")
-    if sys.dont_write_bytecode or not os.access(folder, os.W_OK):
-        return None
-    how = hashlib.sha256(module.read_bytes()).hexdigest()[:12]
-    return FileSystemBytecodeCache(str(folder), f"template-{how}-%s.cache")
 
 
 SHORT_LETTERS = 64

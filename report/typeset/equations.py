@@ -10,7 +10,6 @@ import re
 import warnings
 from dataclasses import dataclass
 from functools import cache
-from xml.etree import ElementTree
 
 from markupsafe import Markup, escape
 
@@ -21,7 +20,6 @@ WIDE_PT = 175.0  # of a page 482 pt wide
 _SIZE = re.compile(r'<svg [^>]*?width="([\d.]+)" height="([\d.]+)" viewBox="([-\d. ]+)"')
 _PATH = re.compile(r'<path d="([^"]+)"')
 _BAR = re.compile(r"<rect [^>]+>")
-_MATH, _ROW = (f"{{http://www.w3.org/1998/Math/MathML}}{tag}" for tag in ("math", "mrow"))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,25 +85,9 @@ def _typeset(latex: str) -> str:
         # On import, ziamath loads its font through a deprecated Python interface.
         warnings.simplefilter("ignore", DeprecationWarning)
         from ziamath.config import config
-        from ziamath.tex import tex2mml
-        from ziamath.zmath import Math
+        from ziamath.zmath import Latex
     config.svg2 = False  # inline outlines: reused symbols cost the page much more
-    markup = ElementTree.fromstring(tex2mml(latex))
-    _unwrap(markup)
-    return str(Math(markup, size=SIZE_PT).svg())
-
-
-def _unwrap(node: ElementTree.Element) -> None:
-    """Remove rows of MathML that group nothing: of one node, and one that is all of its parent.
-
-    The picture is the same, but each row that holds another one doubles the time of what it holds.
-    """
-    for at, below in enumerate(list(node)):
-        _unwrap(below)
-        if below.tag == _ROW and len(below) == 1:
-            node[at] = below[0]
-    if node.tag == _MATH and len(node) == 1 and node[0].tag == _ROW:
-        node[:] = list(node[0])
+    return str(Latex(latex, size=SIZE_PT).svg())
 
 
 def _bar(tag: str) -> list[str]:

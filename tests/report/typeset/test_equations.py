@@ -1,8 +1,4 @@
-import re
-
-import pytest
-
-from report.typeset.equations import SIZE_PT, formula, fraction, symbol
+from report.typeset.equations import formula, fraction, symbol
 
 pytestmark = pytest.mark.quick
 
@@ -28,26 +24,6 @@ def test_a_formula_knows_its_size():
 
 def test_a_formula_is_made_once():
     assert formula(r"G\leq\mu N") is formula(r"G\leq\mu N")
-
-
-@pytest.mark.parametrize(
-    "latex",
-    [
-        "N",
-        r"\mathrm{PRD}_i",
-        r"\overline{\Delta}=\frac{1}{n}\sum_{i=1}^{n}x_i",
-        r"m\dot{\mathbf{v}}=\mu\,\frac{\mathbf{v}}{\left|\mathbf{v}\right|},\quad S_{DS}",
-        r"S_a=\mathrm{min}\left(S_{DS},\ \frac{S_{D1}T_L}{T^2}\right)",
-    ],
-)
-def test_rows_that_group_nothing_are_left_out_and_change_no_outline(latex):
-    made = formula(latex)
-    from ziamath.zmath import Latex  # warns where it is imported first
-
-    as_typeset = Latex(latex, size=SIZE_PT).svg()
-    size = re.findall(r'(?:width|height)="([\d.]+)"', as_typeset)[:2]
-    assert [made.width_pt, made.height_pt] == [float(length) for length in size]
-    assert all(path in made.svg for path in re.findall(r'<path d="([^"]+)"', as_typeset))
 
 
 @pytest.mark.parametrize(
