@@ -35,6 +35,7 @@ def test_it_offers_every_public_name():
             assert getattr(roofslip, name) is getattr(package, name), name
 
 
+@pytest.mark.nightly
 def test_a_file_beside_a_notebook_hides_neither_package(tmp_path):
     for name in ("solver", "report"):
         (tmp_path / f"{name}.py").write_text("raise SystemExit('the wrong one')\n")

@@ -131,6 +131,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.nightly
 def test_nor_does_a_worker_which_works_in_that_folder(stranger, tmp_path):
     script = tmp_path / "script.py"
     script.write_text(WORKER)

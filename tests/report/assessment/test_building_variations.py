@@ -14,6 +14,8 @@ from report.entities.evidence import variation_result
 from solver import at_roof, building_of_periods
 from solver.sliding.least_model import DEFAULT
 
+pytestmark = pytest.mark.quick
+
 T1_S, T2_S, FACTOR = 0.5, 0.16, 1.4
 BUILDING = {"period_s": T1_S, "period_2_s": T2_S, "damping_percent": 3.0}
 GROUND = scenes.motions(3, peak_g=0.5)
@@ -97,6 +99,5 @@ def test_seven_motions_take_the_statistic_of_their_mean():
         assert value.value_m == pytest.approx(1.1 * value.mean_m)
 
 
-@pytest.mark.quick
 def test_without_ground_motions_no_building_is_varied():
     assert building_variations(scenes.package().assessment) == ()

@@ -256,6 +256,7 @@ def test_a_distance_is_rounded_down_in_the_unit_of_its_column(tmp_path, units, g
     assert row.provided_m / step_m == pytest.approx(round(row.provided_m / step_m), abs=1e-6)
 
 
+@pytest.mark.nightly
 def test_a_column_in_feet_gets_no_more_than_the_plan_has(tmp_path):
     path = edit(make(tmp_path, **BARE), lambda book: put(
         book, {"Clearances/heading/Provided clearance": "Provided clearance [ft]"}))  # fmt: skip
@@ -312,6 +313,7 @@ def test_motions_may_be_missing_and_nothing_else(tmp_path):
     assert "Motions!" not in output
 
 
+@pytest.mark.nightly
 def test_bare_edges_and_overlaps_are_said_and_not_written(tmp_path):
     inside = roof_object("IN", "edge without parapet", 30, 40, 20, 30)
     roof = sides(15, 300, 0, 120)
@@ -352,6 +354,7 @@ def test_a_name_or_a_date_alone_confirms_nothing(tmp_path, given, lacks):
     )
 
 
+@pytest.mark.nightly
 def test_check_names_the_pairs_without_a_row_before_any_run(tmp_path):
     path = make(tmp_path, **BARE)
     sheet = read(path)

@@ -131,7 +131,8 @@ def unplaced(given, row):
     return {given.sheet.addresses[Place("objects", index, side)]: None for side in SIDES}
 
 
-@pytest.mark.parametrize("name", by_day(PROJECTS, 1))
+@pytest.mark.parametrize("name", PROJECTS)
+@pytest.mark.nightly
 def test_a_value_that_is_required_satisfies_as_it_is_printed(altered, name):
     path = altered(*PROJECTS[name])
     given, book = assessed(path), load_workbook(path)

@@ -46,6 +46,7 @@ def test_check_as_json_has_a_schema_version_findings_and_errors(tmp_path):
     assert document["errors"][0].startswith("no such file")
 
 
+@pytest.mark.nightly
 def test_check_alone_says_that_a_package_is_dated_in_the_future(tmp_path):
     issue = project().project.model_dump() | {"date": dt.date(9999, 1, 1)}
     folder = make(tmp_path, project=issue)

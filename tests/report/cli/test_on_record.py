@@ -39,6 +39,7 @@ def confirmed(folder: Path, **changes) -> Path:
 
 
 @pytest.mark.parametrize("name", [name for name in SHIPPED if name != "study"])
+@pytest.mark.quick
 def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
     sheet = read(ROOT / "projects" / name)
     hashes = prepare(sheet).hashes

@@ -115,6 +115,7 @@ def test_an_outline_is_replaced_by_the_one_that_is_drawn_now(tmp_path):
     assert data.arrays[1].x_from_m is None
 
 
+@pytest.mark.nightly
 def test_formulas_and_all_other_parts_stay(tmp_path):
     path = make(tmp_path, clearances=[])
     weight = "Arrays/A1/Weight"
@@ -152,6 +153,7 @@ def test_a_row_of_totals_with_no_blank_row_above_it_is_told(tmp_path):
     assert f"{row}: the table has a row of totals, and no blank row above it" in output
 
 
+@pytest.mark.nightly
 def test_layers_of_the_workbook_name_what_is_drawn(tmp_path):
     path = make(tmp_path, clearances=[], layers=[{"layer": "PV", "kind": "array"}])
     sketch = Sketch()
@@ -227,6 +229,7 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     assert "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) at 17° to the" in again
 
 
+@pytest.mark.nightly
 def test_without_the_sheet_layers_the_plan_is_filled_in_and_the_layers_are_not_kept(tmp_path):
     path = make(tmp_path, clearances=[])
     edit(path, lambda book: book.remove(book["Layers"]))

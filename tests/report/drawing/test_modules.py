@@ -18,6 +18,8 @@ from sheets import blank, edit, make, retitle
 from sketch import Sketch, plan
 from solver.model import InputError
 
+pytestmark = pytest.mark.quick
+
 LONG, SHORT = 2.0, 1.1
 ROW, COLUMN = 0.4, 0.02
 """Gaps between the rows and the columns of modules [m]."""
@@ -141,7 +143,6 @@ def counts(found):
         (3, (LONG, 0.4), {"A1": None, "A2": None, "A3": None}),  # narrower than a module
     ],
 )
-@pytest.mark.quick
 def test_few_rectangles_and_those_of_other_sizes_are_arrays(tmp_path, columns, size, wanted):
     sketch = Sketch(unit="m")
     grid(sketch, columns, 1, size=size)
@@ -182,7 +183,6 @@ def test_an_array_takes_its_name_from_a_text_inside_that_is_its_own(tmp_path):
     assert found.unread == ()
 
 
-@pytest.mark.quick
 def test_modules_are_counted_once_in_blocks_with_inner_lines(tmp_path):
     sketch = Sketch(unit="m")
     block = sketch.document.blocks.new("MODULE")
@@ -249,7 +249,6 @@ def test_modules_that_are_turned_to_each_other_are_arrays_of_their_own(tmp_path)
     ]  # fmt: skip
 
 
-@pytest.mark.quick
 def test_more_rectangles_at_one_place_than_modules_are_refused(tmp_path):
     sketch = Sketch(unit="m")
     for k in range(40):
@@ -266,6 +265,7 @@ def ran(*words, exit_code=0):
     return done.output
 
 
+@pytest.mark.nightly
 def test_the_count_of_modules_is_filled_in_and_the_rule_said(tmp_path):
     path, book = layout().saved(tmp_path), blank(tmp_path / "input.xlsx")
     output = ran("read", path, book, "--gap", 18, "in")

@@ -10,7 +10,6 @@ import shapely
 import scenes
 import stand_in
 from inputs import HEAD, sides
-from nightly import nightly
 from places import ROOT
 from plans import SMALL
 from printed import printed
@@ -200,10 +199,11 @@ def test_the_small_plan_has_numbers_without_leaders_across_arrays():
     [
         (PlanPaper.BY_SIZE, True, (17.0, 11.0)),
         (PlanPaper.BY_SIZE, False, (420 / 25.4, 297 / 25.4)),
-        nightly((PlanPaper.A3, True, (420 / 25.4, 297 / 25.4))),
-        nightly((PlanPaper.LETTER, True, (11.0, 8.5))),
+        (PlanPaper.A3, True, (420 / 25.4, 297 / 25.4)),
+        (PlanPaper.LETTER, True, (11.0, 8.5)),
     ],
 )
+@pytest.mark.nightly
 def test_the_sheet_of_the_plan_is_as_large_as_the_roof_needs_or_as_asked(
     tmp_path, paper, us_first, size_in
 ):

@@ -17,6 +17,8 @@ from report.pages.symbols import SYMBOLS
 from report.typeset.pdf import lay_out
 from solver.rules.limit import Consequence
 
+pytestmark = pytest.mark.quick
+
 MOTIONS = scenes.motions(3, seconds=4.0)
 
 
@@ -32,7 +34,6 @@ def html():
         return stand_in.html(stand_in.book(data, MOTIONS))
 
 
-@pytest.mark.quick
 def test_the_cover_says_that_large_records_are_left_out():
     done = scenes.package().assessment
     large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
@@ -42,6 +43,7 @@ def test_the_cover_says_that_large_records_are_left_out():
     assert rows["Verification"].endswith(scenes.package().fingerprint)
 
 
+@pytest.mark.nightly
 def test_the_letter_is_one_page():
     """Only the letter and the parts around it are laid out."""
     arrays = [stand_in.array(f"A{k}", 0.5, x=90 * k) for k in range(12)]
@@ -70,7 +72,6 @@ def test_the_letter_is_one_page():
          "conditions."),
     ],
 )  # fmt: skip
-@pytest.mark.quick
 def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_severe, text):
     done = scenes.package().assessment
     row = done.conditions[0]
@@ -81,7 +82,6 @@ def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_seve
     assert printed(replace(done, rows=rows), "letter").line(text)
 
 
-@pytest.mark.quick
 def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_counted():
     done = scenes.package().assessment
     (row, *_) = done.conditions

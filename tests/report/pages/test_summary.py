@@ -31,6 +31,7 @@ def test_a_clearance_without_a_verdict_is_counted_beside_what_is_ng():
     assert page.line("NG ").endswith("; without a verdict: 1 of 1 clearance.")
 
 
+@pytest.mark.nightly
 def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok():
     weak = with_values(opened(ROOT / "projects/school"), {"intensity": 0.32, "together": "no"})
     done = assess(weak.sheet, weak.shaking)

@@ -320,6 +320,7 @@ def test_the_field_in_place_of_which_another_one_is_put_is_missed_though_it_is_s
     assert any("another object" in text for text in found(content).problems)
 
 
+@pytest.mark.nightly
 def test_another_title_that_came_with_a_signature_is_found(sign, updated, found):
     def change(writer):
         info = writer.trailer["/Info"]

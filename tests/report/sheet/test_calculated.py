@@ -33,6 +33,7 @@ CALCULATE = "calculate it (F9; in LibreOffice Ctrl+Shift+F9) and save it"
 MANUAL = b'calcId="191029" calcMode="manual" calcCompleted="0"'
 
 
+@pytest.mark.quick
 def test_formulas_that_manual_calculation_left_are_named(saved):
     first, second = typed(saved)
     assert told(saying(saved, MANUAL)) == [

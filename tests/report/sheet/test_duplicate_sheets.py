@@ -37,6 +37,7 @@ def test_the_warning_names_the_sheet_that_is_read_whatever_its_title(tmp_path):
 
 
 @pytest.mark.parametrize("title", ["Site", "Options"])
+@pytest.mark.nightly
 def test_a_sheet_of_several_parts_is_named_once(tmp_path, title):
     ((name, _, _),) = told(edit(make(tmp_path), lambda book: copied(book, title)))
     assert name == f"copy {title} Copy"

@@ -119,6 +119,7 @@ def test_nothing_is_read_from_the_answers(tmp_path):
     assert after.echo == before.echo
 
 
+@pytest.mark.nightly
 def test_rare_columns_are_folded_until_one_is_filled(tmp_path):
     empty = load_workbook(blank(tmp_path / "blank.xlsx"))
     rare = column(empty, "High-velocity friction")

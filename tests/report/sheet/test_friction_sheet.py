@@ -112,6 +112,7 @@ def test_one_run_in_one_condition_is_compared_too(tmp_path):
     )
 
 
+@pytest.mark.nightly
 def test_an_array_that_names_a_report_is_compared_with_that_report(tmp_path):
     other = [run("wet", k, 0.30, report="FT-9") for k in (1, 2, 3)]
     tests = {"friction_tests": REPORT, "friction_runs": [*runs(), *other]}

@@ -13,19 +13,19 @@ from report.web.problems import problems
 from sheets import at, make, said, type_into
 from solver.model import InputError, Problem
 
+pytestmark = pytest.mark.quick
+
 IS_WET, NUMBER = "friction coefficient is 'wet'", "give a number from 0 to 1.5"
 WRONG = f"{IS_WET}; {NUMBER}"
 OTHER = "weight is 0; give a number of more than 0 [lb]"
 
 
-@pytest.mark.quick
 def test_1500_equal_errors_are_one_line_with_their_count():
     (line,) = grouped(Problem(IS_WET, NUMBER, f"Arrays!E{row}") for row in range(8, 1508))
     assert line.line == f"Arrays!E8, Arrays!E9, Arrays!E10 and 1,497 more: {WRONG}"
     assert line.cells[-1] == "E1507"
 
 
-@pytest.mark.quick
 def test_errors_that_differ_stay_apart_in_their_order():
     given = [
         Problem("no such file"),
@@ -69,7 +69,6 @@ def test_the_page_shows_what_was_typed_whole_with_a_semicolon_in_it(tmp_path):
     assert (found["found"], found["remedy"]) == ("friction coefficient is 'wet; dry'", NUMBER)
 
 
-@pytest.mark.quick
 def test_a_problem_without_a_cell_names_its_sheet_on_the_page_and_in_a_line(tmp_path):
     error = InputError([Problem("one row is given", "give two", "Spectrum"), "no file; give one"])
     found = problems(tmp_path / "none.xlsx", error)
@@ -80,6 +79,7 @@ def test_a_problem_without_a_cell_names_its_sheet_on_the_page_and_in_a_line(tmp_
     assert pickle.loads(pickle.dumps(error)).parts == error.parts
 
 
+@pytest.mark.nightly
 def test_the_page_shows_the_cells_with_the_row_of_the_first(tmp_path):
     cells = said(*WET)
     path = type_into(make(tmp_path), WET)

@@ -202,6 +202,7 @@ def test_equal_findings_are_one_line_with_a_count():
     assert (note_of_two.cells, note_of_two.names) == ("cell 0, cell 1", "")
 
 
+@pytest.mark.nightly
 def test_an_acknowledgment_of_no_warning_is_a_note_at_its_cell(tmp_path):
     rows = [{"warning": "wieght A1", "reason": "Frames alone"}]
     cell, text = at("Acknowledged/1/Warning"), "warning is 'wieght A1', which is not given;"

@@ -95,6 +95,7 @@ def test_a_cluster_without_workers_is_an_error():
         ("nowhere://x", "--scheduler nowhere://x"),
     ],
 )
+@pytest.mark.nightly
 def test_a_cluster_that_cannot_be_reached_is_an_error_before_anything_runs(
     tmp_path, monkeypatch, address, wanted
 ):

@@ -262,6 +262,7 @@ def test_the_printed_column_of_the_design_displacement_is_rounded_up(results):
     assert column == [design_length(results, v) for v in wanted]
 
 
+@pytest.mark.nightly
 def test_the_printed_formula_has_the_stated_error_in_every_case_fitted(tmp_path):
     found = run(tmp_path, slopes_deg="0 to 6 by 1", mus="0.2, 0.3", intensities="0.2 to 2.4 by 0.2")
     text = printed.study(found).replace("−", "-")

@@ -10,7 +10,6 @@ import commands
 import report.suite.files
 import waves
 from cells import address, cell
-from nightly import by_day
 from packages import unlaid
 from report.results.publish import STAMP
 from report.results.sources import other_sources
@@ -104,7 +103,6 @@ def suite(*words):
     return ("motion", "suite", *words, "--count", 1)
 
 
-@pytest.mark.nightly
 def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
     path = make(tmp_path)
     path.chmod(0o640)
@@ -130,7 +128,6 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
 MADE = "Motions/motion-01/Source"
 
 
-@pytest.mark.nightly
 def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
     commands.printed(*suite(made, "--into", path))
@@ -148,7 +145,6 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
         assert path.read_bytes() == before
 
 
-@pytest.mark.nightly
 def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
     commands.printed(*suite(made, "--into", path))
@@ -171,18 +167,19 @@ def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former
     assert "suite.json" not in commands.run(*anew).stderr
 
 
-SOURCES = [
-    ("Generated, seed 1; another code", True),
-    ("AC156, S_DS = 1.2 g", True),
-    ("seed 7", True),
-    ("AC156 at z/h 0.50", True),
-    ("AC156 at S_DS 1.566 g", False),
-    ("by the testing laboratory, 2025", False),
-    (None, False),
-]
-
-
-@pytest.mark.parametrize(("source", "is_other"), by_day(SOURCES, 1))
+@pytest.mark.parametrize(
+    ("source", "is_other"),
+    [
+        ("Generated, seed 1; another code", True),
+        ("AC156, S_DS = 1.2 g", True),
+        ("seed 7", True),
+        ("AC156 at z/h 0.50", True),
+        ("AC156 at S_DS 1.566 g", False),
+        ("by the testing laboratory, 2025", False),
+        (None, False),
+    ],
+)
+@pytest.mark.nightly
 def test_a_source_that_a_person_typed_is_another_by_its_numbers(tmp_path, quick, source, is_other):
     path = make(tmp_path)
     commands.printed(*suite(tmp_path / "made", "--into", path), "--sds", 1.566, "--code", "pv1")
@@ -190,7 +187,8 @@ def test_a_source_that_a_person_typed_is_another_by_its_numbers(tmp_path, quick,
     assert bool(found) == is_other
 
 
-@pytest.mark.parametrize("content", by_day([b"", b"[]", b'{"motions": 1}', b'{"motions": []}'], 1))
+@pytest.mark.parametrize("content", [b"", b"[]", b'{"motions": 1}', b'{"motions": []}'])
+@pytest.mark.nightly
 def test_a_suite_json_that_is_of_other_records_or_damaged_says_nothing(tmp_path, quick, content):
     path, made = make(tmp_path), tmp_path / "made"
     commands.printed(*suite(made, "--into", path))
@@ -213,6 +211,7 @@ def test_a_suite_outside_the_folder_of_the_workbook_is_refused(tmp_path, quick, 
     assert {entry.name for entry in (tmp_path / "p").iterdir()} == {"input.xlsx", "link", "records"}
 
 
+@pytest.mark.nightly
 def test_where_a_file_cannot_be_written_nothing_changes(tmp_path, quick, files_up_to):
     path = make(tmp_path)
     before = path.read_bytes()

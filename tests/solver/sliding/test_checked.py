@@ -146,7 +146,7 @@ GRID = [
 
 
 @pytest.mark.parametrize("name", by_day(["Kobe_Japan_1995_KJM-000", "Northridge_1994_RRS-228"], 1))
-@pytest.mark.parametrize("with_vertical", [False, True])
+@pytest.mark.parametrize("with_vertical", by_day([False, True], 1))
 def test_real_records_agree_with_forty_digits(real_records, name, with_vertical):
     ax, dt = real_records[name]
     other = real_records[name[:-3] + {"000": "090", "228": "318"}[name[-3:]]][0]

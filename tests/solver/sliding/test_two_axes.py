@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import plane_oracle
-from nightly import nightly
+from nightly import by_day
 from places import RECORDS
 from solver.formats.reader import read_motion_file
 from solver.model import EventKind, Friction, Scene, coulomb
@@ -223,7 +223,7 @@ TRAPS = {
 }
 
 
-@pytest.mark.parametrize("name", TRAPS)
+@pytest.mark.parametrize("name", by_day(TRAPS, 3))
 @pytest.mark.parametrize("mu", [0.2, 2.0 / G])
 def test_traps_are_followed_as_scipy_follows_them(name, mu):
     ax, ay = TRAPS[name]
@@ -269,9 +269,10 @@ def test_every_tolerance_is_kept_to_and_the_bound_holds(degrees, mu):
     ("name", "degrees", "mu", "scale"),
     [
         ("20161113_110259_WTMC_20.V2A", 4.0, 0.3, 0.4),
-        nightly(("20161113_110300_HSES_20.V2A", 7.0, 0.5, 3.0)),
+        ("20161113_110300_HSES_20.V2A", 7.0, 0.5, 3.0),
     ],
 )
+@pytest.mark.nightly
 def test_every_tolerance_is_kept_to_on_real_records(name, degrees, mu, scale):
     if not (RECORDS / name).is_file():
         pytest.skip("the real records are not here; noise covers the same code")

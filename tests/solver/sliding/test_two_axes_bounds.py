@@ -21,6 +21,8 @@ from solver.sliding.least_model import Model
 from solver.sliding.two_axes import follow
 from solver.verification.random_pairs import finer, pair, rounding
 
+pytestmark = pytest.mark.quick
+
 G = 9.80665
 SCENES = json.loads((DATA / "two_axes.json").read_text("utf-8"))
 
@@ -48,6 +50,7 @@ def places(outcome):
     return np.array([outcome.prd_m, *sides, *outcome.end_m])
 
 
+@pytest.mark.nightly
 def test_scenes_that_hung_crashed_or_took_20_s_end():
     groups = ("hang", "crash", "slow")
     calls = [(g, number, tol) for g in groups for number in every(g) for tol in (1e-2, 1e-6, 1e-10)]
@@ -58,7 +61,6 @@ def test_scenes_that_hung_crashed_or_took_20_s_end():
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6, 1e-8])
 @pytest.mark.parametrize("group", ["hang", "over_the_bound", "onset_of_friction_by_speed"])
-@pytest.mark.quick
 def test_scenes_that_broke_the_bound_keep_to_it(group, tolerance):
     for number in every(group):
         block = scene(group, number)
@@ -186,7 +188,6 @@ def frictionless(ax, ay, dt):
     )
 
 
-@pytest.mark.quick
 def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
     # N = 1e-9 g: the series of the speed comes to zero where the block has millimeters a second.
     weightless = np.full(4, -G * (1.0 - 1e-9))
@@ -254,7 +255,6 @@ def test_the_second_axis_of_scenes_that_lost_it_is_modelled():
         assert solution.result.prd_m == pytest.approx(expected, rel=1e-4)
 
 
-@pytest.mark.quick
 def test_too_many_steps_are_no_number(monkeypatch):
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS", 10)
     monkeypatch.setattr("solver.sliding.two_axes._MOST_STEPS_OF_SAMPLE", 0)

@@ -9,6 +9,7 @@ import pytest
 from scipy import signal
 
 from modal import psa_g
+from nightly import by_day
 from solver.formats import read_motion_file, read_record
 from solver.model import InputError, Motion
 from solver.records.acceptance import acceptance
@@ -173,7 +174,9 @@ class TestSuite:
 
 
 class TestSynthesis:
-    @pytest.mark.parametrize(("dt_s", "duration_s"), [(0.01, 20.0), (0.0025, 12.0), (0.005, 60.0)])
+    @pytest.mark.parametrize(
+        ("dt_s", "duration_s"), by_day([(0.01, 20.0), (0.0025, 12.0), (0.005, 60.0)], 1)
+    )
     def test_a_long_period_tail_is_met_at_other_samplings(self, dt_s, duration_s):
         # 1/T beyond 0.77 s, then flat and falling.
         tail = np.array([0.1, 1.0 / 0.77, 8.3, 33.3]), np.array([0.077, 1.0, 1.0, 0.75])
