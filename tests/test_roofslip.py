@@ -169,3 +169,13 @@ def test_the_launcher_takes_nothing_from_where_it_is_called(tmp_path):
     assert set(called(1)) == {f"{tmp_path}: no path"}
     assert set(called(0)[:-1]) == {f"{tmp_path}: no path"}
     assert called(0)[-1] == f"{here}: no path"
+
+
+@pytest.mark.parametrize("tool", ["ruff", "oxlint", "mypy", "lint-imports"])
+def test_what_a_linter_finds_ends_the_tests(tmp_path, tool):
+    folder = launcher(tmp_path)
+    calls_of(folder, folder / "roofslip", "test")
+    failing = folder / ".venv" / "bin" / tool
+    failing.write_text(f"{NOTING}exit 1\n")
+    before = len(calls_of(folder, folder / "roofslip", "test", status=1))
+    assert calls_of(folder, folder / "roofslip", "test", status=1)[before:][-1].startswith(tool)

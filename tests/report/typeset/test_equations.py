@@ -1,3 +1,5 @@
+import pytest
+
 from report.typeset.equations import formula, fraction, symbol
 
 pytestmark = pytest.mark.quick
