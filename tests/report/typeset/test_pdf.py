@@ -1,17 +1,15 @@
-"""The PDF of a document: each stream compressed once, broken markup refused, nothing left."""
+"""The PDF of a document: broken markup refused, nothing left."""
 
 import io
 import os
 import subprocess
 import sys
-import zlib
 from xml.etree import ElementTree
 
 import pytest
 from pypdf import PdfReader
 
 from report.typeset.equations import data_uri
-from report.typeset.finish import LEVEL
 from report.typeset.pdf import lay_out
 from solver.model import DefectError
 
@@ -24,30 +22,6 @@ def page(body):
         " src: url('shipped:/fonts/SourceSans3-Regular.ttf') } p { font-family: 'Source Sans 3' }"
         f"</style></head><body>{body}</body></html>"
     )
-
-
-def test_streams_of_a_document_are_compressed_once(monkeypatch):
-    once: list[bytes] = []
-    compress = zlib.compress
-
-    def counted(data: bytes, level: int) -> bytes:
-        assert level == LEVEL
-        once.append(data)
-        return compress(data, level)
-
-    monkeypatch.setattr(zlib, "compress", counted)
-    others: list[int] = []
-    compressor = zlib.compressobj
-
-    def opened(level: int):
-        others.append(level)
-        return compressor(level)
-
-    monkeypatch.setattr(zlib, "compressobj", opened)
-    assert b"One page of text" not in lay_out(page("<p>One page of text.</p>"))
-    assert len(set(once)) == len(once) >= 3  # the page, its color profile and a font
-    # The list of objects for the identifier and in the file; their places.
-    assert len(others) == 3
 
 
 def test_broken_markup_is_an_error_and_not_mended():
