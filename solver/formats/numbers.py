@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -31,9 +32,6 @@ _FORTRAN = str.maketrans("dD", "eE")
 
 COMPARED, _ENOUGH = 50, 5
 """Last values whose digits are compared, and how many of them show how a file writes numbers."""
-
-_PORTION = 10_000
-"""Lines whose fields are in memory at once."""
 
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
@@ -97,9 +95,13 @@ def fixed_values(source: Source, block: Block, layout: FieldFormat) -> Floats:
     _check_enough(source, block)
     last = min(block.first + layout.lines(block.count), block.stop)
     rows = [line.rstrip() for line in source.lines[block.first : last]]
-    values = _fixed_fast(rows, block.count, layout)
-    if values is None:
-        values = _slowly(source, block, rows, layout)
+    numbers = list(rows)  # up to the last line that has one
+    while numbers and all(map(_problem, _cut(numbers[-1], layout))):
+        numbers.pop()
+    problems = partial(_fixed_problems, source, block, numbers, layout)
+    values = _values(numbers, lambda row: _cut(row, layout), problems())
+    if len(values) != block.count or any(layout.fields(r) != layout.per_line for r in numbers[:-1]):
+        raise_any(problems())
     _check_no_more(source, block, last)
     raise_any(_cut_lines(source, block, rows, layout))
     return values
@@ -111,49 +113,19 @@ def fixed_rows(source: Source, block: Block, layout: FieldFormat) -> Floats:
     Ignores `block.count`.
     """
     rows = [line.rstrip() for line in source.lines[block.first : block.stop]]
-    values = None
-    if all(len(row) <= layout.per_line * layout.width for row in rows):
-        text = "".join(row.ljust(layout.width * layout.fields(row)) for row in rows)
-        values = _converted(text, layout.width)
-    if values is None:
-        values = _row_by_row(source, block, rows, lambda row: _cut(row, layout))
-    return values
+    return _row_by_row(source, block, rows, lambda row: _cut(row, layout))
 
 
 def free_values(source: Source, block: Block) -> Floats:
     """Values of all lines of a block, separated by blanks; their number must be that stated."""
     _check_enough(source, block)
     rows = source.lines[block.first : block.stop]
-    values = _free_fast(rows)
-    if values is None:
-        values = _row_by_row(source, block, rows, _apart)
+    values = _row_by_row(source, block, rows, _apart)
     if len(values) != block.count:
         raise InputError(_wrong_count(source, block, len(values)))
     written = [row for row in rows if row.strip()][-COMPARED:]
-    _check_last(source, block, _fields(written))
+    _check_last(source, block, _apart(" ".join(written).translate(_FORTRAN)))
     return values
-
-
-def _free_fast(rows: Sequence[str]) -> Floats | None:
-    """Values separated by blanks, or None if one is not a finite number.
-
-    Read in portions: the fields of a whole file take ten times its size.
-    """
-    parts = [np.empty(0)]
-    for begin in range(0, len(rows), _PORTION):
-        fields = _fields(rows[begin : begin + _PORTION])
-        try:
-            values = np.array([float(field) for field in fields if "_" not in field])
-        except ValueError:
-            return None
-        if len(values) != len(fields) or not (np.abs(values) < BEYOND).all():
-            return None
-        parts.append(values)
-    return np.concatenate(parts)
-
-
-def _fields(rows: Sequence[str]) -> list[str]:
-    return _apart(" ".join(rows).translate(_FORTRAN))
 
 
 def _check_last(source: Source, block: Block, fields: Sequence[str]) -> None:
@@ -240,30 +212,6 @@ def _check_enough(source: Source, block: Block) -> None:
         raise InputError(f"{source.at(block.promised)}: states {values}; give at least 2")
 
 
-def _fixed_fast(rows: Sequence[str], count: int, layout: FieldFormat) -> Floats | None:
-    if len(rows) != layout.lines(count) or not rows:
-        return None
-    full = layout.per_line * layout.width
-    tail = (count - (len(rows) - 1) * layout.per_line) * layout.width
-    if max(map(len, rows)) > full or len(rows[-1]) > tail:
-        return None
-    text = "".join([*(row.ljust(full) for row in rows[:-1]), rows[-1].ljust(tail)])
-    return _converted(text, layout.width)
-
-
-def _converted(text: str, width: int) -> Floats | None:
-    """Values of a sequence of fields of one width, or None if one is not a finite number."""
-    # numpy and Python accept an underscore between digits.
-    if not text or not text.isascii() or "_" in text:
-        return None
-    try:
-        fields = np.frombuffer(text.translate(_FORTRAN).encode(), dtype=f"S{width}")
-        values: Floats = fields.astype(np.float64)
-    except ValueError:
-        return None
-    return values if (np.abs(values) < BEYOND).all() else None
-
-
 def _cut(row: str, layout: FieldFormat) -> list[str]:
     return [row[i : i + layout.width].strip() for i in range(0, len(row), layout.width)]
 
@@ -272,18 +220,7 @@ def _padded(fields: Sequence[str], layout: FieldFormat) -> list[str]:
     return [*fields, *[""] * layout.per_line][: layout.per_line]
 
 
-def _slowly(source: Source, block: Block, rows: Sequence[str], layout: FieldFormat) -> Floats:
-    """Read a block that has an error row by row, to report all its errors."""
-    # The values end with the last line that has a number.
-    count = len(rows)
-    while count and all(map(_problem, _cut(rows[count - 1], layout))):
-        count -= 1
-    rows = rows[:count]
-    raise_any(_slow_problems(source, block, rows, layout))
-    return np.array([_number(field) for row in rows for field in _cut(row, layout)])
-
-
-def _slow_problems(
+def _fixed_problems(
     source: Source, block: Block, rows: Sequence[str], layout: FieldFormat
 ) -> Iterator[str]:
     count = 0
@@ -301,20 +238,31 @@ def _slow_problems(
 def _row_by_row(
     source: Source, block: Block, rows: Sequence[str], split: Callable[[str], list[str]]
 ) -> Floats:
-    raise_any(
+    problems = (
         problem
         for number, row in enumerate(rows)
         for problem in _field_problems(source, block.first + number, split(row))
     )
-    return np.fromiter((_number(field) for row in rows for field in split(row)), np.float64)
+    return _values(rows, split, problems)
+
+
+def _values(
+    rows: Sequence[str], split: Callable[[str], list[str]], problems: Iterable[str]
+) -> Floats:
+    """Values of the fields of rows; the problems are looked for where one may be no number."""
+    try:
+        fields = (field for row in rows for field in split(row.translate(_FORTRAN)))
+        values = np.fromiter(map(float, fields), np.float64)
+    except ValueError:
+        values = np.array([math.nan])
+    is_plain = all(row.isascii() and "_" not in row for row in rows)  # or Python takes 1_0 as 10
+    if not (is_plain and (np.abs(values) < BEYOND).all()):
+        raise_any(problems)
+    return values
 
 
 def _problem(field: str) -> str:
     return field_problem(field) if field_problem(field.translate(_FORTRAN)) else ""
-
-
-def _number(field: str) -> float:
-    return float(field.translate(_FORTRAN))
 
 
 def _field_problems(source: Source, index: int, fields: Iterable[str]) -> Iterator[str]:
