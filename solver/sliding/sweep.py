@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 from solver.kernels import one_axis
 from solver.kernels.compiler import THREADS
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Status, coulomb
-from solver.records.frames import dataset
 from solver.records.record import Record
 from solver.rivals.methods import NO_RECORD
 from solver.sliding.arguments import (
@@ -32,7 +31,6 @@ from solver.sliding.arguments import (
 
 if TYPE_CHECKING:
     import pandas as pd
-    import xarray as xr
 
 STATUSES = (Status.OK, Status.SLIDING_AT_END, Status.UPLIFT)
 """Meaning of the numbers in `Sweep.status`."""
@@ -70,25 +68,12 @@ class Sweep:
         import pandas as pd
 
         axes = (self.slopes_rad, self.mus, self.scales)
+        words = np.array([status.value for status in STATUSES])[self.status]
+        columns = {"prd_m": self.prd_m, "residual_m": self.residual_m, "status": words}
         return pd.DataFrame(
-            {name: values.ravel() for name, values in self._columns().items()},
+            {name: values.ravel() for name, values in columns.items()},
             index=pd.MultiIndex.from_product(axes, names=("slope_rad", "mu", "scale")),
         )
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the results as a dataset with the axes `slope_rad`, `mu` and `scale`.
-
-        Raises
-        ------
-        ImportError
-            Where xarray is not installed.
-        """
-        axes = {"slope_rad": self.slopes_rad, "mu": self.mus, "scale": self.scales}
-        return dataset(axes, self._columns())
-
-    def _columns(self) -> dict[str, NDArray[Any]]:
-        words = np.array([status.value for status in STATUSES])[self.status]
-        return {"prd_m": self.prd_m, "residual_m": self.residual_m, "status": words}
 
 
 def sweep(

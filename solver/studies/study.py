@@ -11,14 +11,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError, Motion, Status
-from solver.records.frames import dataset
 from solver.sliding.least_model import Model
 from solver.sliding.sweep import axis
 from solver.studies.campaign import Campaign, grid
@@ -28,7 +27,6 @@ from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 
 if TYPE_CHECKING:
     import pandas as pd
-    import xarray as xr
 
     from solver.studies.fragility import Fragility
 
@@ -129,39 +127,14 @@ class StudyRuns:
         axes = (self.slopes_rad.tolist(), self.mus.tolist(), self.intensities.tolist(), self.runs)
         rows = [(*case, *run) for *case, run in product(*axes)]
         names = ("slope_rad", "mu", "intensity", "motion", "orientation")
-        return pd.DataFrame(
-            {name: values.ravel() for name, values in self._columns().items()},
-            index=pd.MultiIndex.from_tuples(rows, names=names),
-        )
-
-    def to_xarray(self) -> xr.Dataset:
-        """Return the runs with the axes `slope_rad`, `mu`, `intensity`, `run`.
-
-        `motion` and `orientation` are coordinates of `run`.
-
-        Raises
-        ------
-        ImportError
-            Where xarray is not installed.
-        """
-        motion, orientation = zip(*self.runs, strict=True)
-        axes = {
-            "slope_rad": self.slopes_rad,
-            "mu": self.mus,
-            "intensity": self.intensities,
-            "run": np.arange(len(self.runs)),
-        }
-        made = dataset(axes, self._columns())
-        return made.assign_coords(
-            motion=("run", list(motion)), orientation=("run", list(orientation))
-        )
-
-    def _columns(self) -> dict[str, NDArray[Any]]:
-        words = {
+        columns = dict(zip(LENGTHS, self.lengths, strict=True)) | {
             "status": np.array([status.value for status in STATUSES])[self.status],
             "model": np.array([model.title for model in Model])[self.model],
         }
-        return dict(zip(LENGTHS, self.lengths, strict=True)) | words
+        return pd.DataFrame(
+            {name: values.ravel() for name, values in columns.items()},
+            index=pd.MultiIndex.from_tuples(rows, names=names),
+        )
 
 
 def study(

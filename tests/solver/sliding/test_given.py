@@ -162,19 +162,10 @@ def test_labeled_arrays_are_those_of_the_sweep(components):
     pytest.importorskip("xarray")
     axes = {"slopes_rad": [0.0, 0.03], "mus": [0.2, 0.3, 0.4], "scales": [1.0]}
     swept = solver.sweep(components[0], **axes)
-    made = swept.to_xarray()
+    made = swept.to_frame().to_xarray()
     assert dict(made.sizes) == {"slope_rad": 2, "mu": 3, "scale": 1}
     np.testing.assert_array_equal(made["prd_m"].values, swept.prd_m)
     assert float(made["prd_m"].sel(slope_rad=0.03, mu=0.3, scale=1.0)) == swept.prd_m[1, 1, 0]
-    frame = made.to_dataframe()
-    assert frame["status"].tolist() == swept.to_frame()["status"].tolist()
-
-
-def test_without_xarray_it_is_said_what_to_install(components, monkeypatch):
-    monkeypatch.setitem(__import__("sys").modules, "xarray", None)
-    swept = solver.sweep(components[0], slopes_rad=[0.0], mus=[0.3], scales=[1.0])
-    with pytest.raises(ImportError, match="pip install xarray"):
-        swept.to_xarray()
 
 
 PULSE_G = [0.0, 0.4, -0.4, 0.0, 0.0, 0.0]

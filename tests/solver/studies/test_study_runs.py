@@ -105,15 +105,6 @@ def test_a_table_has_a_row_for_each_run(runs):
     assert row["model"] == Model(runs.model[at]).title
 
 
-def test_labeled_arrays_are_the_same(runs):
-    pytest.importorskip("xarray")
-    made = runs.to_xarray()
-    chosen = made.sel(slope_rad=0.25, mu=0.3, intensity=0.5)
-    chosen = chosen.where(chosen["motion"] == "both", drop=True)
-    assert chosen["prd_m"].values.tolist() == runs.lengths[0, 1, 1, 0, 3:].tolist()
-    assert made["orientation"].values[0] == "record +"
-
-
 def test_what_is_no_study_is_refused(motions):
     with pytest.raises(InputError, match="motions is empty"):
         solver.study([], slopes_rad=[0.0], mus=[0.3])
