@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from report.cli.groups import SectionedGroup
-from report.cli.terminal import AS_JSON, SOURCE, Progress, UnitChoice, input_errors, plain, say_next
+from report.cli.terminal import AS_JSON, SOURCE, UNITS, Progress, input_errors, plain, say_next
 from report.cli.values import TIME_STEP, Number
 from report.words.command import called
 from report.words.counts import numbered
@@ -43,7 +43,7 @@ def motion() -> None:
 def _reading(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options for reading a file."""
     options = (
-        click.option("--units", type=UnitChoice(),
+        click.option("--units", type=UNITS,
                      help="Units, if the file does not state them."),
         click.option("--dt", "dt_s", type=TIME_STEP, default=math.nan,
                      help="Time step, if the file has none."),

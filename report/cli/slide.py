@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.cli.terminal import AS_JSON, UnitChoice, input_errors
+from report.cli.terminal import AS_JSON, UNITS, input_errors
 from report.cli.values import TIME_STEP, Number
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ velocity-dependent friction."""
 )
 @click.option("--factor", type=Number(), help="Scale all components by this factor.")
 @click.option("--dt", type=TIME_STEP, help="Time step, if the record has no time column.")
-@click.option("--units", type=UnitChoice(),
+@click.option("--units", type=UNITS,
               help="Units of the records, if the files do not state them.")  # fmt: skip
 @click.option("--model", type=click.Choice(MODELS), help="Run this model instead of the simplest "
               "adequate one.")  # fmt: skip

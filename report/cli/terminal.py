@@ -19,7 +19,6 @@ import time
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from functools import cached_property
 from pathlib import Path
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO
@@ -38,19 +37,8 @@ if TYPE_CHECKING:
 SOURCE = click.Path(path_type=Path)
 
 
-class UnitChoice(click.Choice[str]):
-    """Units of acceleration of a file; `solver`, slow to import, is imported when they are used."""
-
-    def __init__(self) -> None:
-        self.case_sensitive = True
-
-    @cached_property
-    def choices(self) -> tuple[str, ...]:  # type: ignore[override]  # it is writable
-        """As in `solver.records.units`."""
-        from solver.records.units import UNIT_CHOICES
-
-        return UNIT_CHOICES
-
+UNITS = click.Choice(("g", "m/s2", "cm/s2", "mm/s2", "gal"))
+"""Of acceleration, of a file: `solver.records.units.UNIT_CHOICES`, which is slow to import."""
 
 QUIET_SECONDS = 1.0
 TIMED_SECONDS = 2.0

@@ -93,11 +93,6 @@ class RowResult:
     n_stops: int
     rigid: SlideResult
 
-    @property
-    def flexibility_m(self) -> float:
-        """Effect of flexible links: largest PRD of a block minus the PRD of the rigid array [m]."""
-        return max(self.prd_m) - self.rigid.prd_m
-
 
 def slide_row(scene: Scene, row: BlockRow) -> RowResult:
     """Slide a row of blocks along the slope, exactly except for rounding error.
