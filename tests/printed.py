@@ -30,7 +30,7 @@ from report.manual.machine import this_machine
 from report.manual.render import manual_html
 from report.package.html import part
 from report.pages.parts import PackageData
-from report.pages.pictures import draw_assessment, draw_plotted, draw_uncertainty
+from report.pages.pictures import draw_assessment, draw_plotted
 from report.pages.registry import PAGES, package_data
 from report.study.files import study_html
 from report.study.results import StudyResults
@@ -149,7 +149,6 @@ class _Pictures(dict):
     def _draw(package: PackageData, evidence: _Evidence) -> Iterator[Mapping]:
         yield draw_assessment(package)
         yield draw_plotted(package, evidence)
-        yield draw_uncertainty(package, evidence.uncertainty)
 
     def __missing__(self, id: str) -> object:
         with packages.undrawn():

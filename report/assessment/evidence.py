@@ -28,11 +28,11 @@ class Evidence:
     # for each group of arrays that share runs, the governing run of each motion; all NaN where it
     # has no displacement
     histories: tuple[tuple[SlideHistory, ...], ...]
-    accuracy: Accuracy  # the governing run by every method, and the design with changed friction
+    accuracy: Accuracy  # the design with changed friction
     # effect of the high-pass of each motion on the slip of the governing array
     highpass: tuple[Beyond, ...]
     remedies: tuple[Remedy, ...]  # what would satisfy each clearance and array marked NG
-    # effects of friction, slope and directions of shaking that are not run
+    # margins in friction, and directions of shaking that are not run
     uncertainty: Uncertainty
     cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
     building: tuple[tuple[BuildingInput, AnalysisValue], ...]  # with other periods and damping

@@ -1,7 +1,7 @@
 """Margins and confidence of the design values: friction, slope, directions that are not run.
 
-Runs the solver and collects numbers; `report.pages.uncertainty` prints them and
-`report.figures.uncertainty` plots them. Read `uncertainty`.
+Runs the solver and collects numbers; `report.pages.uncertainty` prints the margins, results.json
+has the grid, which the page draws. Read `uncertainty`.
 """
 
 from __future__ import annotations

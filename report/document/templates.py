@@ -31,7 +31,7 @@ from report.words.counts import (
     spelled,
 )
 from report.words.formats import general, percent, scientific, seconds, shortened
-from report.words.letters import below_mm, lettered, power_above
+from report.words.letters import below_mm, lettered
 from report.words.units import digits_down, digits_up, number, ratio
 
 if TYPE_CHECKING:
@@ -92,7 +92,6 @@ def _environment(folder: Path) -> Environment:
         "number": number,
         "numbered": numbered,
         "percent": percent,
-        "power_above": power_above,
         "ranged": ranged,
         "ratio": ratio,
         "ratio_up": ratio_up,

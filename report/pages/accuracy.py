@@ -1,4 +1,4 @@
-"""Numerical error on the governing run, and sensitivity to the friction coefficient."""
+"""Numerical error of the governing run, and sensitivity to the friction coefficient."""
 
 from __future__ import annotations
 
@@ -10,80 +10,33 @@ from report.assessment.arrays import ArrayAssessment, DesignBasis, by_id
 from report.assessment.evidence import Evidence
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
-from report.assessment.sensitivity import Accuracy, Rivals
-from report.document.tables import Column, Table, by_place, listed
+from report.assessment.sensitivity import Accuracy
+from report.document.tables import Column, Table, listed
 from report.entities.columns import NO_VALUE
-from report.entities.shown import length, required, text, words
+from report.entities.shown import required, text, words
 from report.pages.parts import PackageData
 from report.words.counts import ranged
-from report.words.letters import lettered
 from report.words.units import number
 from solver.model import Status
-from solver.rivals.methods import METHODS
 from solver.sliding.least_model import Model
 
 _PERCENT = f"{100.0 * SHIFT:.0f} %"
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return what the page needs beside its chart."""
+    """Return what the page needs beside the package."""
     accuracy = evidence.accuracy
-    rivals, arrays = accuracy.rivals, tuple(_by_array(accuracy))
+    arrays = tuple(_by_array(accuracy))
     return {
         "found": accuracy,
         "percent": _PERCENT,
         "two_axes": Model.TWO_AXES,
-        "most_ms": _decade_ms(rivals.seconds),
-        "methods": _methods(package, rivals),
         "arrays": arrays,
         "friction": _friction_table(package, arrays),
         "change": _change,
         "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
         - _unfinished(accuracy.given),
     }
-
-
-def _decade_ms(seconds: float) -> float:
-    """Return a power of ten well above a time [ms], at least 10, for reproducible text."""
-    return 10.0 ** max(math.ceil(math.log10(seconds * 1e4)), 1)
-
-
-def _methods(package: PackageData, rivals: Rivals) -> Table:
-    exact = (METHODS["exact"].title, "none", rivals.exact.prd_m, "rounding error")
-    others = [
-        (
-            lettered(run.method.title),
-            _parameters(run.parameters),
-            run.result.prd_m,
-            "failed" if run.failed else number(100.0 * run.error, 3),
-        )
-        for run in rivals.runs
-        if run.is_default
-    ]
-    columns = by_place(
-        words("Method", 3.0),
-        words("Parameters", 2.4),
-        length("PRD", 0.9),
-        text("Error in PRD", "%", 1.1),
-    )
-    return listed(
-        (exact, *others),
-        columns,
-        package.fmt,
-        kind="compact",
-        style=lambda row: "total" if row is exact else "",
-    )
-
-
-def _parameters(values: Mapping[str, float]) -> str:
-    """Return parameters of a method in words."""
-    texts = {
-        "substeps": "{:g} sub-steps",
-        "stiffness_per_m": "stiffness {:g} /m",
-        "velocity_mps": "v0 = {:g} m/s",
-        "tolerance": "tolerance {:g}",
-    }
-    return ", ".join(texts[key].format(value) for key, value in values.items()) or "none"
 
 
 @dataclass(frozen=True, slots=True)

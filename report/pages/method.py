@@ -12,7 +12,6 @@ from report.assessment.runs import nan_is_worst
 from report.drawing.section import drawn_slope_deg
 from report.motions.targets import ac156
 from report.pages.parts import PackageData, statistic
-from report.pages.site import site_force
 from report.sheet.schema.choices import Direction
 from report.words.units import Quantity
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
@@ -40,22 +39,9 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 
 def _demand(package: PackageData) -> Mapping[str, object]:
-    """Return AC156, and F_p / W_p with what its formula has beside given numbers."""
-    site, force = package.data.site, site_force(package.data)
+    """Return the corners of AC156."""
     horizontal, vertical = ac156(package.data)
-    i_p = max(array.i_p for array in package.data.arrays)
-    amplified = math.nan
-    if force and site.force_factor and site.force_divisor:
-        demand = 0.4 * site.s_ds * i_p * site.force_factor / site.force_divisor
-        amplified = force.formula / demand
-    return {
-        "horizontal_g": horizontal.sa_g,
-        "vertical_g": vertical.sa_g,
-        "force": force,
-        "i_p": i_p,
-        "amplified": amplified,
-        "height_factor": amplified * site.edition.amplification.reduction_at(site.z_over_h),
-    }
+    return {"horizontal_g": horizontal.sa_g, "vertical_g": vertical.sa_g}
 
 
 def _motion(package: PackageData) -> Mapping[str, object]:

@@ -10,7 +10,6 @@ from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.evidence import Evidence
-from report.assessment.uncertainty import Uncertainty
 from report.drawing.on_paper import printed_plan
 from report.pages import friction_tests
 from report.pages.parts import PackageData
@@ -50,30 +49,19 @@ def draw_assessment(package: PackageData) -> Drawings:
 
 def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     """Return the drawings of spectra and of runs."""
-    from report.figures.accuracy import work_precision
     from report.figures.spectra import spectra
 
-    us_first, rivals = package.fmt.us_first, shown.accuracy.rivals
+    us_first = package.fmt.us_first
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
     runs = zip(package.assessment.alike, shown.histories, strict=True)
     return {
         "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
-        "accuracy": [work_precision(rivals)] if rivals.runs else [],
         **{
             f"results-{count}": list(_histories(group[0], followed, us_first))
             for count, (group, followed) in enumerate(runs, start=1)
         },
     }
-
-
-def draw_uncertainty(package: PackageData, found: Uncertainty) -> Drawings:
-    """Return the contours; none where nothing slides on the whole grid."""
-    from report.figures.uncertainty import contours
-
-    surface, arrays, us_first = found.surface, package.assessment.arrays, package.fmt.us_first
-    slides = bool((surface.mean_m > 0.0).any())
-    return {"how-sure": [contours(surface, arrays, us_first)] if slides else []}
 
 
 def _histories(

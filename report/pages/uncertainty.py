@@ -1,56 +1,32 @@
-"""Margins and confidence: friction and slope, clearances, directions, smaller events."""
+"""Margins and confidence: clearances, directions, smaller events."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
 from report.assessment.cumulative import Cumulative
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
-from report.assessment.uncertainty import TOLERANCE, Margin, ResponseSurface, Uncertainty
+from report.assessment.uncertainty import Margin, Uncertainty
 from report.document.tables import Column, Table, listed
 from report.entities.shown import length, required, text, words
 from report.pages.parts import PackageData
 from report.words.counts import lowered
-from report.words.letters import power_of_ten
 from report.words.units import number
 from solver.rules.provisions import Neighbor
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return what the page needs beside its chart."""
+    """Return what the page needs beside the package."""
     uncertainty, sums = evidence.uncertainty, evidence.cumulative
     return {
         "found": uncertainty,
-        "surface": _at_governing(uncertainty.surface),
         "margin": _smallest(uncertainty.margins),
-        "tolerance": power_of_ten(round(math.log10(TOLERANCE))),
         "margins": _margin_table(package, uncertainty.margins),
         "turned": _turned_table(package, uncertainty) if uncertainty.turned else None,
         "sums": _sum_table(package, sums) if sums else None,
-    }
-
-
-def _at_governing(surface: ResponseSurface) -> Mapping[str, object]:
-    """Return the grid at the governing array, and one step beside it as a ratio to that."""
-    array, means, mus, slopes = surface.array.array, surface.mean_m, surface.mus, surface.slopes_rad
-    row = int(np.abs(slopes - array.slope_rad).argmin())
-    column = int(np.abs(mus - array.mu).argmin())
-    here = float(means[row, column])
-    beside: dict[str, object] = {"reduced_friction": None, "steeper": None}
-    if here > 0.0 and column > 0:
-        law = with_mu(array, float(mus[column - 1])).friction
-        beside["reduced_friction"] = (law, float(means[row, column - 1]) / here)
-    if here > 0.0 and row + 1 < slopes.size:
-        beside["steeper"] = (float(slopes[row + 1]), float(means[row + 1, column]) / here)
-    return beside | {
-        "here_m": here,
-        "slides": bool((means > 0.0).any()),
-        "n_lost": int(np.isnan(means).sum()),
     }
 
 

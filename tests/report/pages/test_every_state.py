@@ -51,7 +51,6 @@ STATES = {
         "Changes that would do, each by itself",
         "no limit the normal force falls below zero, which no model covers none",
         "Minimum normal force −0.40 m g: uplift occurs.",
-        "48 of 48 points have no value: a run there gives no displacement.",
     ),
     "NG": (of(**NARROW), ". Marked NG: 2 of 2 arrays, 1 of 1 clearance."),
     "conditions": (

@@ -55,17 +55,6 @@ def test_the_drawing_keeps_clear_what_the_package_does():
         assert f"{keep}; no conduit" in words
 
 
-def test_the_height_factor_and_the_reduction_are_printed_and_give_the_ratio():
-    site = stand_in.project().site.model_dump()
-    edition = {"rule_set": "ASCE 7-22", "force_factor": 1.4, "force_divisor": 1.5}
-    package = scenes.package(site=site | edition, clearances=[], spectrum=[])
-    text, formula, *_ = printed(package, "method").equation(r"\frac{F_p}")
-    above, below = map(float, re.findall(r"[\d.]+", text.split(" = ")[1]))
-    ratio = text.split(" = ")[2]
-    assert above / below == pytest.approx(float(ratio), abs=1e-3)
-    assert ratio in formula
-
-
 def test_a_drift_over_its_limit_prints_larger():
     book = stand_in.book(stand_in.project(clearances=[]), scenes.motions())
     drifting = replace(

@@ -92,8 +92,6 @@ def test_the_component_force_is_that_of_a_permit_sheet():
     made = package(s_ds_g=1.0504, force_factor=1.0, force_divisor=1.5, **height)
     assert forces(made) == ["0.840", "1.681", "0.315"]
     assert values(made)["Ta"] == "0.288 s"
-    steps = printed(made, "method").equation(r"\frac{F_p}")
-    assert [line.split(" = ")[1] for line in steps if " = " in line] == forces(made)
 
 
 @pytest.mark.parametrize("rule_set", ["SEAOC PV1-2012", "ASCE 7-16", "ASCE 7-22"])

@@ -1,4 +1,4 @@
-"""The page on certainty, where golden texts have no such state, and its chart."""
+"""The page on certainty, where golden texts have no such state."""
 
 import re
 from dataclasses import replace
@@ -10,7 +10,6 @@ import stand_in
 from printed import printed
 from report.assessment.uncertainty import uncertainty
 from report.figures.levels import MOST_LEVELS, levels
-from report.figures.uncertainty import contours
 
 
 def made(found=None, **changes):
@@ -46,26 +45,12 @@ def test_a_required_separation_is_rounded_up_and_what_ends_the_search_is_named()
 
 
 @pytest.mark.quick
-def test_where_nothing_slides_there_are_no_contours_and_no_ratios():
+def test_where_nothing_slides_there_are_no_ratios():
     still = tuple(replace(motion, scale=1e-3) for motion in scenes.motions(3, 4.0))
     _, _, page = made(still, arrays=[stand_in.array("B1", 0.5, mu=1.0)], objects=[], clearances=[])
-    assert "Nothing slides on the whole grid: no contours are drawn." in page
-    assert "Contours of the mean" not in page
     assert "lists no clearances: there is no margin" in page
     assert not re.search(r"\b(nan|inf|None)\b", page)
     assert set([*page.tables[-1].row("PRD / used").values()][1:]) == {"—"}
-
-
-def test_the_chart_names_the_arrays_and_is_the_same_twice():
-    package, found, _ = made()
-    arrays = package.assessment.arrays
-    svg = contours(found.surface, arrays, us_first=True)
-    assert svg == contours(found.surface, arrays, us_first=True)
-    assert svg != contours(found.surface, arrays, us_first=False)
-    assert all(f">{array.id}<" in svg for array in arrays)
-    sizes = [float(size) for size in re.findall(r"font(?:-size)?: ?[^;\"]*?([\d.]+)px", svg)]
-    assert sizes
-    assert min(sizes) >= 8.5
 
 
 @pytest.mark.quick
