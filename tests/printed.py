@@ -32,6 +32,7 @@ from report.package.html import part
 from report.pages.parts import PackageData
 from report.pages.pictures import draw_assessment, draw_plotted
 from report.pages.registry import PAGES, package_data
+from report.sheet.schema.choices import PackageEdition
 from report.study.files import study_html
 from report.study.results import StudyResults
 from solver.verification.evidence import Verification
@@ -178,7 +179,9 @@ def _source(given: Assessment | PackageData, evidence: Mapping[str, object]) -> 
     """Return the last packages made, by their identity."""
     key = (id(given), *((name, id(value)) for name, value in evidence.items()))
     if key not in _sources:
-        package = package_data(given) if isinstance(given, Assessment) else given
+        package = given
+        if isinstance(given, Assessment):
+            package = package_data(given, edition=PackageEdition.COMPLETE)
         _sources[key] = ((given, evidence), _Source(package, evidence))
         while len(_sources) > 8:
             _sources.popitem(last=False)

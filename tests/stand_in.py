@@ -89,8 +89,12 @@ LOW_SPECTRUM = [
 
 
 def project(**changes) -> ProjectInput:
-    """Three arrays, five kinds of clearance; `changes` replace whole sections."""
-    return inputs.project(**SECTIONS | changes)
+    """Three arrays, five kinds of clearance; `changes` replace whole sections.
+
+    Its package has every page, unless the options say otherwise.
+    """
+    options = {"package_edition": "complete", "letter": True} | changes.get("options", {})
+    return inputs.project(**SECTIONS | changes | {"options": options})
 
 
 SECTIONS = {

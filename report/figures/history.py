@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -37,47 +37,49 @@ MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
 
-def histories(
-    motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
-) -> str:
-    """Return the relative displacement in the governing run of each motion, PRD marked.
+class Panel(NamedTuple):
+    """A motion in its governing run, with its history and the name of an array or nothing."""
 
-    `followed` are the histories of these runs.
+    array: str
+    motion: MotionRun
+    history: SlideHistory
+
+
+def histories(panels: Sequence[Panel], us_first: bool) -> str:
+    """Return the relative displacement in the governing run of each panel, PRD marked.
 
     All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
-    grid = _Grid(motions, followed, UnitFormat(us_first).units()[0])
+    grid = _Grid(panels, UnitFormat(us_first).units()[0])
     with style():
         # Room for the labels of the levels at the left, and of the times below the last row.
         across, up = (-0.1 * grid.columns, grid.columns), (-grid.rows - 0.3, 0.0)
         figure, axes = canvas(ROW_IN * grid.rows + 0.3, across, up)
-        _rules(axes, grid, len(motions))
+        _rules(axes, grid, len(panels))
         _traces(axes, grid)
-        for index, run in enumerate(motions):
-            _titles(axes, grid, index, run, us_first)
+        for index, panel in enumerate(panels):
+            _titles(axes, grid, index, panel, us_first)
         return svg_text(figure)
 
 
 class _Grid:
     """Position and scale of the panels of a figure."""
 
-    def __init__(
-        self, motions: Sequence[MotionRun], followed: Sequence[SlideHistory], unit: Unit
-    ) -> None:
+    def __init__(self, panels: Sequence[Panel], unit: Unit) -> None:
         self.followed = [
-            None if math.isnan(history.result.prd_m) else history for history in followed
+            None if math.isnan(panel.history.result.prd_m) else panel.history for panel in panels
         ]
         self.unit = unit
-        self.columns = 2 if len(motions) <= 4 else 3
-        self.rows = math.ceil(len(motions) / self.columns)
-        self.last = len(motions) - self.columns  # panels from here on are in the bottom row
+        self.columns = 2 if len(panels) in (1, 2, 4) else 3
+        self.rows = math.ceil(len(panels) / self.columns)
+        self.last = len(panels) - self.columns  # panels from here on are in the bottom row
         drawn = [
             line for history in self.followed if history for line in (history.u_m, history.across_m)
         ]
         reached = np.concatenate([[0.0], *drawn]) / unit.si
         self.ticks = _levels(float(reached.min()), float(reached.max()) or 1.0)
         self.low, self.high = self.ticks[0], self.ticks[-1]
-        self.seconds = max(run.seconds for run in motions)
+        self.seconds = max(panel.motion.seconds for panel in panels)
 
     def x(self, index: int, t_s: Any) -> Any:
         """Return the position of times, a number or an array."""
@@ -163,9 +165,11 @@ def _names(axes: Axes, grid: _Grid, index: int, history: SlideHistory) -> None:
         axes.text(grid.x(index, grid.seconds) + 0.015, level, name, va="center")
 
 
-def _titles(axes: Axes, grid: _Grid, index: int, run: MotionRun, us_first: bool) -> None:
-    top = grid.y(index, grid.high) + 0.045
+def _titles(axes: Axes, grid: _Grid, index: int, panel: Panel, us_first: bool) -> None:
+    top, run = grid.y(index, grid.high) + 0.045, panel.motion
     name = f"{tick_text(run.motion.id)} {_short(run)}"
+    if panel.array:
+        name = f"{tick_text(panel.array)}: {name}"
     prd = UnitFormat(us_first).both(run.governing.prd_m)
     axes.text(grid.x(index, 0.0), top, name, weight="semibold")
     axes.text(index % grid.columns + 0.97, top, prd, ha="right")

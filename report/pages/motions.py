@@ -208,9 +208,14 @@ def _single(part: Spectra, each: Floats, at: np.intp) -> tuple[str, str]:
     )
 
 
+def spectra(_: PackageData, evidence: Evidence) -> Mapping[str, object]:
+    """Return the table of spectra."""
+    return {"table": spectrum_table(evidence.spectra)}
+
+
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
-    shaking, spectra = package.assessment.shaking, evidence.spectra
+    shaking, found = package.assessment.shaking, evidence.spectra
     unit, sources = package.fmt.units()[0], _sources(shaking.motions)
     return {
         "table": _motion_table(package, has_sources=not sources),
@@ -225,12 +230,11 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
         "building": building_part(package, evidence.building) if package.has_ground else None,
         "tail": Tail(package.data.target.tail).sentence,
-        "departures": departures(spectra),
-        "achieved": achieved_table(spectra),
-        "spectra": spectrum_table(spectra),
+        "departures": departures(found),
+        "achieved": achieved_table(found),
         "events": event_table(package),
         "acceptance": acceptance_table(package),
         "points": {"all": len(POINTS_HZ), "sliding": N_SLIDING, "ac156": N_AC156, "sets": N_SETS},
-        "between": lowest_between(package.assessment.acceptance, spectra),
+        "between": lowest_between(package.assessment.acceptance, found),
         "strength": strength_table(package),
     }

@@ -22,7 +22,7 @@ from report.entities.array import ArrayResult, array_results
 from report.entities.clearance import ClearanceResult, clearance_results
 from report.entities.marks import Marked
 from report.provenance.files import fingerprint
-from report.sheet.schema.choices import RecordedAt
+from report.sheet.schema.choices import PackageEdition, RecordedAt
 from report.sheet.schema.scene import Array
 from report.words.counts import ids_by
 from report.words.units import Quantity, no_less
@@ -51,6 +51,7 @@ def verdict(ok: bool, words: tuple[str, str] = (OK, NG)) -> Markup:
 class PackageData(Marked):
     """Everything that the pages are made from."""
 
+    edition: PackageEdition
     numbers: Mapping[str, str]
     changes: Changes = NO_FORMER
 

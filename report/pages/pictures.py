@@ -13,6 +13,7 @@ from report.assessment.evidence import Evidence
 from report.drawing.on_paper import printed_plan
 from report.pages import friction_tests
 from report.pages.parts import PackageData
+from report.words.counts import ranged
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
@@ -54,23 +55,41 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     us_first = package.fmt.us_first
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
-    runs = zip(package.assessment.alike, shown.histories, strict=True)
-    return {
+    runs = list(zip(package.assessment.alike, shown.histories, strict=True))
+    drawings: dict[str, Sequence[Any]] = {
         "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
-        **{
-            f"results-{count}": list(_histories(group[0], followed, us_first))
-            for count, (group, followed) in enumerate(runs, start=1)
-        },
+        "results": list(_governing(runs, us_first)),
     }
+    if "histories" in package.numbers:
+        drawings["histories"] = [
+            list(_histories(group[0], followed, us_first)) for group, followed in runs
+        ]
+    return drawings
+
+
+def _governing(
+    runs: Sequence[tuple[Sequence[ArrayAssessment], Sequence[SlideHistory]]], us_first: bool
+) -> Iterator[str]:
+    """Yield the histories of the governing runs, a panel for each group of arrays."""
+    from report.figures.history import Panel, histories
+
+    panels = [
+        Panel(ranged([item.id for item in group]), motion, history)
+        for group, followed in runs
+        for motion, history in zip(group[0].motions, followed, strict=True)
+        if motion is group[0].worst
+    ]
+    for some in _in_parts(panels, PANELS):
+        yield histories(some, us_first)
 
 
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[tuple[str, str]]:
-    from report.figures.history import histories
+    from report.figures.history import Panel, histories
     from report.figures.hodograph import hodographs
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for motions, paths in runs:
-        about = (motions, paths, us_first)
-        yield histories(*about), hodographs(*about)
+        panels = [Panel("", *run) for run in zip(motions, paths, strict=True)]
+        yield histories(panels, us_first), hodographs(motions, paths, us_first)

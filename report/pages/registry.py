@@ -16,9 +16,9 @@ from report.assessment.project import Assessment
 from report.document.sections import Part
 from report.pages import (
     accuracy,
-    appendix,
     changes,
     clearances,
+    echo,
     front,
     inputs,
     limits,
@@ -26,11 +26,13 @@ from report.pages import (
     model,
     motions,
     provisions,
+    records,
     results,
     symbols,
     uncertainty,
 )
 from report.pages.parts import PackageData
+from report.sheet.schema.choices import PackageEdition
 
 Content = Mapping[str, Any]
 Fill = Callable[[PackageData, Evidence], Content]
@@ -52,6 +54,8 @@ class Page:
         Returns the ids and titles of the parts below it.
     is_appendix : bool
         Whether it is an appendix, numbered by a letter.
+    edition : PackageEdition
+        Complete: in the complete edition alone.
     """
 
     id: str
@@ -59,11 +63,17 @@ class Page:
     fill: Fill
     below: Callable[[PackageData], Below] = lambda _: ()
     is_appendix: bool = False
+    edition: PackageEdition = PackageEdition.PLAN_CHECK
 
 
 def _alone(fill: Callable[[PackageData], Content]) -> Fill:
     """Return what fills a page that needs no evidence."""
     return lambda package, _: fill(package)
+
+
+def _complete(id: str, title: str, fill: Fill) -> Page:
+    """Return an appendix of the complete edition."""
+    return Page(id, title, fill, is_appendix=True, edition=PackageEdition.COMPLETE)
 
 
 PAGES = (
@@ -81,10 +91,13 @@ PAGES = (
     Page("model", "Model used", _alone(model.page)),
     Page("accuracy", "Accuracy and sensitivity", accuracy.page),
     Page("how-sure", "Margins and confidence", uncertainty.page),
-    Page("echo", "Input echo", _alone(appendix.echo_page), is_appendix=True),
-    Page("records", "Records and software", _alone(appendix.records_page), is_appendix=True),
-    Page("symbols", "Symbols and references", _alone(symbols.page), is_appendix=True),
+    Page("records", "Records, software and references", _alone(records.page), is_appendix=True),
     Page("notes", "Notes for the construction documents", lambda *_: {}, is_appendix=True),
+    _complete("echo", "Input echo", _alone(echo.page)),
+    _complete("hashes", "Hashes of the records", _alone(records.hashes)),
+    _complete("spectra", "Table of spectra", motions.spectra),
+    _complete("histories", "Histories and paths", results.histories),
+    _complete("symbols", "Symbols", _alone(symbols.page)),
 )
 
 LETTER = Part(id="letter", number="", title="Letter of results", parts=())
@@ -94,15 +107,28 @@ CHANGES = Page("changes", "Changes", _alone(changes.page), is_appendix=True)
 """The last appendix, so that the other parts have the same numbers in every revision."""
 
 
-def pages_of(since: Changes) -> tuple[Page, ...]:
+def pages_of(edition: PackageEdition, since: Changes) -> tuple[Page, ...]:
     """Return the pages of a package: with the changes only where they are asked for."""
+    pages = tuple(page for page in PAGES if page.edition in (PackageEdition.PLAN_CHECK, edition))
     title = f"Changes since revision {since.revision}"
-    return (*PAGES, replace(CHANGES, title=title)) if since.is_asked_for else PAGES
+    return (*pages, replace(CHANGES, title=title)) if since.is_asked_for else pages
 
 
-def package_data(assessment: Assessment, since: Changes = NO_FORMER) -> PackageData:
-    """Return an assessment with the part numbers, and what changed since a former revision."""
-    return PackageData(assessment=assessment, numbers=_numbers(pages_of(since)), changes=since)
+def package_data(
+    assessment: Assessment,
+    since: Changes = NO_FORMER,
+    edition: PackageEdition | None = None,
+) -> PackageData:
+    """Return an assessment with the part numbers, and what changed since a former revision.
+
+    Parameters
+    ----------
+    edition : PackageEdition, optional
+        By the sheet Options if not given.
+    """
+    edition = edition or assessment.project.options.package_edition
+    numbers = _numbers(pages_of(edition, since))
+    return PackageData(assessment=assessment, edition=edition, numbers=numbers, changes=since)
 
 
 def _numbers(pages: Sequence[Page]) -> Mapping[str, str]:
@@ -125,5 +151,5 @@ def parts(package: PackageData) -> tuple[Part, ...]:
                 for count, (name, title) in enumerate(page.below(package), start=1)
             ),
         )
-        for page in pages_of(package.changes)
+        for page in pages_of(package.edition, package.changes)
     )

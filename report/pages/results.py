@@ -22,7 +22,7 @@ from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
 from report.words.counts import named
 from report.words.units import measured, no_less, number
-from solver.model import Orientation, SlideHistory, Status
+from solver.model import Orientation, Status
 
 PEAK_ROWS = 16
 """The PRDs of usual suites stay on one page, with their mean and the design value."""
@@ -46,13 +46,33 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the results of every group of arrays that share their runs, without the charts."""
-    followed = zip(package.assessment.alike, evidence.histories, strict=True)
-    return {"groups": [_results(package, group, paths) for group, paths in followed]}
+    alike = package.assessment.alike
+    followed = [history for paths in evidence.histories for history in paths]
+    return {
+        "groups": [_results(package, group) for group in alike],
+        "is_drawn_across": any(history.across_m.size for history in followed),
+    }
 
 
-def _results(
-    package: PackageData, group: _Alike, paths: Sequence[SlideHistory]
-) -> Mapping[str, object]:
+def histories(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+    """Return what the captions of histories and paths say, by group of arrays."""
+    return {
+        "groups": [
+            {
+                "names": named([item.id for item in group], "Array"),
+                "is_drawn_across": any(path.across_m.size for path in paths),
+                "straight": [
+                    run.motion.id
+                    for run, path in zip(group[0].motions, paths, strict=True)
+                    if not path.across_m.size and path.result.prd_m > 0.0
+                ],
+            }
+            for group, paths in zip(package.assessment.alike, evidence.histories, strict=True)
+        ]
+    }
+
+
+def _results(package: PackageData, group: _Alike) -> Mapping[str, object]:
     array, runs = group[0], group[0].runs
     orientations = _orientations(runs)
     return {
@@ -62,12 +82,6 @@ def _results(
         "table": _peaks(package, group, orientations),
         "is_transverse_run": any(orientation.is_transverse for orientation in orientations),
         "is_prd_across": not all(run.has_across for run in runs),
-        "is_drawn_across": any(path.across_m.size for path in paths),
-        "straight": [
-            run.motion.id
-            for run, path in zip(array.motions, paths, strict=True)
-            if not path.across_m.size and path.result.prd_m > 0.0
-        ],
         "troubles": run_warnings(group, package.fmt.us_first),
     }
 

@@ -1,4 +1,4 @@
-"""The appendix of symbols and references: each symbol with its one meaning. Read `SYMBOLS`."""
+"""The appendix of symbols: each with its one meaning. Read `SYMBOLS`."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def friction_standard(package: PackageData) -> str:
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the list of symbols, and what the list of references needs beside the package."""
+    """Return the list of symbols."""
     known = package.data.site.edition
     others = {name for edition in EDITIONS.values() for name in edition.force_factors}
     left_out = others.difference(known.force_factors)
@@ -121,7 +121,4 @@ def page(package: PackageData) -> Mapping[str, object]:
     ]
     half = (len(items) + 1) // 2
     pairs = zip_longest(items[:half], items[half:], fillvalue=("", ""))
-    return {
-        "rows": [[*left, *right] for left, right in pairs],
-        "friction_standard": friction_standard(package),
-    }
+    return {"rows": [[*left, *right] for left, right in pairs]}

@@ -16,6 +16,7 @@ from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInp
 from report.sheet.schema.choices import (
     ClearanceSource,
     DistanceBasis,
+    PackageEdition,
     PlanPaper,
     RequiredText,
     Statistic,
@@ -115,6 +116,13 @@ class Options(Frozen):
     """Up to 20 factors on the motions, each above 0.0 and up to 1.0, separated by commas: the
     package adds the displacement of these events to that of the design event, for information.
     Blank: none."""
+    package_edition: Annotated[PackageEdition, Cell("Edition", "plan check")] = (
+        PackageEdition.PLAN_CHECK
+    )
+    """Plan check: what a plan checker reads. Complete adds the input echo, the table of spectra,
+    the histories and paths of every motion, the symbols and the whole hashes of the records."""
+    letter: Annotated[bool, Cell("Letter of results", "No")] = False
+    """Yes: a letter to the client with the results is in the package."""
     plan_paper: Annotated[PlanPaper, Cell("Paper of the roof plan", "by size")] = PlanPaper.BY_SIZE
     """By size: Letter, or where labels or the schedule of clearances have no room on it, 11 x 17 in
     with US units first and A3 with SI units first."""

@@ -222,6 +222,13 @@ class Polarity(StrEnum):
     REVERSED = "reversed"
 
 
+class PackageEdition(StrEnum):
+    """What a package holds."""
+
+    PLAN_CHECK = "plan check"
+    COMPLETE = "complete"
+
+
 class PlanPaper(StrEnum):
     """Paper of the roof plan; the rest of the package is on Letter."""
 

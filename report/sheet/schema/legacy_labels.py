@@ -54,6 +54,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("site", "hazard_covered"),
         ("friction_tests", "tests_covered"),
         ("options", "peer_covered"),
+        ("options", "package_edition letter"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook

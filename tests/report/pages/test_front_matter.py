@@ -38,7 +38,7 @@ def test_the_cover_says_that_large_records_are_left_out():
     done = scenes.package().assessment
     large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
     rows = printed(replace(done, shaking=replace(done.shaking, records=large)), "cover").facts
-    assert "not the nine record files, 81.0 MB in all: appendix B" in rows["In this file"]
+    assert "not the nine record files, 81.0 MB in all: appendix A" in rows["In this file"]
     assert "verify-package FILE --records FOLDER" in rows["Verification"]
     assert rows["Verification"].endswith(scenes.package().fingerprint)
 

@@ -29,7 +29,7 @@ def test_the_symbols_are_those_of_the_edition(edition, own, others):
 @pytest.mark.parametrize(("made", "is_cited"), [(scenes.usual, False), (scenes.unpermitted, True)])
 def test_the_source_of_the_modal_equations_is_listed_where_it_is_cited(made, is_cited):
     assert ("Nigam and Jennings, 1969" in printed(made(), "motions")) is is_cited
-    assert ("Nigam and Jennings, 1969: " in printed(made(), "symbols")) is is_cited
+    assert ("Nigam and Jennings, 1969: " in printed(made(), "records")) is is_cited
 
 
 def test_the_symbols_of_the_approximate_period_are_listed():

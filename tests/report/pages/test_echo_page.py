@@ -1,4 +1,4 @@
-"""The echo of the input, and the list of records."""
+"""The echo of the input."""
 
 from dataclasses import replace
 
@@ -137,31 +137,3 @@ def test_every_cell_of_a_wide_table_is_printed_beside_its_name():
     assert {echoed.typed for echoed in rows} <= printed_cells
     assert len(tables) > 1
     assert {made.headings[1] for made in tables} == {"B B of some length"}
-
-
-def test_a_record_shows_its_format_and_what_was_noted():
-    done = scenes.package().assessment
-    record = replace(
-        done.shaking.records[0],
-        component="vertical",
-        name="records/a.V2A | Up",
-        format="GeoNet V2A",
-        npts=100,
-        dt_s=0.02,
-        peak_g=0.25,
-        notes=("uneven times were resampled",),
-    )
-
-    def records(*files):
-        given = replace(done, shaking=replace(done.shaking, records=files))
-        return printed(given, "records").table("Records as read")
-
-    made = records(record)
-    assert made.cells == (("M1", "vertical", "0.2500", "records/a.V2A | Up", "ab" * 32),)
-    assert made.notes == (
-        "Every record: Format GeoNet V2A, Samples 100, Step [s] 0.02.",
-        "M1 vertical: uneven times were resampled",
-    )
-    made = records(record, replace(record, motion_id="M2", npts=200, notes=()))
-    assert made.column("Samples") == ["100", "200"]
-    assert made.notes[0] == "Every record: Format GeoNet V2A, Step [s] 0.02."

@@ -1,9 +1,9 @@
-"""Input echo with cell addresses, record hashes, software versions."""
+"""Input echo with cell addresses."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from itertools import groupby, zip_longest
 from string import ascii_uppercase, digits
@@ -11,12 +11,9 @@ from string import ascii_uppercase, digits
 from markupsafe import Markup
 
 from report.document.tables import Column, Table, listed
-from report.entities.shown import plain, words
-from report.motions.components import RecordFile
-from report.pages.parts import BAR, MOTION_ROWS, PackageData
-from report.provenance.software import versions
+from report.entities.shown import words
+from report.pages.parts import BAR, PackageData
 from report.sheet.reading.read import IGNORED, EchoRow
-from report.words.formats import shortened
 
 WIDEST = 112.0
 """Width of a table of the workbook, in letters: wide enough that a column holds its numbers."""
@@ -25,18 +22,9 @@ MOST_LETTERS = 24
 """Width of a column at most, in letters: a longer entry has several lines."""
 
 
-def echo_page(package: PackageData) -> Mapping[str, object]:
+def page(package: PackageData) -> Mapping[str, object]:
     """Return the input echo."""
     return {"sheets": echo(package.assessment.sheet.echo, package.changes.cells)}
-
-
-def records_page(package: PackageData) -> Mapping[str, object]:
-    """Return the records and the software versions."""
-    return {
-        "files": records(package),
-        "alike": _alike(package.assessment.shaking.records),
-        "software": ", ".join(f"{name} {version}" for name, version in versions().items()),
-    }
 
 
 _Echoed = tuple[Table, Sequence[str], Sequence[str]]
@@ -205,31 +193,3 @@ def _row_number(row: EchoRow) -> str:
 
 def _column_letters(row: EchoRow) -> str:
     return row.cell.rstrip(digits)
-
-
-def records(package: PackageData) -> Table:
-    """Return the record files with their hashes; what all files have alike is in a note."""
-    rows = package.assessment.shaking.records
-    own = [name for name in _ALIKE if name not in _alike(rows)]
-    columns = (
-        (words("Motion", 0.45), lambda row: shortened(row.motion_id, 12)),
-        (words("Component", 0.68), lambda row: row.component),
-        *((words(name, 0.55), _ALIKE[name]) for name in own),
-        (plain("Peak [g]", 4, share=0.5), lambda row: row.peak_g),
-        (words("File", 1.04), lambda row: row.name),
-        (words("SHA-256", 4.15 - 0.55 * len(own)), lambda row: row.sha256),
-    )
-    return listed(rows, columns, package.fmt, kind="compact digest", whole_rows=MOTION_ROWS)
-
-
-_ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
-    "Format": lambda row: row.format,
-    "Samples": lambda row: str(row.npts),
-    "Step [s]": lambda row: f"{row.dt_s:g}",
-}
-
-
-def _alike(rows: Sequence[RecordFile]) -> Mapping[str, str]:
-    """Return what all files have alike, by name."""
-    found = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
-    return {name: values.pop() for name, values in found.items() if len(values) == 1}

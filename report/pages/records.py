@@ -1,0 +1,75 @@
+"""The record files with their hashes, the software, and what the references need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from report.document.tables import Table, listed
+from report.entities.shown import plain, words
+from report.motions.components import RecordFile
+from report.pages.parts import MOTION_ROWS, PackageData
+from report.pages.symbols import friction_standard
+from report.provenance.files import SHORT
+from report.provenance.software import versions
+from report.words.counts import grouped_by
+from report.words.formats import shortened
+
+
+def page(package: PackageData) -> Mapping[str, object]:
+    """Return the records by motion, the software versions and what is cited."""
+    return {
+        "files": _by_motion(package),
+        "software": ", ".join(f"{name} {version}" for name, version in versions().items()),
+        "friction_standard": friction_standard(package),
+    }
+
+
+def _by_motion(package: PackageData) -> Table:
+    """Return the short hashes of the files of each motion, a column for each component."""
+    files = package.assessment.shaking.records
+    components = dict.fromkeys(file.component for file in files)
+    rows = [
+        (motion, {file.component: file.sha256[:SHORT] for file in some})
+        for motion, some in grouped_by(files, lambda file: file.motion_id).items()
+    ]
+    columns = (
+        (words("Motion"), lambda row: shortened(row[0], 24)),
+        *(
+            (
+                words(component.capitalize()),
+                lambda row, component=component: row[1].get(component, "—"),
+            )
+            for component in components
+        ),
+    )
+    return listed(rows, columns, kind="compact", whole_rows=MOTION_ROWS)
+
+
+def hashes(package: PackageData) -> Mapping[str, object]:
+    """Return the record files with their hashes; what all files have alike is in a note."""
+    rows = package.assessment.shaking.records
+    alike = _alike(rows)
+    own = [name for name in _ALIKE if name not in alike]
+    columns = (
+        (words("Motion", 0.45), lambda row: shortened(row.motion_id, 12)),
+        (words("Component", 0.68), lambda row: row.component),
+        *((words(name, 0.55), _ALIKE[name]) for name in own),
+        (plain("Peak [g]", 4, share=0.5), lambda row: row.peak_g),
+        (words("File", 1.04), lambda row: row.name),
+        (words("SHA-256", 4.15 - 0.55 * len(own)), lambda row: row.sha256),
+    )
+    table = listed(rows, columns, package.fmt, kind="compact digest", whole_rows=MOTION_ROWS)
+    return {"files": table, "alike": alike}
+
+
+_ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
+    "Format": lambda row: row.format,
+    "Samples": lambda row: str(row.npts),
+    "Step [s]": lambda row: f"{row.dt_s:g}",
+}
+
+
+def _alike(rows: Sequence[RecordFile]) -> Mapping[str, str]:
+    """Return what all files have alike, by name."""
+    found = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
+    return {name: values.pop() for name, values in found.items() if len(values) == 1}
