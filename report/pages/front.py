@@ -5,7 +5,7 @@ Computes nothing. Read `report.pages.parts` first.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from report.assessment.arrays import Route
@@ -14,14 +14,20 @@ from report.assessment.friction import mus_words
 from report.assessment.friction_rows import tested
 from report.assessment.overrides import LOWERING
 from report.assessment.plan_gaps import plan_gaps
+from report.assessment.runs import nan_is_worst
 from report.assessment.spectra import departures
+from report.assessment.verdict import Verdict
 from report.drawing.schedule import alike_arrays
 from report.drawing.sheet import unit_format
+from report.entities.clearance import ClearanceResult
 from report.pages.limits import troubles
 from report.pages.parts import PackageData, statistic
 from report.pages.remedies import answers
 from report.words.validation import explained
 from solver.verification.shake_table import SHIPPED
+
+N_WORST = 3
+"""Clearances of the summary, where all are OK; the complete schedule stands in their part."""
 
 
 def _review(package: PackageData) -> Mapping[str, object]:
@@ -51,12 +57,20 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     last = {departure.is_short: departure for departure in found}.values()
     return {
         "statistic": statistic(package.governing.analysis.basis),
+        "worst": _worst(package.clearances),
+        "gap": package.assessment.governing_gap(),
         "review": _review(package),
         # What follows from a missed target is said once, with the last.
         "missed": [(departure, departure in last) for departure in found],
         "troubles": troubles(package),
         "answers": answers(package, evidence.remedies),
     }
+
+
+def _worst(clearances: Sequence[ClearanceResult]) -> Sequence[ClearanceResult]:
+    """Return the clearances with the largest D/C: three, or all that are not OK."""
+    ordered = sorted(clearances, key=lambda gap: -nan_is_worst(gap.demand_capacity))
+    return ordered[: max(N_WORST, sum(gap.verdict != Verdict.OK for gap in clearances))]
 
 
 def plan(package: PackageData) -> Mapping[str, object]:

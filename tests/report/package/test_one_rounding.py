@@ -15,7 +15,7 @@ pytestmark = pytest.mark.quick
 INCH = 0.0254
 # On the sheets of results a value in one direction, which is another one, may be the lower number.
 PAGES = (
-    "cover", "letter", "summary", "plan", "comparison", "clearances", "method", "model",
+    "letter", "summary", "plan", "comparison", "clearances", "method", "model",
     "accuracy",
 )  # fmt: skip
 
@@ -31,11 +31,11 @@ def test_no_page_rounds_the_design_displacement_down(example):
     up, down = (f"{to(10 * inches) / 10:.1f}" for to in (math.ceil, math.floor))
     assert up != down
     assert round(inches, 1) == float(down)  # rounded to the nearest it would be less
-    assert set(PAGES) <= {"cover", "letter", *IDS}
+    assert set(PAGES) <= {"letter", *IDS}
     for page in PAGES:
         words = printed(example, page)
         assert not re.search(rf"(?<![\d.]){re.escape(down)}(?!\d)", words), page
-    for page in ("cover", "letter", "summary", "comparison", "clearances"):
+    for page in ("letter", "summary", "comparison", "clearances"):
         assert up in printed(example, page)
     said = "\n".join(summary(example.assessment))
     assert up in said

@@ -46,7 +46,7 @@ def revised():
 STATES = {
     "no value": (
         of((*MOTIONS, LIFTING)),
-        "design displacement none, governed by: none",
+        "governed by: none",
         "An array without a permitted design displacement is NG",
         "Changes that would do, each by itself",
         "no limit the normal force falls below zero, which no model covers none",
@@ -57,14 +57,12 @@ STATES = {
     "conditions": (
         of(),
         "OK with conditions All limits and clearances are satisfied;",
-        "Governing array A1: μ 0.45; ",
         "Arrays that are alike remain alike",
     ),
     "one array": (
         of(**ONE),
         "All limits are satisfied; the workbook lists no clearance, and none is checked; ",
         "One ballasted array (A1) was analyzed",
-        "Governing clearance none given",
         "The workbook lists no clearances; none is checked.",
     ),
     "one motion": (of(MOTIONS[:1]), "; too few motions)"),
@@ -110,7 +108,7 @@ def test_every_page_is_whole(state):
     opened = [one.get("id") for one in body.iter("h1")]
     letter = ["letter"] if made.data.options.letter else []
     pages_ = [page.id for page in pages_of(made.edition, made.changes)]
-    assert opened == ["contents", *letter, *pages_]
+    assert opened == [pages_[0], *letter, *pages_[1:]]
 
 
 @pytest.mark.quick

@@ -144,8 +144,8 @@ def test_the_letter_says_what_its_results_rest_on():
     assert page.line("the roof membrane and the supports of the arrays give the friction above;")
 
 
-def test_the_contents_list_the_letter_first():
+def test_the_contents_list_the_letter_where_it_is():
     found = [line for line in printed(package(), "contents").splitlines() if line[:2] == "- "]
     assert [line.split() for line in found[:2]] == [
-        ["-", "Letter", "of", "results"], ["-", "1", "Summary"],
+        ["-", "1", "Summary"], ["-", "Letter", "of", "results"],
     ]  # fmt: skip
