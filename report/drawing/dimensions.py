@@ -10,12 +10,14 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from report.assessment.plan_gaps import PlanGap
 from report.drawing.items import Mark
 from report.drawing.layers import Layer
 from report.drawing.paper import BASE_IN, LINE_IN, Paper
 from report.drawing.placer import Frame, centered
 from report.drawing.sheet import Gap, PlanSheet
 from report.drawing.widths import TYPE_PT, width_in
+from report.entities.columns import UnitFormat
 from report.sheet.schema.shapes import Point, Rectangle, between
 from report.words.counts import grouped_by
 from report.words.units import beside, no_less
@@ -56,7 +58,7 @@ class Lane:
 def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:
     """Draw the gaps with their numbers, those not satisfied first."""
     first = sorted(plan.gaps, key=lambda gap: not plan.is_ng(gap))
-    return [_numbered(plan, _lane(plan, gap)) for gap in first]
+    return [_numbered(plan, lane_of(plan.paper, gap)) for gap in first]
 
 
 def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
@@ -65,7 +67,8 @@ def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
         _dimension(plan, words, equal)
 
 
-def _lane(plan: PlanSheet, gap: Gap) -> Lane:
+def lane_of(paper: Paper, gap: Gap) -> Lane:
+    """Return the lane of a gap."""
     dx, dy = gap.b[0] - gap.a[0], gap.b[1] - gap.a[1]
     long = math.hypot(dx, dy)
     along = (-dy / long, dx / long) if long else (1.0, 0.0)
@@ -73,7 +76,7 @@ def _lane(plan: PlanSheet, gap: Gap) -> Lane:
     is_diagonal = isinstance(area, Rectangle) and min(abs(dx), abs(dy)) > _ALIGNED_IN
     reach = [0.0]
     if area is not None and long and not is_diagonal:
-        reach = [x * along[0] + y * along[1] for x, y in map(plan.paper.at, area.points)]
+        reach = [x * along[0] + y * along[1] for x, y in map(paper.at, area.points)]
     half = (max(reach) - min(reach)) / 2
     return Lane(gap=gap, along=along, half=half, number=centered(*gap.middle, 0.0, 0.0))
 
@@ -125,9 +128,14 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
     return replace(lane, number=frame)
 
 
+def provided_words(of: PlanGap, fmt: UnitFormat) -> str:
+    """Return what is provided, in the preferred unit."""
+    return fmt.short(of.provided_m, show=beside(of.required_m, of.provided_m))
+
+
 def _provided(plan: PlanSheet, gap: Gap) -> str:
     of, fmt = gap.of, plan.fmt
-    provided = fmt.short(of.provided_m, show=beside(of.required_m, of.provided_m))
+    provided = provided_words(of, fmt)
     if of.is_given:
         return provided
     # It is in no table.
@@ -142,7 +150,7 @@ def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
     long = width_in(words) + 0.06
     tall = LINE_IN - 0.02
     for overhang in (0.0, _OVERHANG_IN):
-        found = [(lane, shift) for lane in equal for shift in _beside(lane, long, overhang)]
+        found = [(lane, shift) for lane in equal for shift in alongside(lane, long, overhang)]
         frames = [lane.frame(shift, long, tall) for lane, shift in found]
         within = [lane.frame(shift, long, min(lane.narrow, tall)) for lane, shift in found]
         taken = plan.paper.placer.take_first(frames, within)
@@ -156,7 +164,7 @@ def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
     plan.beside(equal[0].number, words.split(", "), RADIUS_IN)
 
 
-def _beside(lane: Lane, long: float, overhang: float) -> Iterator[float]:
+def alongside(lane: Lane, long: float, overhang: float) -> Iterator[float]:
     """Yield distances along a lane on both sides of its number for what is so long."""
     (x, y), own = lane.gap.middle, lane.number
     shift = (own.middle[0] - x) * lane.along[0] + (own.middle[1] - y) * lane.along[1]

@@ -42,17 +42,21 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
 
 def _write_along(plan: PlanSheet, frame: Frame, middle: Point, words: str) -> None:
     """Write words beside a strip, away from the middle of the roof."""
-    (x, y), wide = frame.middle, width_in(words)
-    is_upright = frame.tall > frame.wide
-    aside = 0.05 + LINE_IN / 2
-    if is_upright:
-        x = frame.x1 + aside if x > middle[0] else frame.x0 - aside
-        label, base = centered(x, y, LINE_IN, wide), (x + _BASE_IN, y)
-    else:
-        y = frame.y1 + aside if y > middle[1] else frame.y0 - aside
-        label, base = centered(x, y, wide, LINE_IN), (x, y - _BASE_IN)
+    label, is_upright = along_strip(frame, middle, width_in(words))
+    x, y = label.middle
+    base = (x + _BASE_IN, y) if is_upright else (x, y - _BASE_IN)
     plan.paper.placer.take(label)
     plan.paper.text(*base, words, is_centered=True, is_upright=is_upright)
+
+
+def along_strip(frame: Frame, middle: Point, wide: float) -> tuple[Frame, bool]:
+    """Return the frame of words beside a strip, away from a point, and if they read from below."""
+    (x, y), aside = frame.middle, 0.05 + LINE_IN / 2
+    if frame.tall > frame.wide:
+        x = frame.x1 + aside if x > middle[0] else frame.x0 - aside
+        return centered(x, y, LINE_IN, wide), True
+    y = frame.y1 + aside if y > middle[1] else frame.y0 - aside
+    return centered(x, y, wide, LINE_IN), False
 
 
 def _edge_words(plan: PlanSheet, item: RoofObject) -> str:

@@ -1,4 +1,4 @@
-"""A plan as lines and texts on layers: what a drawing for CAD consists of.
+"""A plan as lines, texts and dimensions on layers: what a drawing for CAD consists of.
 
 Imports nothing of the solver, so that another process loads it quickly. Read `PlanDrawing` first.
 """
@@ -47,18 +47,51 @@ class PlanLine:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanText:
-    """A text about a point; position and height in the unit of the drawing."""
+    """A text about a point, in the unit of the drawing.
+
+    Attributes
+    ----------
+    of : str
+        Id of what it tells the height of, wherever it is; empty for none.
+    is_left : bool
+        Whether it starts at its point.
+    is_upright : bool
+        Whether it reads from below.
+    """
 
     layer: Layer
     words: str
     at: Point
-    height: float
+    of: str = ""
+    is_left: bool = False
+    is_upright: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanDimension:
+    """A dimension between two points; its text is about a point, empty where it has no room.
+
+    Attributes
+    ----------
+    has_leader : bool
+        Whether a line leads to its text.
+    """
+
+    layer: Layer
+    name: str
+    ends: tuple[Point, Point]
+    words: str
+    at: Point
+    is_upright: bool = False
+    has_leader: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanDrawing:
-    """The plan in feet (US) or meters (SI)."""
+    """The plan in feet (US) or meters (SI), with the height of its texts."""
 
     is_feet: bool
+    height: float
     lines: tuple[PlanLine, ...]
     texts: tuple[PlanText, ...]
+    dimensions: tuple[PlanDimension, ...]

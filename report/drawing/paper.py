@@ -13,7 +13,7 @@ from itertools import product
 from report.drawing.items import Arrow, Circle, Item, Lines, Look, Outline, Text
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.widths import TYPE_PT, width_in
-from report.sheet.schema.shapes import Point, Rectangle, Shape, sides
+from report.sheet.schema.shapes import Point, Rectangle, sides
 from solver.model import INCH_M
 
 FOOT_M = 12.0 * INCH_M
@@ -85,9 +85,9 @@ class Paper:
         low, _, high, _ = map(self.at, shape.points)
         return Frame(*low, *high)
 
-    def sides(self, shape: Shape) -> Iterator[Frame]:
-        """Yield thin frames along the sides of a shape, where they are on paper."""
-        for start, end in sides(tuple(map(self.at, shape.points))):
+    def sides(self, points: Iterable[Point]) -> Iterator[Frame]:
+        """Yield thin frames along the sides of a ring of the plan [m], where they are on paper."""
+        for start, end in sides(tuple(map(self.at, points))):
             yield from along(start, end)
 
     def shape(self, look: Look, points: Iterable[Point], name: str = "") -> None:

@@ -49,6 +49,10 @@ class Frame(NamedTuple):
         """Its height [in]."""
         return self.y1 - self.y0
 
+    def nearest(self, point: Point) -> Point:
+        """Return its point nearest to another one."""
+        return min(max(point[0], self.x0), self.x1), min(max(point[1], self.y0), self.y1)
+
     @property
     def corners(self) -> tuple[Point, ...]:
         """Its corners, counterclockwise from the lower left."""
@@ -69,6 +73,11 @@ class Placer:
     def __init__(self, page: Frame) -> None:
         self._page = page
         self._taken, self._threads, self._lines, self._walls = (np.empty((0, 4)) for _ in range(4))
+
+    @property
+    def right(self) -> float:
+        """The right end of all frames [in]."""
+        return float(np.vstack((self._taken, self._lines))[:, 2].max())
 
     def take(self, frame: Frame) -> None:
         """Reserve a frame: no label will touch it."""

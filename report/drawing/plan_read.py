@@ -317,13 +317,21 @@ def _height_m(
 def _texts_inside(
     known: Sequence[Known], texts: Sequence[Words], unit_m: float
 ) -> list[list[Words]]:
-    """Return the texts inside of each line; a text belongs to the smallest line around it."""
+    """Return the texts of each line: what `report` wrote of it, and what is inside of it.
+
+    Others belong to the smallest line around them.
+    """
     import shapely
 
     inside: list[list[Words]] = [[] for _ in known]
     order = sorted(range(len(known)), key=lambda k: known[k][2].area_m2)
     tree = shapely.STRtree([solid(known[k][2]) for k in order])
+    own = {line.name: k for k, (line, *_) in enumerate(known) if line.is_ours}
     for text in texts:
+        if text.of:
+            if text.of in own:
+                inside[own[text.of]].append(text)
+            continue
         at = shapely.Point(text.at[0] * unit_m, text.at[1] * unit_m)
         found = tree.query(at, predicate="intersects")
         if len(found):

@@ -81,12 +81,19 @@ class Drawn:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Words:
-    """A text of a drawing, or the first line of it, where it is, and its other lines."""
+    """A text of a drawing, or the first line of it, where it is, and its other lines.
+
+    Attributes
+    ----------
+    of : str
+        What `report` wrote it of, wherever it is; empty for none.
+    """
 
     layer: str
     text: str
     at: Point
     others: tuple[str, ...] = ()
+    of: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -379,8 +386,9 @@ class _Reader:
         lines = [words for text in found if (words := " ".join(_printable(text).split()))]
         if lines and math.isfinite(x) and math.isfinite(y):
             self.drawing.texts.append(
-                Words(layer=layer, text=lines[0], at=(float(x), float(y)), others=tuple(lines[1:]))
-            )
+                Words(layer=layer, text=lines[0], at=(float(x), float(y)), others=tuple(lines[1:]),
+                      of=_own_name(entity))
+            )  # fmt: skip
         return ""
 
 
@@ -399,7 +407,7 @@ def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
 
 
 def _own_name(entity: Any) -> str:
-    """Return the name that `report` wrote with a line."""
+    """Return the name that `report` wrote with a line or a text."""
     if not entity.has_xdata(APPLICATION):
         return ""
     tags = entity.get_xdata(APPLICATION)

@@ -53,7 +53,7 @@ def _avoid(plan: PlanSheet) -> None:
     """Let labels cover objects and sides of arrays only where there is no other room."""
     paper = plan.paper
     for array in plan.assessment.arrays:
-        for side in paper.sides(array.array.shape):
+        for side in paper.sides(array.array.shape.points):
             paper.placer.wall(side)
     frames: list[Frame] = []
     for item in plan.placed:
@@ -61,7 +61,7 @@ def _avoid(plan: PlanSheet) -> None:
         if isinstance(shape, Rectangle):
             frames.append(paper.frame(shape))
         else:
-            frames += paper.sides(shape)
+            frames += paper.sides(shape.points)
     for frame in frames:
         paper.placer.avoid(frame)
 

@@ -173,7 +173,7 @@ class PlanSheet:
 
     def leader(self, start: Point, label: Frame, radius: float = 0.0) -> None:
         """Draw a line from a point, or a circle about it, to the nearest point of a label."""
-        end = (min(max(start[0], label.x0), label.x1), min(max(start[1], label.y0), label.y1))
+        end = label.nearest(start)
         long = math.dist(start, end)
         if long > radius:
             x, y = (

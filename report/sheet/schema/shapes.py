@@ -217,11 +217,6 @@ def mean(points: Sequence[Point]) -> Point:
     return x, y
 
 
-def label_point(shape: Shape) -> Point:
-    """Return a point well inside of a shape, for its name: of a rectangle, the middle."""
-    return mean(room(shape).points)
-
-
 @lru_cache(maxsize=4096)
 def room(shape: Shape) -> Rectangle:
     """Return a large rectangle within a shape: where its name has room."""

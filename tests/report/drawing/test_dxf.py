@@ -51,8 +51,11 @@ def test_the_same_plan_gives_the_same_bytes(done):
 @pytest.mark.nightly
 def test_every_process_writes_the_same_bytes():
     code = (
-        "from report.drawing.dxf import write_dxf; from report.drawing.layers import PlanDrawing; "
-        "print(write_dxf(PlanDrawing(is_feet=True, lines=(), texts=())).hex())"
+        "from report.drawing.dxf import write_dxf; from report.drawing.layers import *; "
+        "gap = PlanDimension(layer=Layer.CLEARANCE, name='A1 to N', ends=((0, 0), (4, 0)), "
+        "words='1: 48.0 in', at=(2, 3)); drawn = PlanDrawing("
+        "is_feet=True, height=1.0, lines=(), texts=(), dimensions=(gap,)); "
+        "print(write_dxf(drawn).hex())"
     )
     seeds = ("1", "5")  # sets of the library's kinds in two orders
     written = {
@@ -83,6 +86,17 @@ def test_lines_and_texts_are_read_back_as_they_were_drawn(plan, document):
         for point, wanted in zip(drawn.get_points("xy"), line.points, strict=True):
             assert point == pytest.approx(wanted, abs=1e-6)
     assert [text.dxf.text for text in space.query("TEXT")] == [text.words for text in plan.texts]
+    for gap, drawn in zip(plan.dimensions, space.query("DIMENSION"), strict=True):
+        assert (drawn.dxf.layer, drawn.dxf.text) == (gap.layer.title, gap.words)
+        assert drawn.get_xdata(APPLICATION)[0].value == gap.name
+        for point, wanted in zip((drawn.dxf.defpoint2, drawn.dxf.defpoint3), gap.ends, strict=True):
+            assert point.vec2.isclose(wanted, abs_tol=1e-6)
+
+
+def test_a_dimension_measured_again_has_the_unit_and_the_digits_of_a_displacement(plan, document):
+    style = document.dimstyles.get("ROOFSLIP").dxf
+    assert (style.dimlfac, style.dimdec) == ((12.0, 1) if plan.is_feet else (1000.0, 0))
+    assert (style.dimtxt, chr(style.dimdsep), style.dimzin) == (plan.height, ".", 0)
 
 
 def test_outlines_are_the_rectangles_of_the_workbook(done, plan, document):
@@ -103,9 +117,9 @@ def test_outlines_are_the_rectangles_of_the_workbook(done, plan, document):
 
 def test_texts_name_what_is_drawn_and_what_a_clearance_requires(done):
     said = [text.words for text in plan_drawing(done).texts]
-    assert {"A1", "A2", "A3", "RTU-1, height 42.0 in (1067 mm)", "T-1", "S edge", "N"} <= set(said)
+    assert {"A1", "A2", "A3", "RTU-1, height 42.0 in", "T-1", "S edge", "N"} <= set(said)
     (gap,) = [words for words in said if words.startswith("5: ")]
-    assert gap.startswith("5: provided 60.0 in (1524 mm), required 61.2 in")
+    assert gap.startswith("5: A2 to S edge: provided 60.0 in (1524 mm), required 61.2 in")
     assert gap.endswith("NG")
 
 
@@ -116,8 +130,8 @@ def test_each_kind_has_its_layer(document):
 
 
 def test_a_clearance_that_is_not_satisfied_is_on_a_layer_of_its_own(done):
-    lines = [line for line in plan_drawing(done).lines if line.layer is Layer.CLEARANCE_NG]
-    assert [line.name for line in lines] == ["A2 to S edge"]
+    gaps = [gap for gap in plan_drawing(done).dimensions if gap.layer is Layer.CLEARANCE_NG]
+    assert [gap.name for gap in gaps] == ["A2 to S edge"]
 
 
 def test_the_envelope_is_that_of_the_design_displacement(done):
@@ -130,7 +144,8 @@ def test_without_a_displacement_there_is_no_envelope(done):
     lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
     plan = plan_drawing(lost)
     assert not [line for line in plan.lines if line.layer is Layer.DESIGN]
-    assert [text.words for text in plan.texts].count("design displacement: no value") == 3
+    said = {text.words for text in plan.texts}
+    assert {f"A{k}: design displacement: no value" for k in (1, 2, 3)} <= said
     assert not read(write_dxf(plan)).audit().errors
 
 
@@ -147,11 +162,11 @@ def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough(done):
 def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_clear():
     plan = plan_drawing(stand_in.unpermitted())
     said = [text.words for text in plan.texts]
-    assert said.count("design displacement: not permitted") == 1
+    assert said.count("A1: design displacement: not permitted") == 1
     assert sum("keep clear" in words for words in said) == 1  # of A2
     (first, *_) = [words for words in said if words.startswith("1: ")]
-    assert first == "1: provided 84.0 in (2134 mm), required no value, no verdict"
-    layers = {line.name: line.layer for line in plan.lines if line.layer.title.startswith("CLEAR")}
+    assert first == "1: A1 to RTU-1: provided 84.0 in (2134 mm), required no value, no verdict"
+    layers = {gap.name: gap.layer for gap in plan.dimensions}
     assert layers == {
         "A1 to RTU-1": Layer.CLEARANCE_NONE,
         "A2 to A1": Layer.CLEARANCE_NONE,

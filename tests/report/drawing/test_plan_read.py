@@ -1,8 +1,10 @@
 """Roof drawings as others draw them: by layer, by name, in any version and unit."""
 
+import io
 import math
 from itertools import pairwise
 
+import ezdxf
 import pytest
 import shapely
 from ezdxf.math import UCS
@@ -190,6 +192,17 @@ def test_a_plan_that_report_wrote_reads_back_to_itself(file):
             assert point == pytest.approx(wanted, abs=1e-9)
     heights = [math.nan if item.height_m is None else item.height_m for item in data.objects]
     assert [place.height_m for place in found.objects] == pytest.approx(heights, nan_ok=True)
+
+
+def test_a_height_that_is_changed_in_a_plan_of_ours_is_read_wherever_its_text_is(file):
+    document = ezdxf.read(io.StringIO(write_dxf(plan_drawing(scenes.usual())).decode()))
+    (text,) = document.modelspace().query('TEXT[text == "RTU-1, height 42.0 in"]')
+    text.dxf.text = "RTU-1, height 50.0 in"
+    text.set_placement((0.0, -90.0))
+    path = file("", "changed.dxf")
+    document.saveas(path)
+    (unit,) = (place for place in plan(path).objects if place.name == "RTU-1")
+    assert unit.height_m == pytest.approx(50.0 * INCH)
 
 
 def test_what_was_not_understood_is_listed_with_handle_and_layer(tmp_path):

@@ -17,7 +17,6 @@ from report.sheet.schema.shapes import (
     closest,
     crossing,
     gap_m,
-    label_point,
     merged,
     outside,
     ring,
@@ -172,7 +171,6 @@ def test_merged_rings_have_no_holes():
 def test_the_room_of_an_l_shape_is_its_larger_leg():
     long_leg = Polygon(((0, 0), (20, 0), (20, 4), (4, 4), (4, 10), (0, 10)))
     assert room(long_leg) == Rectangle(0, 20, 0, 4)
-    assert label_point(long_leg) == (10.0, 2.0)
     assert room(Rectangle(0, 1, 0, 2)) == Rectangle(0, 1, 0, 2)
 
 
