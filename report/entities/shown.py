@@ -146,6 +146,8 @@ class Entity(BaseModel):
     """Fields that are written first: those of a base class would be."""
     across: ClassVar[str] = ""
     """Fields in the order of their columns on a sheet of results.xlsx; others follow."""
+    key_columns: ClassVar[int] = 1
+    """Columns there that say which row it is: they stay in sight, and stand on every page."""
 
     # what follows a value, by field: marks of provisions and overrides, the cause of a verdict
     marks: SkipJsonSchema[Mapping[str, str]] = Field(default_factory=dict, exclude=True)

@@ -97,12 +97,13 @@ def write_design(
         "requirements, those that need other runs or the plan, are those of the report."
         + (f" {MEANING}." if assessment.is_overridden else ""),
     )
-    sheet.write_string("A3", "Verdict", pages.head)
-    sheet.write_string("C3", "Other", pages.head)
-    sheet.write_string("D3", _beside_arrays(assessment).value)
+    sheet.write_string("B3", "Verdict", pages.head)
+    sheet.merge_range("C3:D3", "", pages.head)
+    sheet.write_string("E3", "Other", pages.head)
+    sheet.write_string("F3", _beside_arrays(assessment).value, pages.text)
     cells = (Cells(DesignRow, TOP + at, is_here=True) for at in range(len(rows)))
-    formula = _worst_of(["D3", *(row.verdict for row in cells)])
-    sheet.write_formula("B3", formula, pages.head, assessment.verdict.value)
+    formula = _worst_of(["F3", *(row.verdict for row in cells)])
+    sheet.write_formula("C3", formula, pages.head, assessment.verdict.value)
 
 
 def _beside_arrays(assessment: Assessment) -> Verdict:

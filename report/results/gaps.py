@@ -31,10 +31,12 @@ class GapRow(SheetRow, ClearanceResult):
 
     sheet: ClassVar[str] = "Clearances"
     across: ClassVar[str] = (
-        "array object direction neighbor governing design_m factor minimum_m required_m provided_m"
-        " basis demand_capacity verdict by_roofslip_m difference rule_factor importance"
+        "count array object direction neighbor governing design_m factor minimum_m required_m"
+        " provided_m basis demand_capacity verdict by_roofslip_m difference rule_factor importance"
     )
+    key_columns: ClassVar[int] = 3
 
+    count: Annotated[int, Column("No.")]
     governing: Annotated[str, Column("Governing array, direction")]
     minimum_m: Annotated[float, Column("Minimum [in]", 1, is_input=True)]
     by_roofslip_m: Annotated[Number, Column("Required by Roofslip [in]", 2)]
@@ -56,7 +58,7 @@ def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -
     write_live(
         pages,
         GapRow,
-        [_row(assessment, gap, inputs) for gap in assessment.clearances],
+        [_row(assessment, gap, inputs, k) for k, gap in enumerate(assessment.clearances, start=1)],
         "Clearances",
         f"{assessment.rules.name}. From the sheet Design; between two arrays the larger "
         "displacement governs. The factor includes I_e or I_p if the rule set applies it here."
@@ -64,7 +66,7 @@ def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -
     )
 
 
-def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells) -> GapRow:
+def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count: int) -> GapRow:
     rules = assessment.rules
     largest, governing = _sides(assessment, gap)
     # Which route is permitted is no formula.
@@ -87,6 +89,7 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells) -> Gap
             "rule_factor": given.reason,
             **dict.fromkeys(("required_m", "demand_capacity", "by_roofslip_m"), gap.mark),
         },
+        count=count,
         governing=f"{gap.governing_array}, {gap.governing_direction.value}",
         minimum_m=gap.minimum_m,
         by_roofslip_m=gap.required_m,

@@ -11,7 +11,7 @@ from enum import StrEnum
 
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
-from report.results.sheets import TOP, Pages, typed, write_headings
+from report.results.sheets import TOP, Pages, typed
 from report.sheet.schema.fields import YesNo
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
 
@@ -32,21 +32,21 @@ class _Input:
 
 def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
     """Write what may be changed for the whole project; return the cells."""
+    inputs = list(_inputs(assessment))
     sheet = pages.sheet(
         "Inputs",
         "Inputs of the project",
         "Change a yellow cell here, or on the sheets Design and Clearances: the verdicts follow. "
         "Route, limits, motions and runs are those of the report.",
+        ("Input", "Value", "Use"),
+        [(item.label, f"{item.value}", item.use) for item in inputs],
     )
-    write_headings(pages, sheet, TOP - 2, ("Input", "Value", "Use"))
-    for column, width in enumerate((34, 16, 70)):
-        sheet.set_column(column, column, width)
     changed = {row.provision for row in assessment.project.overrides}
     cells = {}
-    for row, item in enumerate(_inputs(assessment), start=TOP):
+    for row, item in enumerate(inputs, start=TOP):
         cell = f"B{row}"
-        sheet.write_string(f"A{row}", item.label)
-        sheet.write_string(f"C{row}", item.use)
+        sheet.write_string(f"A{row}", item.label, pages.text)
+        sheet.write_string(f"C{row}", item.use, pages.text)
         if isinstance(item.value, StrEnum):
             sheet.write_string(cell, item.value, pages.typed_text)
             choices = [choice.value for choice in type(item.value)]

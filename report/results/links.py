@@ -14,7 +14,16 @@ from report.assessment.project import Assessment
 from report.entities.cells import Column
 from report.entities.linked import LinkedResult, LinkedRunResult, linked_result
 from report.entities.shown import Number, columns_of
-from report.results.sheets import TOP, Cells, Pages, SheetRow, fixed, write_live, write_rows
+from report.results.sheets import (
+    LINE_PT,
+    TOP,
+    Cells,
+    Pages,
+    SheetRow,
+    fixed,
+    write_live,
+    write_rows,
+)
 from solver.model import INCH_M
 from solver.sliding.least_model import DEFAULT
 
@@ -31,6 +40,7 @@ class LinkRunRow(SheetRow, LinkedRunResult):
         "array motion along polarity rigid_prd_m largest_m block prd_m stretch_m link_force_n"
         " error_m n_stops status"
     )
+    key_columns: ClassVar[int] = 4
 
     array: Annotated[str, Column("Array")]
     largest_m: Annotated[Number, Column("PRD, row [in]")]
@@ -132,6 +142,7 @@ def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cell
     )
     headings = [heading for _, heading, _ in columns_of(LinkPeakRow)]
     sheet.write_row(top - 2, 0, headings, pages.head)
+    sheet.set_row(top - 2, 3 * LINE_PT)
     write_rows(pages, sheet, top, peaks)
 
 

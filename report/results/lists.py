@@ -36,6 +36,7 @@ class RunRow(SheetRow, RunResult):
         " down_m up_m across_m t_prd_s n_stops peak_speed_mps n_min_g friction_demand rung reason"
         " next_rung next_effect_m error_m status"
     )
+    key_columns: ClassVar[int] = 4
 
     array: Annotated[str, Column("Array")]
     governs: Annotated[str, Column("Governs")]
@@ -47,6 +48,7 @@ class MotionRow(SheetRow, MotionResult):
 
     sheet: ClassVar[str] = "Motions"
     across: ClassVar[str] = "id component"
+    key_columns: ClassVar[int] = 2
 
     component: Annotated[str, Column("Component")]
     pga_g: Annotated[float, Column("PGA [g]")]
@@ -117,7 +119,6 @@ def write_requirements(pages: Pages, assessment: Assessment) -> None:
 
 
 def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
-    yield from requirement_rows(assessment.rows)
     for check in assessment.building_checks:
         yield _limit(assessment, "Building", check)
     for item in assessment.arrays:
@@ -125,6 +126,7 @@ def _rows(assessment: Assessment) -> Iterator[RequirementRow]:
             yield _limit(assessment, item.id, check)
     for check in assessment.acceptance.rows:
         yield _limit(assessment, "Motions", check)
+    yield from requirement_rows(assessment.rows)
 
 
 def _limit(assessment: Assessment, item: str, row: Limit) -> RequirementRow:

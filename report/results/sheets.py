@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from io import BytesIO
+from textwrap import wrap
 from typing import Any, ClassVar, Self
 
 from xlsxwriter.format import Format
@@ -25,10 +26,18 @@ from report.entities.shown import Entity, columns_of
 TOP = 5
 """First row below the headings of a sheet with a title."""
 
+LINE_PT = 15
+"""Height of a line of text."""
+
 _INPUT = {"bg_color": "#FFF7CC", "border": 4}
 """Format of a cell that may be changed."""
 
-_LETTER = 1
+_WRAPPED = {"text_wrap": True, "valign": "top", "align": "left"}
+_TEXT = _WRAPPED | {"indent": 1}  # off the number in the column before
+_LETTER, _A4 = 1, 9
+_WIDEST = 30  # of a column whose texts wrap, in letters; of long texts, twice that
+_MOST_LINES = 27  # a row of Excel is at most 409 points tall
+_PAGE_PX, _LEAST_SCALE = 970, 60  # width of a landscape page, and the least scale on it [%]
 
 
 class SheetRow(Entity):
@@ -86,16 +95,6 @@ def typed(value: float) -> float:
     return float(f"{value:.12g}")
 
 
-def print_on_letter(sheet: Worksheet, heading_row: int) -> None:
-    """Print a sheet as wide as a landscape page, with its headings on each."""
-    sheet.set_landscape()
-    sheet.set_paper(_LETTER)
-    sheet.set_margins(left=0.4, right=0.4, top=0.6, bottom=0.6)
-    sheet.fit_to_pages(1, 0)
-    sheet.repeat_rows(heading_row)
-    sheet.set_footer("&L&F, &A&RPage &P of &N")
-
-
 def text_workbook(buffer: BytesIO, date: dt.date, title: str = "") -> Workbook:
     """Return a workbook to write, in which text from an untrusted one is never a formula or link.
 
@@ -108,54 +107,118 @@ def text_workbook(buffer: BytesIO, date: dt.date, title: str = "") -> Workbook:
 
 
 class Pages:
-    """The formats that all sheets share."""
+    """The formats that all sheets share, and the paper that they are printed on."""
 
-    def __init__(self, workbook: Workbook):
+    def __init__(self, workbook: Workbook, *, is_a4: bool = False):
         self.workbook = workbook
+        self.paper = _A4 if is_a4 else _LETTER
         self.title = workbook.add_format({"bold": True, "font_size": 14})
-        self.head = workbook.add_format(
-            {"bold": True, "bottom": 1, "text_wrap": True, "valign": "top"}
-        )
-        self.note = workbook.add_format({"italic": True, "font_color": "#555555"})
-        self.typed_text = workbook.add_format(_INPUT)
-        self._numbers: dict[tuple[int, bool, bool], Format] = {}
+        self.head = workbook.add_format(_WRAPPED | {"bold": True, "bottom": 1})
+        self.note = workbook.add_format(_WRAPPED | {"italic": True, "font_color": "#555555"})
+        self.text = workbook.add_format(_TEXT)
+        self.typed_text = workbook.add_format(_TEXT | _INPUT)
+        self._numbers: dict[tuple[int | None, bool, bool], Format] = {}
 
-    def number(
-        self, decimals: int | None, mark: str = "", *, is_input: bool = False
-    ) -> Format | None:
+    def number(self, decimals: int | None, mark: str = "", *, is_input: bool = False) -> Format:
         """Return the format of a number, with its mark, which leaves it a number."""
-        if decimals is None:
-            return None
         key = (decimals, bool(mark), is_input)
         if key not in self._numbers:
-            code = f"{0:.{decimals}f}" + (f'"{OVERRIDDEN}"' if mark else "")
-            fill = _INPUT if is_input else {}
-            self._numbers[key] = self.workbook.add_format({"num_format": code} | fill)
+            code = "General" if decimals is None else f"{0:.{decimals}f}"
+            code += f'"{OVERRIDDEN}"' if mark else ""
+            look = {"num_format": code, "valign": "top"} | (_INPUT if is_input else {})
+            self._numbers[key] = self.workbook.add_format(look)
         return self._numbers[key]
 
-    def sheet(self, name: str, title: str, note: str) -> Worksheet:
-        """Return a sheet with its heading written."""
+    def sheet(
+        self,
+        name: str,
+        title: str,
+        note: str,
+        headings: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        keys: int = 1,
+    ) -> Worksheet:
+        """Return a sheet with its title and headings, laid out for rows of texts as shown."""
         sheet: Worksheet = self.workbook.get_worksheet_by_name(name)
-        sheet.write_string(0, 0, title, self.title)
-        sheet.write_string(1, 0, note, self.note)
+        widths = lay_out(self, sheet, TOP - 2, headings, rows, keys)
+        # Beside columns that stand on every page, on which it would be truncated.
+        start = keys if _is_wide(widths) else 0
+        end = max(k for k in range(len(widths) + 1) if not _is_wide(widths[:k]))
+        sheet.write_string(0, start, title, self.title)
+        sheet.merge_range(1, start, 1, end - 1, note, self.note)
+        sheet.set_row(1, LINE_PT * _lines(note, sum(widths[start:end])))
         return sheet
 
 
-def write_headings(pages: Pages, sheet: Worksheet, row: int, headings: Sequence[str]) -> None:
-    """Write a row of headings and freeze it."""
-    sheet.write_row(row, 0, headings, pages.head)
-    sheet.set_row(row, 48)
-    sheet.set_column(0, len(headings) - 1, 13)
-    sheet.freeze_panes(row + 1, 1)
-    print_on_letter(sheet, row)
+def lay_out(
+    pages: Pages,
+    sheet: Worksheet,
+    top: int,
+    headings: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    keys: int = 1,
+) -> Sequence[int]:
+    """Write headings, fit columns and rows to texts as shown, and make landscape pages legible.
+
+    Parameters
+    ----------
+    keys : int
+        Columns that say which row it is: they stay in sight, and stand on every page.
+
+    Returns
+    -------
+    sequence of int
+        Widths of the columns in letters.
+    """
+    sheet.write_row(top, 0, headings, pages.head)
+    widths = [_width(head, cells) for head, *cells in zip(headings, *rows, strict=True)]
+    for at, width in enumerate(widths):
+        sheet.set_column(at, at, width)
+    for number, texts in enumerate((headings, *rows), start=top):
+        sheet.set_row(number, LINE_PT * max(map(_lines, texts, widths)))
+    sheet.freeze_panes(top + 1, keys)
+    sheet.set_landscape()
+    sheet.set_paper(pages.paper)
+    sheet.set_margins(left=0.4, right=0.4, top=0.6, bottom=0.6)
+    sheet.repeat_rows(top)
+    sheet.set_footer("&L&F, &A&RPage &P of &N")
+    if _is_wide(widths):
+        sheet.set_print_scale(_LEAST_SCALE)
+        sheet.repeat_columns(0, keys - 1)
+        sheet.print_across()
+    else:
+        sheet.fit_to_pages(1, 0)
+    return widths
+
+
+def _is_wide(widths: Sequence[int]) -> bool:
+    """Whether columns are wider than a page at the least scale."""
+    return sum(7 * width + 5 for width in widths) * _LEAST_SCALE > 100 * _PAGE_PX
+
+
+def _width(heading: str, cells: Sequence[str]) -> int:
+    """Return the width of a column, in which no word is broken."""
+    longest = max(map(len, cells), default=0)
+    words = [len(word) for text in cells for word in text.split()]
+    wanted = min(longest, max(_WIDEST, min(longest // 4, 2 * _WIDEST)))
+    return max(*(len(word) - 1 for word in heading.split()), *words, wanted) + 2
+
+
+def _lines(text: str, width: int) -> int:
+    """Return how many lines a text takes, of those that a row may have."""
+    return max(1, min(len(wrap(text, width)), _MOST_LINES))
 
 
 def write_live(
     pages: Pages, model: type[SheetRow], rows: Sequence[SheetRow], title: str, note: str
 ) -> Worksheet:
     """Write rows as a sheet with live formulas."""
-    sheet = pages.sheet(model.sheet, title, note)
-    write_headings(pages, sheet, TOP - 2, _headings(model))
+    columns = columns_of(model)
+    shown = [
+        [_shown(_value(row, name, column), column.decimals) for name, _, column in columns]
+        for row in rows
+    ]
+    sheet = pages.sheet(model.sheet, title, note, _headings(model), shown, model.key_columns)
     write_rows(pages, sheet, TOP, rows)
     return sheet
 
@@ -187,10 +250,12 @@ def _write(
     value = _finite(_value(row, name, column))
     is_input = column.is_input and not formula
     shown = pages.number(column.decimals, row.marks.get(name, ""), is_input=is_input)
+    if isinstance(value, str) and column.decimals is None:
+        shown = pages.typed_text if is_input else pages.text
     if formula and (column.is_always or value != NO_VALUE):
         sheet.write_formula(*place, formula, shown, value)
     elif isinstance(value, str):
-        sheet.write_string(*place, value, pages.typed_text if is_input else None)
+        sheet.write_string(*place, value, shown)
     else:
         sheet.write_number(*place, typed(value) if is_input else value, shown)
 
@@ -201,21 +266,30 @@ def write_list(pages: Pages, name: str, rows: Sequence[Entity]) -> None:
     columns = [
         [_value(row, field, column) for row in rows] for field, _, column in columns_of(model)
     ]
-    write_table(pages, name, dict(zip(_headings(model), columns, strict=True)))
+    write_table(pages, name, dict(zip(_headings(model), columns, strict=True)), model.key_columns)
 
 
-def write_table(pages: Pages, name: str, table: Mapping[str, Sequence[Any]]) -> None:
-    """Write columns by heading as a sheet, as wide as their texts."""
-    sheet = pages.workbook.add_worksheet(name)
-    sheet.freeze_panes(1, 0)
-    print_on_letter(sheet, 0)
-    for at, (heading, values) in enumerate(table.items()):
-        texts = [heading, *map(str, values[:50])]
-        is_number = all(isinstance(value, float) for value in values)
-        width = 11 if is_number else min(max(map(len, texts)) + 2, 66)
-        sheet.set_column(at, at, width, pages.number(3) if is_number else None)
-        sheet.write_string(0, at, heading, pages.head)
-        sheet.write_column(1, at, map(_finite, values))
+def write_table(pages: Pages, name: str, table: Mapping[str, Sequence[Any]], keys: int = 1) -> None:
+    """Write columns by heading as a sheet."""
+    sheet: Worksheet = pages.workbook.get_worksheet_by_name(name)
+    decimals = [
+        3 if all(isinstance(value, float) for value in values) else None
+        for values in table.values()
+    ]
+    shown = [list(map(_shown, row, decimals)) for row in zip(*table.values(), strict=True)]
+    lay_out(pages, sheet, 0, list(table), shown, keys)
+    for at, (values, digits) in enumerate(zip(table.values(), decimals, strict=True)):
+        is_text = any(isinstance(value, str) for value in values)
+        look = pages.text if is_text else pages.number(digits)
+        sheet.write_column(1, at, map(_finite, values), look)
+
+
+def _shown(value: Any, decimals: int | None) -> str:
+    """Return what a cell shows."""
+    found = _finite(value)
+    if isinstance(found, float) and decimals is not None:
+        return f"{found:.{decimals}f}"
+    return str(found)
 
 
 def _headings(model: type[Entity]) -> Sequence[str]:

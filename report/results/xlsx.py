@@ -19,17 +19,23 @@ from report.results.links import LinkRunRow, link_cells, link_run_rows, write_li
 from report.results.lists import write_lists, write_requirements
 from report.results.sheets import TOP, Cells, Pages, text_workbook, write_list
 
-_LIVE = ("Design", "Inputs", "Directions", "Clearances", "Requirements", "Peaks")
+_ORDER = (
+    "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records", "Spectra",
+    "Directions", "Peaks", "Runs", "Links", "LinkRuns",
+)  # fmt: skip
+"""The sheets in the order of the package."""
 
 
 def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     """Return the tables as a workbook, with live formulas from the peaks to the separations."""
     buffer = io.BytesIO()
+    absent = set() if assessment.linked else {"Links", "LinkRuns"}
+    absent |= set() if assessment.neighbors else {"Neighbors"}
     with text_workbook(buffer, assessment.project.project.date) as workbook:
-        pages = Pages(workbook)
-        links = ("Links",) if assessment.linked else ()
-        for name in (*_LIVE, *links):
-            workbook.add_worksheet(name)
+        pages = Pages(workbook, is_a4=not assessment.project.us_first)
+        for name in _ORDER:
+            if name not in absent:
+                workbook.add_worksheet(name)
         write_lists(pages, assessment, spectra)
         _write_live(pages, assessment)
         workbook.set_calc_mode("auto")

@@ -57,7 +57,7 @@ def test_the_verdicts_of_arrays_and_what_governs(made):
     ]
     cells = rows_of(book["Design"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in arrays]
-    assert book["Design"]["B3"].value == document["verdict"]
+    assert book["Design"]["C3"].value == document["verdict"]
 
 
 def test_the_verdicts_and_kinds_of_clearances(made):

@@ -344,6 +344,7 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
         item = row.subject or "Project"
         cells = (item, row.title, row.found, row.limit, row.basis, row.verdict)
         assert rows.count(cells) == 1
+    assert rows[-1] == cells  # after the limits, as in the package
     limits = [c for item in assessment.arrays for c in item.limits]
     motions = assessment.acceptance.rows
     count = len(assessment.rows) + len(assessment.building_checks) + len(limits) + len(motions)
