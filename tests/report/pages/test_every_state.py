@@ -53,7 +53,10 @@ STATES = {
         "Minimum normal force −0.40 m g: uplift occurs.",
     ),
     "NG": (of(**NARROW), ". Marked NG: 2 of 2 arrays, 1 of 1 clearance."),
-    "plan check": (of(options={"package_edition": "plan check", "letter": False}), "A Records, software"),
+    "plan check": (
+        of(options={"package_edition": "plan check", "letter": False}),
+        "A Records, software",
+    ),
     "conditions": (
         of(),
         "OK with conditions All limits and clearances are satisfied;",
