@@ -37,7 +37,7 @@ MOST_LEVELS = 4
 DASHES = (0, (3.0, 1.2))
 
 
-class Panel(NamedTuple):
+class RunPanel(NamedTuple):
     """A motion in its governing run, with its history and the name of an array or nothing."""
 
     array: str
@@ -45,7 +45,7 @@ class Panel(NamedTuple):
     history: SlideHistory
 
 
-def histories(panels: Sequence[Panel], us_first: bool) -> str:
+def histories(panels: Sequence[RunPanel], us_first: bool) -> str:
     """Return the relative displacement in the governing run of each panel, PRD marked.
 
     All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
@@ -65,7 +65,7 @@ def histories(panels: Sequence[Panel], us_first: bool) -> str:
 class _Grid:
     """Position and scale of the panels of a figure."""
 
-    def __init__(self, panels: Sequence[Panel], unit: Unit) -> None:
+    def __init__(self, panels: Sequence[RunPanel], unit: Unit) -> None:
         self.followed = [
             None if math.isnan(panel.history.result.prd_m) else panel.history for panel in panels
         ]
@@ -165,7 +165,7 @@ def _names(axes: Axes, grid: _Grid, index: int, history: SlideHistory) -> None:
         axes.text(grid.x(index, grid.seconds) + 0.015, level, name, va="center")
 
 
-def _titles(axes: Axes, grid: _Grid, index: int, panel: Panel, us_first: bool) -> None:
+def _titles(axes: Axes, grid: _Grid, index: int, panel: RunPanel, us_first: bool) -> None:
     top, run = grid.y(index, grid.high) + 0.045, panel.motion
     name = f"{tick_text(run.motion.id)} {_short(run)}"
     if panel.array:

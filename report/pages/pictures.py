@@ -71,10 +71,10 @@ def _governing(
     runs: Sequence[tuple[Sequence[ArrayAssessment], Sequence[SlideHistory]]], us_first: bool
 ) -> Iterator[str]:
     """Yield the histories of the governing runs, a panel for each group of arrays."""
-    from report.figures.history import Panel, histories
+    from report.figures.history import RunPanel, histories
 
     panels = [
-        Panel(ranged([item.id for item in group]), motion, history)
+        RunPanel(ranged([item.id for item in group]), motion, history)
         for group, followed in runs
         for motion, history in zip(group[0].motions, followed, strict=True)
         if motion is group[0].worst
@@ -86,10 +86,10 @@ def _governing(
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[tuple[str, str]]:
-    from report.figures.history import Panel, histories
+    from report.figures.history import RunPanel, histories
     from report.figures.hodograph import hodographs
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for motions, paths in runs:
-        panels = [Panel("", *run) for run in zip(motions, paths, strict=True)]
+        panels = [RunPanel("", *run) for run in zip(motions, paths, strict=True)]
         yield histories(panels, us_first), hodographs(motions, paths, us_first)

@@ -27,7 +27,12 @@ def page(assessment, *parts):
     return printed(assessment, "motions", spectra=parts)
 
 
-ACHIEVED, ORDINATES = "Achieved / target", "Pseudo-acceleration"
+def ordinates(assessment, *parts):
+    """The table of these spectra."""
+    return printed(assessment, "spectra", spectra=parts).table("Pseudo-acceleration")
+
+
+ACHIEVED = "Achieved / target"
 
 
 HALVED = tuple(replace(motion, scale=0.5) for motion in scenes.motions())
@@ -98,7 +103,7 @@ def test_the_table_names_the_motion_and_frequency_of_the_extremes(assessment):
 
 def test_ratios_of_the_ordinates_are_those_of_mean_and_single_motions(assessment):
     part = spectra(under(assessment))[0]
-    head, target, mean, over, least, largest = page(assessment, part).table(ORDINATES).rows
+    head, target, mean, over, least, largest = ordinates(assessment, part).rows
     assert part.title in head["Period"]
     at = int(np.argmin(np.abs(part.periods_s - 1.0)))
     assert target["1 s [1 Hz]"] == f"{part.target_g[at]:.3f}"
@@ -115,7 +120,7 @@ def test_a_project_spectrum_applies_only_where_it_is_given():
     assert 0.1 <= periods.min() <= 0.11
     assert 1.9 <= periods.max() <= 2.0
     shown = page(done, part)
-    table = shown.table(ORDINATES)
+    table = ordinates(done, part)
     shown_s = [float(heading.partition(" s ")[0]) for heading in table.headings[1:]]
     _, target, _, over, *_ = table.cells
     for row in (target, over):
@@ -141,7 +146,7 @@ def test_ground_motions_are_shown_where_they_were_recorded_with_or_without_a_tar
     alone = response_spectrum(0.5 * HALVED[1].ax_mps2, HALVED[1].dt_s, across.periods_s)
     assert across.sa_g[1] == pytest.approx(alone / G, rel=1e-12)
     shown = page(done, across)
-    _, mean = shown.table(ORDINATES).cells
+    _, mean = ordinates(done, across).cells
     assert mean[0] == "Mean of 3 motions [g]"
     assert not any(table.title.startswith(ACHIEVED) for table in shown.tables)
 

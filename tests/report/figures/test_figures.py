@@ -38,7 +38,8 @@ def drawn(assessment):
 
 
 def histories(array, us_first=True):
-    return history.histories(array.motions, [run.history() for run in array.motions], us_first)
+    panels = [history.RunPanel("", run, run.history()) for run in array.motions]
+    return history.histories(panels, us_first)
 
 
 def words(svg):
