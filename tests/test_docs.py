@@ -231,7 +231,6 @@ def test_every_picture_and_file_that_is_named_exists():
     assert [path for path in named if not path.exists()] == []
 
 
-@pytest.mark.nightly
 def test_every_page_is_in_the_contents_and_none_is_long():
     assert set(NAV) == {path.name for path in DOCS}
     written = [path for path in DOCS if path not in make_docs.pages()]

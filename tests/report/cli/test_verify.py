@@ -27,12 +27,9 @@ from solver.rivals.methods import METHODS
 from solver.verification.evidence import PeerPoint
 from solver.verification.shake_table import compare
 
-pytestmark = [
-    pytest.mark.skipif(
-        numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
-    ),
-    pytest.mark.nightly,
-]
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+)
 
 
 @pytest.fixture(scope="module")

@@ -27,12 +27,9 @@ from solver.verification.identification import identify
 from solver.verification.scenes import own_records
 from verified import only
 
-pytestmark = [
-    pytest.mark.skipif(
-        numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
-    ),
-    pytest.mark.nightly,
-]
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
+)
 
 
 @pytest.fixture(scope="module")
@@ -153,6 +150,7 @@ def test_the_ground_itself_is_the_last_prediction_and_has_no_building(made, comp
 # Records of a real building
 
 
+@pytest.mark.nightly
 def test_575_market_street_is_read_and_its_misfit_stays_what_it_was():
     if not (RECORDS / "roof_575_market").is_dir():
         pytest.skip("the records of the building are not here")

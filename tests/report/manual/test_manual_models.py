@@ -19,12 +19,9 @@ from solver.verification.model_evidence import HELD, SECOND
 from solver.verification.triples import own_triples
 from verified import only
 
-pytestmark = [
-    pytest.mark.skipif(
-        numba.config.DISABLE_JIT, reason="generated motions take minutes without JIT"
-    ),
-    pytest.mark.nightly,
-]
+pytestmark = pytest.mark.skipif(
+    numba.config.DISABLE_JIT, reason="generated motions take minutes without JIT"
+)
 TWO_AXES = "PRD in two axes relative to one axis, median"
 
 

@@ -45,7 +45,11 @@ def test_a_study_is_read_as_it_was():
 
 
 @pytest.mark.parametrize(("name", "project"), [("begun", "example"), ("undone", "conditions")])
-def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(tmp_path, name, project):
+def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(
+    tmp_path, monkeypatch, name, project
+):
+    # However slow the machine is, it prints no progress.
+    monkeypatch.setattr("report.cli.terminal.time.monotonic", lambda: 0.0)
     beside(tmp_path / "job", name, project)
     done = CliRunner().invoke(main, ["check", str(tmp_path / "job")])
     assert done.exit_code == 2

@@ -16,8 +16,6 @@ from solver.verification.evidence import ROUNDING, Check, DesignCurves, percent_
 from solver.verification.features import FEATURES, statuses
 from solver.verification.scenes import Case, near_fault_pulse, own_records, scale_to, shortened
 
-pytestmark = pytest.mark.quick
-
 
 @pytest.fixture(scope="module")
 def verification(tmp_path_factory):
@@ -30,7 +28,6 @@ def pulse():
     return near_fault_pulse()
 
 
-@pytest.mark.nightly
 def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.passed
     assert verification.quick
@@ -44,7 +41,6 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     ]
 
 
-@pytest.mark.nightly
 def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_alike(verification):
     rows = verification.checks
     assert {row.section for row in rows} == {
@@ -64,7 +60,6 @@ def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_ali
     assert len(set(names)) == len(names)
 
 
-@pytest.mark.nightly
 def test_every_check_that_a_feature_names_ran_and_every_check_belongs_to_one(verification):
     ran = {row.id for row in verification.checks}
     named = {id for feature in FEATURES for id in feature.checks}
@@ -101,6 +96,7 @@ def test_a_method_without_a_number_fails_its_check(monkeypatch):
     assert all(math.isnan(row.error) and not row.passed for row in rows)
 
 
+@pytest.mark.quick
 def test_an_error_is_absolute_where_nothing_is_expected():
     row = Check("CF-1", "c", "d", "m", "b", 0.0, -3e-4, 1e-3)
     assert (row.error, row.passed) == (3e-4, True)
@@ -126,6 +122,7 @@ def test_records_of_the_project_are_the_same_every_time_and_read_only():
         assert scale_to(a, 1.0) * np.abs(a.a_mps2).max() == pytest.approx(9.80665)
 
 
+@pytest.mark.quick
 def test_errors_in_percent_have_a_floor_of_a_millimetre():
     off = percent_off(np.array([1.01, 1e-4, math.nan]), np.array([1.0, 0.0, 1.0]))
     assert off[:2] == pytest.approx([1.0, 10.0])
@@ -135,7 +132,6 @@ def test_errors_in_percent_have_a_floor_of_a_millimetre():
 # The paper's figures
 
 
-@pytest.mark.nightly
 def test_the_papers_method_converges_at_first_order_under_an_envelope(verification):
     assert len(paper_studies.CONVERGENCE_CASES) == 60
     for found in verification.convergence.values():
@@ -152,7 +148,6 @@ def test_the_papers_method_converges_at_first_order_under_an_envelope(verificati
     assert 0.01 < found.loc[64, "exact_percent"] < 1.0  # of a pulse; 0.48 % in the paper
 
 
-@pytest.mark.nightly
 def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
     for link in verification.links:
         assert len(link.runs_m) == (10 if link.slope_deg == 0.0 else 6)
@@ -163,7 +158,6 @@ def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
         assert (link.runs_m["PRD, exact"] >= link.runs_m["RRD, exact"] - 1e-15).all()
 
 
-@pytest.mark.nightly
 def test_design_curves_are_the_papers_6960_runs(verification):
     curves = verification.curves[0]
     assert curves.runs == 6960
@@ -173,6 +167,7 @@ def test_design_curves_are_the_papers_6960_runs(verification):
     assert curves.prd_m[8, 2, 15] == pytest.approx(max(both_m), rel=1e-9)
 
 
+@pytest.mark.quick
 def test_the_least_friction_is_read_off_between_the_runs():
     mus = np.array([0.2, 0.4, 0.6, 0.8])
     prd = np.array([4.0, 1.0, 2.0, 0.0])[None, :, None] * np.array([0.0, 1.0])
