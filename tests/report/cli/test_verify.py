@@ -289,6 +289,7 @@ def test_a_failed_check_is_named_and_exits_1_with_the_outputs_written(failed, br
     assert (table["passed"] == "no").sum() == 1
 
 
+@pytest.mark.quick
 def test_a_folder_that_cannot_be_written_is_refused_before_any_run(tmp_path):
     (tmp_path / "v").write_text("a file")
     with verifying(lambda *_, **__: 1 / 0):
@@ -357,5 +358,6 @@ def test_a_fault_in_the_tests_of_a_shake_table_is_an_input_error_before_any_run(
          "2°, μ\xa0=\xa00.4, PPA\xa0=\xa01.5\xa0g, flat"),
     ],
 )  # fmt: skip
+@pytest.mark.quick
 def test_errors_percents_times_and_letters_are_set_as_in_a_book(write, value, text):
     assert write(value) == text

@@ -11,6 +11,8 @@ import scenes
 from report.assessment.spectra import spectra
 from report.results.xlsx import results_xlsx
 
+pytestmark = pytest.mark.quick
+
 LETTER_PX, MARGIN_PX = 7, 5
 PAGE_IN = {"1": 11.0, "9": 11.69}  # Letter and A4 in landscape
 LEGIBLE = 0.6  # of 11 pt

@@ -9,6 +9,8 @@ from scipy.stats import norm
 
 from solver.studies.censored import deviance, fit, inverse_mills, log_likelihood
 
+pytestmark = pytest.mark.quick
+
 SETS = [
     ([0.1, -0.3, 0.2, 0.4, 0.4], [0, 0, 0, 1, 1]),
     ([0.1, -0.3, 0.2, 0.5, 0.4], [0, 0, 0, 0, 0]),
