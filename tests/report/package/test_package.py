@@ -81,7 +81,7 @@ def test_the_document_says_what_it_is(pdf):
     assert reader.trailer["/Root"]["/Lang"] == "en-US"
     titles = [item.title for item in reader.outline if not isinstance(item, list)]
     assert "1 Summary" in titles
-    assert "B Records and software" in titles
+    assert "A Records, software and references" in titles
 
 
 @pytest.mark.parametrize("name", ["package.css", "verification.css"])
@@ -111,7 +111,7 @@ def test_contents_name_the_sheet_of_each_part(texts):
         "A Records, software and references",
     ):
         number, words = title.split(" ", 1)
-        match = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", " ".join(texts[:3]))
+        match = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", flat(" ".join(texts[:3])))
         assert match, title
         assert title in flat(texts[int(match[1]) - 1])
 
@@ -147,7 +147,7 @@ def test_markup_in_a_field_is_printed_not_obeyed(crowded):
 
 @pytest.mark.nightly
 def test_twelve_arrays_have_room(crowded):
-    assert sum("every motion in every run" in text for text in crowded) >= 12
+    assert sum(text.count("every motion in every run") for text in crowded) >= 12
 
 
 def test_too_few_motions_give_no_value_and_no_verdict_on_clearances():

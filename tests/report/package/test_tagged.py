@@ -105,10 +105,10 @@ def test_an_empty_signature_field_lies_over_the_seal_box(pdf, elements):
     assert "/V" not in field
     assert field.objgen in {annotation.objgen for annotation in pdf.pages[0].Annots}
     left, bottom, right, top = map(float, field.Rect)
-    # Letter, with margins of 0.9 in: the left one of two boxes with 0.3 in between them.
+    # Letter, with margins of 0.9 in: the left one of two boxes with 0.15 in between them.
     assert left == pytest.approx(0.9 * 72, abs=0.1)
-    assert right == pytest.approx((8.5 / 2 - 0.15) * 72, abs=0.1)
-    assert top - bottom == pytest.approx(2.2 * 72, abs=10.0)
+    assert right == pytest.approx((8.5 / 2 - 0.075) * 72, abs=0.1)
+    assert top - bottom == pytest.approx(1.1 * 72, abs=10.0)
     (form,) = of_kind(elements, "/Form")
     assert form.K[0].Obj.objgen == field.objgen
 
