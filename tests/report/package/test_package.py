@@ -111,7 +111,8 @@ def test_contents_name_the_sheet_of_each_part(texts):
         "A Records, software and references",
     ):
         number, words = title.split(" ", 1)
-        match = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", flat(" ".join(texts[:3])))
+        contents = flat(" ".join(texts[:3]))
+        match = re.search(rf"{number}\s*{re.escape(words)}\s*\.*\s*(\d+)", contents)
         assert match, title
         assert title in flat(texts[int(match[1]) - 1])
 
