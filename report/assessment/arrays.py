@@ -267,6 +267,17 @@ class ArrayAssessment(RouteLimits):
         return max(self.motions, key=lambda run: nan_is_worst(run.governing.prd_m))
 
 
+SEAOC = provisions.RULE_SETS["SEAOC PV1-2012"]
+
+
+def seaoc_displacement(data: ProjectInput) -> Prescriptive:
+    """Return the prescriptive displacement by SEAOC PV1, whatever the rule set."""
+    site = data.site
+    return provisions.prescriptive_displacement(
+        SEAOC, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
+    )
+
+
 def limits_of(
     data: ProjectInput, rules: RuleSet, array: Array, *, n_motions: int, has_value: bool
 ) -> RouteLimits:

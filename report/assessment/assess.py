@@ -109,8 +109,7 @@ def _beside(other: Assessment, given: Assessment) -> Assessment:
     text = f"By {other.rules.name} 13.6.12 with {how}: {words}."
     ids = "rule_set", "edition_name"
     rows = [
-        row.model_copy(update={"remedy": f"{row.remedy} {text}"}) if row.id in ids else row
-        for row in given.rows
+        row.model_copy(update={"outcome": text}) if row.id in ids else row for row in given.rows
     ]
     return replace(given, rows=tuple(rows))
 

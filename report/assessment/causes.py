@@ -128,7 +128,8 @@ def reasons(assessment: Assessment) -> Iterator[str]:
 def row_words(row: Requirement, subjects: Sequence[str]) -> str:
     """Return a requirement that is not satisfied, with all that it is said of."""
     where = f"{ranged(subjects)}, " if row.subject else ""
-    return f"{where}{lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
+    words = f"{where}{lowered(row.title)}: {row.found}; required: {row.limit}. {row.remedy}"
+    return f"{words} {row.outcome}".rstrip()
 
 
 def _models(assessment: Assessment) -> Iterator[str]:

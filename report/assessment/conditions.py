@@ -23,6 +23,7 @@ from report.assessment.overrides import override_rows
 from report.assessment.verdict import (
     NOT_GIVEN,
     STAYS,
+    STRENGTH_ROW,
     VELOCITY_ROW,
     Requirement,
     Verdict,
@@ -394,7 +395,7 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
 def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Requirement:
     state = NOT_GIVEN if array.interconnection_n is None else "too low"
     return Requirement(
-        id="interconnection",
+        id=STRENGTH_ROW,
         title="Interconnection strength provided",
         cause=f"interconnection strength {state}",
         subject=array.id,

@@ -77,6 +77,48 @@ def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityChe
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class InputCase:
+    """An array with another input.
+
+    Attributes
+    ----------
+    array : ArrayAssessment
+        With its design displacement then.
+    changed : str
+        The other input, in words.
+    gaps : sequence of ClearanceCheck
+        The clearances that involve the array, then.
+    """
+
+    array: ArrayAssessment
+    changed: str
+    gaps: Sequence[ClearanceCheck]
+
+    @property
+    def short(self) -> Sequence[ClearanceCheck]:
+        """The clearances that would be NG."""
+        return [gap for gap in self.gaps if gap.verdict is Verdict.NG]
+
+    def words(self, us_first: bool) -> str:
+        """Return it as a sentence."""
+        return f"{self.array.id} with {self.changed}: {', '.join(self._outcome(us_first))}."
+
+    def _outcome(self, us_first: bool) -> Iterator[str]:
+        design_m = self.array.design_m
+        yield (
+            "no design displacement"
+            if math.isnan(design_m)
+            else f"design displacement {pair(design_m, Quantity.DISPLACEMENT, us_first, no_less)}"
+        )
+        if self.array.has_unpermitted_value:
+            yield NOT_PERMITTED
+        if failed := [gap.words(us_first) for gap in self.short]:
+            yield f"NG: {', '.join(failed)}"
+        elif self.gaps and all(gap.ok for gap in self.gaps):
+            yield "all its clearances OK" if len(self.gaps) > 1 else "its clearance OK"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LowVelocityAssessment:
     """The arrays whose friction depends on velocity, with the low-velocity coefficient alone."""
 
@@ -91,6 +133,14 @@ class LowVelocityAssessment:
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
         """Return the clearances that involve an array, on either side."""
         return [gap for gap in self.clearances.values() if gap.involves(array_id)]
+
+    def case_of(self, array_id: str) -> InputCase | None:
+        """Return an array as a case; None where its friction does not depend on velocity."""
+        alone = self.of(array_id)
+        if alone is None:
+            return None
+        changed = f"μ = {coefficient(alone.array.mu)} at every velocity"
+        return InputCase(array=alone, changed=changed, gaps=self.gaps_of(array_id))
 
 
 NOT_BY_VELOCITY = LowVelocityAssessment(arrays=(), clearances={})
@@ -149,12 +199,7 @@ def _row(
     array_id: str, check: VelocityCheck, slow: LowVelocityAssessment, us_first: bool
 ) -> Requirement:
     least = number(check.tests.minimum_mu, 3)
-    # No coefficient is offered but the one that is run below: with less friction it may be NG.
-    remedy = "Obtain friction tests at the sliding velocities."
-    alone = slow.of(array_id)
-    if alone is not None:
-        outcome = ", ".join(_outcome(alone, slow, us_first))
-        remedy += f" With {coefficient(alone.array.mu)} at every velocity: {outcome}."
+    case = slow.case_of(array_id)
     return condition(
         id=VELOCITY_ROW,
         title="Friction beyond the velocities tested",
@@ -163,7 +208,9 @@ def _row(
         limit=f"slower than tested, or μ beyond ≤ {least}",
         basis="friction tests",
         is_satisfied=check.is_satisfied,
-        remedy=remedy,
+        # No coefficient is offered but the one that is run: with less friction it may be NG.
+        remedy="Obtain friction tests at the sliding velocities.",
+        outcome=case.words(us_first) if case else "",
     )
 
 
@@ -184,19 +231,3 @@ def _slides(fastest_mps: float, us_first: bool) -> str:
     if fastest_mps == 0.0:
         return "does not slide"
     return f"slides at {pair(fastest_mps, Quantity.VELOCITY, us_first)}"
-
-
-def _outcome(alone: ArrayAssessment, slow: LowVelocityAssessment, us_first: bool) -> Iterator[str]:
-    design_m = alone.design_m
-    yield (
-        "no design displacement"
-        if math.isnan(design_m)
-        else f"design displacement {pair(design_m, Quantity.DISPLACEMENT, us_first, no_less)}"
-    )
-    if alone.has_unpermitted_value:
-        yield NOT_PERMITTED
-    gaps = slow.gaps_of(alone.id)
-    if failed := [gap.words(us_first) for gap in gaps if gap.verdict is Verdict.NG]:
-        yield f"NG: {', '.join(failed)}"
-    elif gaps and all(gap.ok for gap in gaps):
-        yield "all its clearances OK" if len(gaps) > 1 else "its clearance OK"

@@ -23,7 +23,7 @@ from report.assessment.links import LinkedArray
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.run_warnings import RunWarning, run_warnings
 from report.assessment.runs import nan_is_worst, scene_key
-from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, worst
+from report.assessment.verdict import BY_CONSEQUENCE, Requirement, Verdict, as_one, worst
 from report.motions.prepare import Shaking
 from report.motions.targets import Targets
 from report.sheet.reading.read import Sheet
@@ -174,9 +174,9 @@ class Assessment:
 
     @property
     def alike_conditions(self) -> Sequence[tuple[Requirement, Sequence[str]]]:
-        """The same, each with the ids of all arrays or motions that it says the same of."""
-        groups = grouped_by(self.conditions, lambda row: row.said)
-        return [(rows[0], [row.subject for row in rows]) for rows in groups.values()]
+        """The same, each with the ids of all arrays or motions that it asks the same of."""
+        groups = grouped_by(self.conditions, lambda row: row.asked)
+        return [(as_one(rows), [row.subject for row in rows]) for rows in groups.values()]
 
     @property
     def is_overridden(self) -> bool:

@@ -5,7 +5,7 @@ What follows from a requirement is stated where it is made. Read `Requirement`, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from functools import partial
 from typing import Annotated, Any
@@ -14,6 +14,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationInf
 from pydantic.json_schema import SkipJsonSchema
 
 from report.sheet.schema.fields import Place
+from report.words.counts import grouped_by, ranged
 from solver.rules.limit import Consequence
 
 
@@ -83,6 +84,8 @@ class Requirement(BaseModel):
     """Id of the array or motion that it concerns; empty for the project."""
     remedy: str = ""
     """What the engineer must do where it is not satisfied, as a sentence."""
+    outcome: str = ""
+    """What another input in its place comes to, as a sentence."""
     verdict: ItemVerdict = Field(default_factory=_verdict)
     """Of this requirement alone."""
     # what the verdict of the subject calls it; empty for its title
@@ -90,15 +93,28 @@ class Requirement(BaseModel):
     # the cells to fill in or to change; none of what `check` does not know
     places: SkipJsonSchema[tuple[Place, ...]] = Field(default=(), exclude=True)
 
-    @field_validator("remedy")
+    @field_validator("remedy", "outcome")
     @classmethod
     def _only_where_it_is_needed(cls, text: str, given: ValidationInfo) -> str:
         return "" if given.data["is_satisfied"] else text
 
     @property
-    def said(self) -> tuple[str, ...]:
-        """What is printed of it beside its subject."""
-        return self.consequence.value, self.title, self.found, self.limit, self.remedy
+    def asked(self) -> tuple[str, ...]:
+        """What is printed of it beside its subject and what is found there."""
+        return self.consequence.value, self.title, self.limit, self.remedy
+
+
+def as_one(rows: Sequence[Requirement]) -> Requirement:
+    """Return rows that ask the same as one; what only some find has their subject before it."""
+    parts = [row.found.split("; ") for row in rows]
+    alike = [part for part in parts[0] if all(part in others for others in parts)]
+    own = grouped_by(
+        zip(rows, parts, strict=True),
+        lambda pair: ", ".join(part for part in pair[1] if part not in alike),
+    )
+    others = [f"{ranged(row.subject for row, _ in of)}: {text}" for text, of in own.items() if text]
+    outcomes = " ".join(row.outcome for row in rows if row.outcome)
+    return rows[0].model_copy(update={"found": "; ".join([*alike, *others]), "outcome": outcomes})
 
 
 condition = partial(Requirement, consequence=Consequence.CONDITION)
@@ -113,6 +129,8 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 NOT_GIVEN = "not given"
 VELOCITY_ROW = "friction_velocity"
 """Id of the requirement on friction beyond the velocities tested."""
+STRENGTH_ROW = "interconnection"
+"""Id of the requirement on the strength between the parts of an array."""
 STAYS = "The condition stays for the plan checker."
 """Of a remedy whose outcome the workbook has no cell for."""
 

@@ -61,7 +61,7 @@ class PlanSize:
         return (0.62, 0.26, 0.65, 0.26) if self.is_full else (0.24, 0.24, 0.24, 0.24)
 
 
-COLUMN_IN, BESIDE_IN = 2.5, 0.15
+COLUMN_IN, BESIDE_IN = 2.8, 0.15
 """Width of a column of tables beside a full plan, with its distance, and this distance."""
 
 

@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis, Route
+from report.assessment.arrays import ArrayAssessment, DesignBasis, Route, seaoc_displacement
 from report.assessment.causes import unshown_cause
 from report.assessment.changes import ChangeKind
 from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
@@ -19,7 +19,7 @@ from report.assessment.friction import mu_words
 from report.assessment.neighbors import ComparedGap, PlanNeighbor
 from report.assessment.project import Assessment
 from report.assessment.runs import nan_is_worst
-from report.assessment.verdict import NOT_GIVEN, ItemVerdict
+from report.assessment.verdict import NOT_GIVEN, STRENGTH_ROW, ItemVerdict, Verdict
 from report.entities.cells import Column, Told
 from report.entities.marks import Marked
 from report.entities.requirement import LimitResult
@@ -258,6 +258,8 @@ class ArrayResult(LowVelocityResult):
         Column("Interconnection provided [lb]", 0, is_input=True),
     ] = printed(None)
     clause: Annotated[str, words("Clause", 1.9)] = printed("")
+    seaoc_m: Annotated[float, required("PV1")] = printed(math.nan)
+    model: Annotated[str, Shown(head="Model", share=0.7)] = printed("")
 
     cause: str = printed("")
     """Of a verdict that the D/C beside it does not show."""
@@ -287,6 +289,8 @@ class ArrayResult(LowVelocityResult):
     def provided_n(self) -> float | str:
         """Interconnection strength provided [N]."""
         return "not given" if self.given_n is None else self.given_n
+
+    strength_verdict: Annotated[Verdict, centered("Verdict", 1.3)] = printed(Verdict.OK)
 
     @unwritten(Shown(head="D/C", share=0.8))
     def strength_dc(self) -> str:
@@ -329,10 +333,21 @@ def array_result(
         rounds=rounds,
         verdict=assessment.array_verdict(item),
         friction_as_run=mu_words(item.array.friction),
+        model=models_used(item),
+        strength_verdict=next(
+            row.verdict for row in assessment.rows_of(item.id) if row.id == STRENGTH_ROW
+        ),
+        seaoc_m=seaoc_displacement(assessment.project).value_m,
         directions={way: direction_result(item, way) for way in item.directions if has_runs},
         peaks=tuple(map(peak_result, motions)),
         runs=tuple(run_result(motion, run) for motion in motions for run in motion.runs),
     )
+
+
+def models_used(item: ArrayAssessment) -> str:
+    """Return the numbers of the models that the runs of an array use."""
+    models = {int(run.solution.model) for run in item.runs}
+    return " to ".join(str(end) for end in sorted({min(models), max(models)}))
 
 
 def gap_name(gap: ComparedGap, array_id: str) -> str:
@@ -357,6 +372,7 @@ def array_results(marked: Marked, *, has_runs: bool = True) -> Iterator[ArrayRes
             floor=marked.floor_mark(item),
             design_m=marked.design_mark(item),
             verdict=f" {cause}" if is_said else "",
+            seaoc_m=marked.mark_of_seaoc,
         )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis
+from report.assessment.arrays import SEAOC, ArrayAssessment, DesignBasis
 from report.assessment.overrides import OVERRIDDEN
 from report.assessment.project import Assessment
 from report.entities.columns import UnitFormat
@@ -54,6 +54,12 @@ class Marked:
         """Return the marks of a provision."""
         marks = dagger(self.assessment.rules.values[key])
         return marks if self.has_daggers else marks.removeprefix("†")
+
+    @property
+    def mark_of_seaoc(self) -> str:
+        """The mark of the displacement by SEAOC PV1."""
+        is_known = SEAOC.values["prescriptive_factor_in"].verified or not self.has_daggers
+        return "" if is_known else "†"
 
     def clause(self, key: str) -> str:
         """Return the clause of a provision with its marks."""

@@ -37,12 +37,12 @@ class FindingResult(Entity):
 class RequirementRow(Entity):
     """A requirement or a limit in a table of both."""
 
-    subject: Annotated[str, words("Item", 0.9), Column()]
-    title: Annotated[str, words("Requirement", 2.3), Column()]
-    found: Annotated[str, words("Found", 2.6), Column()]
-    limit: Annotated[str, words("Required", 1.9), Column()]
+    subject: Annotated[str, words("Item", 0.95), Column()]
+    title: Annotated[str, words("Requirement", 2.7), Column()]
+    found: Annotated[str, words("Found", 3.9), Column()]
+    limit: Annotated[str, words("Required", 2.5), Column()]
     basis: Annotated[str, words("Basis", 1.75), Column()]
-    verdict: Annotated[Verdict, centered("Verdict", 1.8), Column()]
+    verdict: Annotated[Verdict, centered("Verdict", 1.15), Column()]
     remedy: Annotated[str, Column("What must be done")]
 
 

@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from report.typeset.pdf import TEMPLATES
 from solver.model import Floats
 
-WIDTH_IN = 6.7
+WIDTH_IN = 7.0
 INK, GRAY, PALE, ACCENT = "#1a1a1a", "#707070", "#d9d9d9", "#1f4e79"
 ACROSS = "#c8651b"  # distinct from ACCENT with color blindness and in gray
 FAMILY = "Source Sans 3"

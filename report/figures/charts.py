@@ -7,7 +7,7 @@ meaning). Fonts and style are in `base`.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,8 +22,18 @@ from report.words.letters import cut
 from report.words.units import Unit
 
 
-def comparison(groups: Sequence[Sequence[ArrayAssessment]], us_first: bool) -> str:
-    """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays."""
+def comparison(
+    groups: Sequence[Sequence[ArrayAssessment]],
+    us_first: bool,
+    others_m: Mapping[str, float] = {},
+) -> str:
+    """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays.
+
+    Parameters
+    ----------
+    others_m : mapping of str to float, optional
+        The design displacement [m] of an array with another input.
+    """
     first, second = UnitFormat(us_first).units()
     with style():
         height = 1.3 + _row_in(len(groups)) * len(groups)
@@ -31,6 +41,9 @@ def comparison(groups: Sequence[Sequence[ArrayAssessment]], us_first: bool) -> s
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
             _compare(axes, row, group[0], first)
+            others = [others_m[array.id] / first.si for array in group if array.id in others_m]
+            if others:
+                axes.plot(others, [row] * len(others), **_OTHER, label=_LEGEND[-1])
         axes.set_yticks(range(len(groups)), names)
         axes.set_ylim(len(groups) - 0.45, -0.55)
         axes.set_xlim(0, None)
@@ -40,11 +53,18 @@ def comparison(groups: Sequence[Sequence[ArrayAssessment]], us_first: bool) -> s
         drawn = dict(zip(labels, marks, strict=True))  # of all rows
         # In the order of a row: matplotlib lists bars last.
         shown = {name: drawn[name] for name in _LEGEND if name in drawn}
-        figure.legend(shown.values(), shown, loc="lower center", ncols=5, handlelength=2.2)
+        figure.legend(shown.values(), shown, loc="lower center", ncols=6, handlelength=2.0)
         return svg_text(figure)
 
 
-_LEGEND = ("prescriptive", "floor", "PRD of each motion", "mean", "design")
+_LEGEND = (
+    "prescriptive",
+    "floor",
+    "PRD of each motion",
+    "mean",
+    "design",
+    "design with another input",
+)
 
 
 def _label_in(names: Sequence[str]) -> float:
@@ -69,6 +89,7 @@ def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
 
 _BAR: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 0.8}
 _FLOOR: Any = {"color": INK, "linestyle": (0, (3, 2)), "linewidth": 1.2}
+_OTHER: Any = {"marker": "D", "markersize": 6, "color": INK, "fillstyle": "none", "linestyle": ""}
 _PEAK: Any = {"color": ACCENT, "markersize": 4, "fillstyle": "none", "markeredgewidth": 0.8}
 
 

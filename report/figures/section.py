@@ -16,7 +16,7 @@ from report.sheet.schema.scene import Array
 from report.sheet.schema.shapes import Point
 from report.words.units import Quantity, number, pair
 
-_HEIGHT_IN, _SPLIT_IN = 2.0, 3.75
+_HEIGHT_IN, _SPLIT_IN = 1.8, 3.75
 _TYPE: Any = {"font.size": 9.0}
 _ARROW = {"arrowstyle": "-|>", "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0, "linewidth": 1.1}
 _SPAN: Any = {"arrowstyle": "<|-|>", "mutation_scale": 6, "linewidth": 0.6, "color": INK}

@@ -14,6 +14,7 @@ from report.assessment.sensitivity import Accuracy
 from report.document.tables import Column, Table, listed
 from report.entities.columns import NO_VALUE
 from report.entities.shown import required, text, words
+from report.pages import uncertainty
 from report.pages.parts import PackageData
 from report.words.counts import ranged
 from report.words.units import number
@@ -29,6 +30,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     arrays = tuple(_by_array(accuracy))
     return {
         "found": accuracy,
+        "margins": uncertainty.margins(package, evidence),
         "percent": _PERCENT,
         "two_axes": Model.TWO_AXES,
         "arrays": arrays,
@@ -69,7 +71,7 @@ def _by_array(accuracy: Accuracy) -> Iterator[_Varied]:
 def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
     columns = (
         (words("Array", 1.2), lambda row: ranged(row.ids)),
-        (text("μ", share=1.1), lambda row: mu_words(row.given.array.friction)),
+        (text("μ", share=2.2), lambda row: mu_words(row.given.array.friction)),
         _design(package, f"{_PERCENT} less", lambda row: row.at_reduced_friction),
         _design(package, "As given", lambda row: row.given),
         _design(package, f"{_PERCENT} more", lambda row: row.at_increased_friction),

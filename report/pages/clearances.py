@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from report.assessment.friction import mus_words
 from report.assessment.neighbors import Cover
 from report.document.tables import Table, listed
 from report.entities.evidence import NeighborResult
 from report.entities.shown import length, words
 from report.pages.parts import PackageData
 from report.sheet.schema.choices import ObjectKind
+from report.words.counts import grouped_by
 from solver.rules.provisions import Neighbor
 
 
@@ -25,10 +25,20 @@ def clearances(package: PackageData) -> Mapping[str, object]:
         ],
         "n_beyond": len(beyond),
         "nearest": min(beyond, key=lambda pair: pair.gap_m, default=None),
-        "friction": mus_words(package.data.arrays),
+        "factors": _factors(package),
+        "clauses": dict.fromkeys(row.clause for row in package.clearances),
         "parapets": _parapets(package),
         "is_least": any(gap.is_minimum_value for gap in package.assessment.clearances),
     }
+
+
+def _factors(package: PackageData) -> Sequence[Mapping[str, object]]:
+    """Return each kind of neighbor with its factor, and the clearances to it."""
+    kinds = grouped_by(package.clearances, lambda row: (row.neighbor.value, row.factor))
+    return [
+        {"kind": kind, "factor": factor, "numbers": [str(row.count) for row in rows]}
+        for (kind, factor), rows in kinds.items()
+    ]
 
 
 def _parapets(package: PackageData) -> Table:

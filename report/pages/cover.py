@@ -1,4 +1,4 @@
-"""The head of the first sheet: project, codes, attachments and revisions. Read `cover`."""
+"""The head of the first sheet: project, codes and revisions. Read `cover`."""
 
 from __future__ import annotations
 
@@ -6,19 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from report.pages.parts import PackageData
 from report.pages.symbols import friction_standard
-from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
 from report.sheet.schema.project import Revision
 
 
 def cover(package: PackageData) -> Mapping[str, object]:
     """Return what the head needs beside the package."""
-    records = package.assessment.shaking.records
     return {
         "friction_standard": friction_standard(package),
-        "short_hash": package.assessment.sheet.sha256[:SHORT],
-        "n_records": len(record_paths(records)),
-        "has_records": holds_records(records),
-        "records_mb": record_bytes(records) / 1e6,
         "revisions": list(_revisions(package)),
     }
 

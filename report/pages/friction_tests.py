@@ -11,24 +11,17 @@ from dataclasses import dataclass
 
 from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.friction import mu_words
-from report.assessment.friction_rows import (
-    LEAST_RUNS,
-    friction_rows,
-    has_enough_runs,
-    runs_by_velocity,
-    tested,
-)
+from report.assessment.friction_rows import tested
 from report.assessment.friction_velocity import velocity_check
-from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW
+from report.assessment.verdict import NOT_GIVEN
 from report.document.tables import Table, Wide, by_place, listed, stamp
-from report.entities.clearance import clearance_results
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
 from report.sheet.checking.friction_checks import MU_TOLERANCE
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.friction import FrictionTests
 from report.sheet.schema.scene import Array
-from report.words.counts import grouped_by, ids_by, numbered
+from report.words.counts import ids_by, numbered
 from report.words.units import Quantity, number
 from solver.friction_tests import FittedLaw, Series, Surface, fit_law, governing
 
@@ -47,29 +40,22 @@ def page(package: PackageData) -> Mapping[str, object]:
     """Return what the part on friction as tested needs beside its chart."""
     data, given = package.data, package.assessment
     found, tests = tested(data), data.friction_tests
-    beyond = (row for row in given.rows if row.id == VELOCITY_ROW)
     return {
         "is_reported": tests != FrictionTests(),
         "report": [(label, getattr(tests, field) or NOT_GIVEN) for label, field in _STATED],
-        "missing": [label.lower() for label, field in _STATED if not getattr(tests, field)],
         "runs": _runs(package),
         "n_drawn": _n_drawn(data),
         "reports": [
-            _means(package, [one for one in found if one.report == report])
+            _means([one for one in found if one.report == report])
             for report in dict.fromkeys(one.report for one in found)
         ],
-        "least_runs": LEAST_RUNS,
         "compared": _compared(package, found) if found else {},
         "fits": [(one, fit, _scatter(one)) for one, fit in _fits(package)],
-        "unsatisfied": dict.fromkeys(
-            row.title for row in (*friction_rows(data), *beyond) if not row.is_satisfied
-        ),
         "velocities": _velocities(package),
         "tolerance": MU_TOLERANCE,
         "alone": [
             (item, by_id(given.arrays, item.id).design_m) for item in given.low_velocity.arrays
         ],
-        "alone_gaps": tuple(clearance_results(package, given.low_velocity.clearances)),
     }
 
 
@@ -90,22 +76,32 @@ def _n_drawn(data: ProjectInput) -> int:
     return sum(not math.isnan(run.velocity_mps) for one in tested(data) for run in one.runs)
 
 
-def _runs(package: PackageData) -> Table:
+def _runs(package: PackageData) -> Sequence[tuple[str, Table]]:
+    """Return the runs of each series below its name, the mean last."""
+    data = package.data
+    found = tested(data)
+    has_reports = len({one.report for one in found}) > 1
     columns = by_place(
-        words("Report", 1.6),
-        words("Surface"),
-        text("Run", share=0.6),
+        text("Run", share=0.7),
         Shown(head="Velocity", quantity=Quantity.VELOCITY),
         text("Kinetic μ"),
         text("Static μ"),
     )
-    return listed(
-        (row for one in tested(package.data) for row in _run_rows(package.data, one)),
-        columns,
-        package.fmt,
-        kind="compact",
-        style=lambda row: "total" if isinstance(row[0], Wide) else "",
-    )
+    return [
+        (
+            f"{one.report or 'Report without a number'}, {one.surface}"
+            if has_reports
+            else f"Friction tests, {one.surface}",
+            listed(
+                _run_rows(data, one),
+                columns,
+                package.fmt,
+                kind="compact",
+                style=lambda row: "total" if isinstance(row[0], Wide) else "",
+            ),
+        )
+        for one in found
+    ]
 
 
 def _run_rows(data: ProjectInput, one: Series) -> Iterator[tuple[object, ...]]:
@@ -117,16 +113,15 @@ def _run_rows(data: ProjectInput, one: Series) -> Iterator[tuple[object, ...]]:
     ]
     for count, run in zip(numbers, one.runs, strict=True):
         velocity = "—" if math.isnan(run.velocity_mps) else run.velocity_mps
-        mus = number(run.mu, 3), number(run.mu_static, 3)
-        yield one.report or "—", one.surface, count, velocity, *mus
-    mean = Wide(f"Mean, {one.surface}, {numbered(len(one.runs), 'run')}", 5)
-    yield mean, "", "", "", number(one.mean, 3), number(one.static_mean, 3)
+        yield count, velocity, number(run.mu, 3), number(run.mu_static, 3)
+    mean = Wide(f"Mean, {numbered(len(one.runs), 'run')}", 3)
+    yield mean, "", number(one.mean, 3), number(one.static_mean, 3)
 
 
 def _velocities(package: PackageData) -> Table:
     columns = by_place(
         words("Array", 0.6),
-        text("μ", "as run", 1.5),
+        text("μ", "as run", 2.0),
         Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8),
         Shown(head="Tested to", quantity=Quantity.VELOCITY, share=0.8),
         text("μ beyond", "largest", 0.9),
@@ -152,13 +147,11 @@ def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:
     )
 
 
-def _means(package: PackageData, found: Sequence[Series]) -> Mapping[str, object]:
-    """Return the series of a report, the smallest mean, and the conditions with too few runs."""
-    lacking = (one for one in found if not has_enough_runs(one))
-    few = grouped_by(lacking, lambda one: runs_by_velocity(one, package.fmt.us_first))
+def _means(found: Sequence[Series]) -> Mapping[str, object]:
+    """Return the series of a report, the smallest mean, and the condition without runs."""
     least = min(found, key=lambda one: one.mean)
     other = next(surface for surface in Surface if surface is not least.surface)
-    return {"series": found, "least": least, "other": other, "few": few}
+    return {"series": found, "least": least, "other": other}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

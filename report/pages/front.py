@@ -5,10 +5,13 @@ Computes nothing. Read `report.pages.parts` first.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from report.assessment.arrays import Route
+from report.assessment.cases import cases
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mus_words
 from report.assessment.friction_rows import tested
@@ -62,9 +65,51 @@ def summary(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "review": _review(package),
         # What follows from a missed target is said once, with the last.
         "missed": [(departure, departure in last) for departure in found],
+        "other": _worst_other(package),
+        "what_if": list(_what_if(package, evidence)),
         "troubles": troubles(package),
         "answers": answers(package, evidence.remedies),
     }
+
+
+class _Ratio(NamedTuple):
+    """Required / provided of a check beside the clearances."""
+
+    ratio: float
+    title: str
+    array: str
+    part: str  # id of the page that has it
+
+
+def _worst_other(package: PackageData) -> _Ratio:
+    """Return the largest ratio of the checks of the arrays beside their clearances.
+
+    Of an array without a permitted design displacement, that of its slack is not known.
+    """
+    known = (item for item in _ratios(package) if not math.isnan(item.ratio))
+    return max(known, key=lambda item: item.ratio)
+
+
+def _ratios(package: PackageData) -> Iterator[_Ratio]:
+    for item in package.assessment.arrays:
+        array = item.array
+        yield _Ratio(item.tipping.ratio, "tipping", item.id, "model")
+        if array.interconnection_n:
+            strength = item.interconnection_n / array.interconnection_n
+            yield _Ratio(strength, "interconnection strength", item.id, "limits")
+        if array.slack_m:
+            yield _Ratio(item.permitted_m / array.slack_m, "electrical slack", item.id, "limits")
+        if array.roof_capacity_pa:
+            weight = array.weight_pa / array.roof_capacity_pa
+            yield _Ratio(weight, "weight per roof capacity", item.id, "limits")
+
+
+def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
+    """Yield what another input comes to, of the conditions and of the comparison, each once."""
+    given, us_first = package.assessment, package.fmt.us_first
+    of_rows = [row.outcome for row in given.conditions if row.outcome]
+    of_cases = [case.words(us_first) for case in cases(given, evidence)]
+    yield from dict.fromkeys((*of_rows, *of_cases))
 
 
 def _worst(clearances: Sequence[ClearanceResult]) -> Sequence[ClearanceResult]:
@@ -90,6 +135,5 @@ def basis(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "motions": [run.motion for run in package.governing.motions],
         "is_tested": bool(tested(package.data)),
         "certainty": evidence.uncertainty,
-        "failed": troubles(package),
         "validation": explained(SHIPPED),
     }

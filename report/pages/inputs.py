@@ -11,6 +11,7 @@ from report.assessment.runs import REQUESTED_MODELS
 from report.assessment.verdict import NOT_GIVEN
 from report.document.tables import Table, listed
 from report.entities.shown import Shown, length, plain, text, words
+from report.motions.targets import ac156
 from report.pages import friction_tests
 from report.pages.parts import PackageData
 from report.pages.site import site, unused_s_ds
@@ -32,7 +33,10 @@ def below(_: PackageData) -> tuple[tuple[str, str], ...]:
 def inputs(package: PackageData) -> Mapping[str, object]:
     """Return what the part on inputs needs beside the package."""
     data = package.data
+    horizontal, vertical = ac156(data)
     return {
+        "horizontal_g": horizontal.sa_g,
+        "vertical_g": vertical.sa_g,
         "site": site(package),
         "s_ds": unused_s_ds(data.site),
         "arrays": _arrays(package),
@@ -52,9 +56,9 @@ def _arrays(package: PackageData) -> Table:
         (plain("Slope", 2, "deg", 0.7), lambda array: math.degrees(array.slope_rad)),
         (plain("Slope", 1, "%", 0.7), lambda array: 100.0 * math.tan(array.slope_rad)),
         (plain("Downslope", 0, "deg in plan"), lambda array: array.downslope_deg),
-        (text("μ", share=1.1), lambda array: mu_words(array.friction)),
-        (words("Friction test report", 2.6), lambda array: array.mu_report or NOT_GIVEN),
-        (words("Construction", 2.2), lambda array: array.construction),
+        (text("μ", share=2.1), lambda array: mu_words(array.friction)),
+        (words("Friction test report", 2.3), lambda array: array.mu_report or NOT_GIVEN),
+        (words("Construction", 2.5), lambda array: array.construction),
     )
     return listed(package.data.arrays, columns, package.fmt)
 
@@ -101,7 +105,7 @@ def _links(package: PackageData) -> Table:
 def _objects(package: PackageData) -> Table:
     columns = (
         (words("Object", 1.2), lambda item: item.id),
-        (words("Kind", 1.8), lambda item: item.kind.value),
+        (words("Kind", 2.5), lambda item: item.kind.value),
         (length("Height"), lambda item: "—" if item.height_m is None else item.height_m),
         (_in_plan("x from"), lambda item: _sides(item.placed)[0]),
         (_in_plan("x to"), lambda item: _sides(item.placed)[1]),

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.arrays import ArrayAssessment, Route
 from report.assessment.precheck import findings
+from report.assessment.verdict import STRENGTH_ROW, as_one
 from report.document.tables import Table, listed, table_of
 from report.entities.array import array_results
 from report.entities.marks import dagger
@@ -17,6 +18,7 @@ from report.pages.parts import NG, OK, PackageData, verdict
 from report.pages.symbols import with_symbols
 from report.sheet.checking.findings import lines
 from report.sheet.schema.fields import Level
+from report.words.counts import grouped_by, ranged
 from solver.rules.limit import Consequence, Limit
 from solver.rules.provisions import Basis
 
@@ -55,14 +57,20 @@ def troubles(package: PackageData) -> Mapping[str, Sequence[object]]:
 
 
 def _requirements(package: PackageData) -> Table:
-    """Return the requirements beside the numeric limits, each with its verdict."""
+    """Return the requirements beside the numeric limits, those that ask the same as one."""
+    others = (row for row in package.assessment.rows if row.id != STRENGTH_ROW)
+    alike = grouped_by(others, lambda row: (*row.asked, row.basis, row.verdict))
+    each = (
+        as_one(rows).model_copy(update={"subject": ranged(row.subject for row in rows)})
+        for rows in alike.values()
+    )
     rows = [
         row.model_copy(
             update={name: with_symbols(getattr(row, name)) for name in ("title", "found", "limit")}
         )
-        for row in requirement_rows(package.assessment.rows)
+        for row in requirement_rows(each)
     ]
-    return table_of(rows, "subject title found limit basis verdict", package.fmt)
+    return table_of(rows, "subject title found limit basis verdict", package.fmt, kind="compact")
 
 
 def check_table(
@@ -83,13 +91,13 @@ def check_table(
         (text("Limit", share=1.6), lambda row: limit(row[1])),
         (words("Clause", 1.6), lambda row: row[1].provision.clause + dagger(row[1].provision)),
         (
-            centered("Verdict", 1.1),
+            centered("Verdict", 1.35),
             lambda row: verdict(
                 row[1].ok, (EXCEPTED, NG) if row[1].passes_by_exception else outcomes
             ),
         ),
     )
-    return listed(checks, columns, package.fmt)
+    return listed(checks, columns, package.fmt, kind="compact")
 
 
 def limits(package: PackageData) -> Mapping[str, object]:

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 
 from report.assessment.runs import nan_is_worst
 from report.drawing.section import drawn_slope_deg
-from report.motions.targets import ac156
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
 from report.words.units import Quantity
@@ -20,7 +19,6 @@ from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 def below(_: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
     return (
-        ("method-demand", "Seismic demand"),
         ("method-motion", "Motion of an array"),
         ("method-design", "Design displacement"),
         ("method-separation", "Separations"),
@@ -30,18 +28,11 @@ def below(_: PackageData) -> tuple[tuple[str, str], ...]:
 def page(package: PackageData) -> Mapping[str, object]:
     """Return what the equations need beside the package."""
     return {
-        **_demand(package),
         **_motion(package),
         **_weights(package),
         **_design(package),
         **_separations(package),
     }
-
-
-def _demand(package: PackageData) -> Mapping[str, object]:
-    """Return the corners of AC156."""
-    horizontal, vertical = ac156(package.data)
-    return {"horizontal_g": horizontal.sa_g, "vertical_g": vertical.sa_g}
 
 
 def _motion(package: PackageData) -> Mapping[str, object]:

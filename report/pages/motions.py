@@ -28,6 +28,9 @@ from solver.records.processing import AS_RECORDED
 from solver.records.spectrum_acceptance import N_AC156, N_SETS, N_SLIDING, POINTS_HZ
 from solver.rules.spectra import Tail
 
+_HASH = 8
+"""Digits of a hash in the table of motions."""
+
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
@@ -49,10 +52,28 @@ def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
     return {source: [motion.id for motion in of] for source, of in found.items()}
 
 
-def _motion_table(package: PackageData, *, has_sources: bool) -> Table:
+def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Mapping[str, str]]:
+    """Return the motions, and what they all have alike, by name."""
     shaking = package.assessment.shaking
+    rows = list(zip(shaking.motions, shaking.prepared, strict=True))
+    files = grouped_by(shaking.records, lambda file: file.motion_id)
     source: Column = (words("Source", 3.5), lambda row: with_symbols(row[0].source))
     place: Column = (words("Given at", 1.25), lambda row: row[1].recorded_at.value)
+    maybe_alike: Sequence[Column] = (
+        (text("Step", "s", 1.1), lambda row: f"{row[0].dt_s:.3g}"),
+        (
+            text("Duration", "s", 1.1),
+            lambda row: number((len(row[0].ax_mps2) - 1) * row[0].dt_s, 2),
+        ),
+        (words("Scaling", 1.35), lambda row: row[1].scaling),
+        (text("Factor", share=0.8), lambda row: f"{row[0].scale:.4g}"),
+        (centered("Polarity"), lambda row: _polarity(row[0])),
+    )
+    alike = {
+        shown.head: f"{said.pop()} {shown.unit}".rstrip()
+        for shown, cell, *_ in maybe_alike
+        if len(said := {str(cell(row)) for row in rows}) == 1
+    }
     columns = (
         (words("Motion", 0.9), lambda row: row[0].id),
         *([source] if has_sources else []),
@@ -60,14 +81,14 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> Table:
         (plain("Peak [g]", 3, "record"), lambda row: _peak_g(row[0], row[0].ax_mps2)),
         (plain("Peak [g]", 3, "transv."), lambda row: _peak_g(row[0], row[0].ay_mps2)),
         (plain("Peak [g]", 3, "vertical", 1.1), lambda row: _peak_g(row[0], row[0].az_mps2)),
-        (text("Step", "s", 1.1), lambda row: f"{row[0].dt_s:.3g}"),
-        (plain("Duration", 2, "s", 1.1), lambda row: (len(row[0].ax_mps2) - 1) * row[0].dt_s),
-        (words("Scaling", 1.35), lambda row: row[1].scaling),
-        (text("Factor", share=0.8), lambda row: f"{row[0].scale:.4g}"),
-        (centered("Polarity"), lambda row: _polarity(row[0])),
+        *(column for column in maybe_alike if column[0].head not in alike),
+        (
+            words("SHA-256 of the files", 3.4),
+            lambda row: " ".join(file.sha256[:_HASH] for file in files[row[0].id]),
+        ),
     )
-    rows = zip(shaking.motions, shaking.prepared, strict=True)
-    return listed(rows, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
+    table = listed(rows, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
+    return table, alike
 
 
 def _peak_g(motion: Motion, a_mps2: Floats) -> float:
@@ -217,8 +238,10 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the part on motions, without its charts."""
     shaking, found = package.assessment.shaking, evidence.spectra
     unit, sources = package.fmt.units()[0], _sources(shaking.motions)
+    table, alike = _motion_table(package, has_sources=not sources)
     return {
-        "table": _motion_table(package, has_sources=not sources),
+        "table": table,
+        "alike": alike,
         "sources": sources,
         "notes": dict.fromkeys(
             (row.motion_id, note.rstrip(".")) for row in shaking.records for note in row.notes

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.assessment.arrays import ArrayAssessment
+from report.assessment.cases import cases
 from report.assessment.evidence import Evidence
 from report.drawing.on_paper import printed_plan
 from report.pages import friction_tests
@@ -29,7 +30,7 @@ def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
 
 def draw_assessment(package: PackageData) -> Drawings:
     """Return the drawings that need no evidence."""
-    from report.figures import accelerations, charts, plan
+    from report.figures import accelerations, plan
     from report.figures.section import array_section
 
     us_first, assessment = package.fmt.us_first, package.assessment
@@ -42,21 +43,24 @@ def draw_assessment(package: PackageData) -> Drawings:
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
         "plan": [printed, *(plan.paper_svg(each) for each in (printed.plan, printed.key))],
-        "comparison": [
-            charts.comparison(some, us_first) for some in _in_parts(assessment.alike, CHART_ROWS)
-        ],
     }
 
 
 def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     """Return the drawings of spectra and of runs."""
+    from report.figures.charts import comparison
     from report.figures.spectra import spectra
 
     us_first = package.fmt.us_first
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
     runs = list(zip(package.assessment.alike, shown.histories, strict=True))
+    others_m = {case.array.id: case.array.design_m for case in cases(package.assessment, shown)}
     drawings: dict[str, Sequence[Any]] = {
+        "comparison": [
+            comparison(some, us_first, others_m)
+            for some in _in_parts(package.assessment.alike, CHART_ROWS)
+        ],
         "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
         "results": list(_governing(runs, us_first)),
     }

@@ -4,45 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from report.document.tables import Table, listed
+from report.document.tables import listed
 from report.entities.shown import plain, words
 from report.motions.components import RecordFile
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import friction_standard
-from report.provenance.files import SHORT
+from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
 from report.provenance.software import versions
-from report.words.counts import grouped_by
 from report.words.formats import shortened
 
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the records by motion, the software versions and what is cited."""
+    records = package.assessment.shaking.records
     return {
-        "files": _by_motion(package),
+        "short_hash": package.assessment.sheet.sha256[:SHORT],
+        "n_files": len(record_paths(records)),
+        "has_files": holds_records(records),
+        "files_mb": record_bytes(records) / 1e6,
         "software": ", ".join(f"{name} {version}" for name, version in versions().items()),
         "friction_standard": friction_standard(package),
     }
-
-
-def _by_motion(package: PackageData) -> Table:
-    """Return the short hashes of the files of each motion, a column for each component."""
-    files = package.assessment.shaking.records
-    components = dict.fromkeys(file.component for file in files)
-    rows = [
-        (motion, {file.component: file.sha256[:SHORT] for file in some})
-        for motion, some in grouped_by(files, lambda file: file.motion_id).items()
-    ]
-    columns = (
-        (words("Motion"), lambda row: shortened(row[0], 24)),
-        *(
-            (
-                words(component.capitalize()),
-                lambda row, component=component: row[1].get(component, "—"),
-            )
-            for component in components
-        ),
-    )
-    return listed(rows, columns, kind="compact", whole_rows=MOTION_ROWS)
 
 
 def hashes(package: PackageData) -> Mapping[str, object]:

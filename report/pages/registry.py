@@ -18,6 +18,7 @@ from report.pages import (
     accuracy,
     changes,
     clearances,
+    comparison,
     echo,
     front,
     inputs,
@@ -29,7 +30,6 @@ from report.pages import (
     records,
     results,
     symbols,
-    uncertainty,
 )
 from report.pages.parts import PackageData
 from report.sheet.schema.choices import PackageEdition
@@ -78,19 +78,18 @@ def _complete(id: str, title: str, fill: Fill) -> Page:
 
 PAGES = (
     Page("summary", "Summary", front.summary),
-    Page("plan", "Roof plan", _alone(front.plan)),
+    Page("comparison", "Comparison with the prescriptive displacement", comparison.comparison),
+    Page("plan", "Roof plan and schedule of clearances", _alone(front.plan)),
+    Page("clearances", "Parapets and neighbors", _alone(clearances.clearances)),
     Page("basis", "Basis and limits of the method", front.basis),
+    Page("model", "Model used", _alone(model.page)),
+    Page("limits", "Limits and requirements", _alone(limits.limits)),
+    Page("provisions", "Provisions and overrides", _alone(provisions.provisions)),
     Page("inputs", "Inputs", _alone(inputs.inputs), inputs.below),
     Page("motions", "Roof motions", motions.page, motions.below),
-    Page("method", "Method and equations", _alone(method.page), method.below),
+    Page("method", "Equations", _alone(method.page), method.below),
     Page("results", "Results", results.page, results.below),
-    Page("comparison", "Comparison with the prescriptive displacement", _alone(results.comparison)),
-    Page("clearances", "Clearances", _alone(clearances.clearances)),
-    Page("limits", "Limits and interconnection strength", _alone(limits.limits)),
-    Page("provisions", "Provisions and overrides", _alone(provisions.provisions)),
-    Page("model", "Model used", _alone(model.page)),
     Page("accuracy", "Accuracy and sensitivity", accuracy.page),
-    Page("how-sure", "Margins and confidence", uncertainty.page),
     Page("records", "Records, software and references", _alone(records.page), is_appendix=True),
     Page("notes", "Notes for the construction documents", lambda *_: {}, is_appendix=True),
     _complete("echo", "Input echo", _alone(echo.page)),
@@ -103,15 +102,16 @@ PAGES = (
 LETTER = Part(id="letter", number="", title="Letter of results", parts=())
 """Before the first page, without a number."""
 
-CHANGES = Page("changes", "Changes", _alone(changes.page), is_appendix=True)
-"""The last appendix, so that the other parts have the same numbers in every revision."""
+CHANGES = Page("changes", "Changes", _alone(changes.page))
+"""After the summary, without a number: the other parts have the same in every revision."""
 
 
 def pages_of(edition: PackageEdition, since: Changes) -> tuple[Page, ...]:
     """Return the pages of a package: with the changes only where they are asked for."""
     pages = tuple(page for page in PAGES if page.edition in (PackageEdition.PLAN_CHECK, edition))
     title = f"Changes since revision {since.revision}"
-    return (*pages, replace(CHANGES, title=title)) if since.is_asked_for else pages
+    changed = (replace(CHANGES, title=title),) if since.is_asked_for else ()
+    return (*pages[:1], *changed, *pages[1:])
 
 
 def package_data(
@@ -132,11 +132,11 @@ def package_data(
 
 
 def _numbers(pages: Sequence[Page]) -> Mapping[str, str]:
-    body = [page.id for page in pages if not page.is_appendix]
+    body = [page.id for page in pages if not page.is_appendix and page.id != CHANGES.id]
     appendices = [page.id for page in pages if page.is_appendix]
-    return {name: str(count) for count, name in enumerate(body, start=1)} | {
-        name: chr(ord("A") + count) for count, name in enumerate(appendices)
-    }
+    numbers = {name: str(count) for count, name in enumerate(body, start=1)}
+    letters = {name: chr(ord("A") + count) for count, name in enumerate(appendices)}
+    return {CHANGES.id: ""} | numbers | letters
 
 
 def parts(package: PackageData) -> tuple[Part, ...]:

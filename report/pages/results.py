@@ -1,4 +1,4 @@
-"""Results by array, and the comparison with the prescriptive displacement."""
+"""Results by array."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from report.assessment.runs import MotionRun, OrientedRun
 from report.document.tables import Column, Table, TableRow, Wide, listed, table_of
 from report.entities.columns import UnitFormat
 from report.entities.shown import Shown, length, text, words
-from report.pages.limits import analysis_faults, check_table
 from report.pages.parts import PackageData, statistic
 from report.sheet.schema.choices import Direction
 from report.words.counts import named
@@ -80,7 +79,6 @@ def _results(package: PackageData, group: _Alike) -> Mapping[str, object]:
         "constructions": dict.fromkeys(item.array.construction for item in group),
         "slope_percent": 100.0 * math.tan(array.array.slope_rad),
         "table": _peaks(package, group, orientations),
-        "is_transverse_run": any(orientation.is_transverse for orientation in orientations),
         "is_prd_across": not all(run.has_across for run in runs),
         "troubles": run_warnings(group, package.fmt.us_first),
     }
@@ -178,13 +176,3 @@ def _floor_words(package: PackageData) -> str:
         return "none; the analysis is peer reviewed"
     share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
     return f"{share} % of prescriptive, {package.clause('analysis_floor')}"
-
-
-def comparison(package: PackageData) -> Mapping[str, object]:
-    """Return what the comparison with the prescriptive displacement needs beside the arrays."""
-    arrays = package.assessment.arrays
-    checks = [(item.id, check) for item in arrays for check in item.prescriptive_checks]
-    return {
-        "faults": {item.id: analysis_faults(package, item) for item in arrays},
-        "routes": check_table(package, checks, ("satisfied", "not satisfied")),
-    }

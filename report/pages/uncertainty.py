@@ -9,8 +9,8 @@ from report.assessment.cumulative import Cumulative
 from report.assessment.evidence import Evidence
 from report.assessment.friction import mu_words
 from report.assessment.trials import with_mu
-from report.assessment.uncertainty import Margin, Uncertainty
-from report.document.tables import Column, Table, listed
+from report.assessment.uncertainty import Margin
+from report.document.tables import Table, listed
 from report.entities.shown import length, required, text, words
 from report.pages.parts import PackageData
 from report.words.counts import lowered
@@ -18,14 +18,13 @@ from report.words.units import number
 from solver.rules.provisions import Neighbor
 
 
-def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return what the page needs beside the package."""
+def margins(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+    """Return margins in friction, other directions, and sums over smaller events."""
     uncertainty, sums = evidence.uncertainty, evidence.cumulative
     return {
         "found": uncertainty,
         "margin": _smallest(uncertainty.margins),
         "margins": _margin_table(package, uncertainty.margins),
-        "turned": _turned_table(package, uncertainty) if uncertainty.turned else None,
         "sums": _sum_table(package, sums) if sums else None,
     }
 
@@ -64,30 +63,18 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
 
     columns = (
         (words("No."), lambda margin: str(margin.number)),
-        (words("Friction of", 1.4), lambda margin: margin.array.id),
-        (text("μ", "given", 1.2), lambda margin: mu_words(margin.array.array.friction)),
-        (text("μ", "least", 1.2), least),
+        (words("Array", 0.8), lambda margin: margin.array.id),
+        (text("μ", "given", 2.2), lambda margin: mu_words(margin.array.array.friction)),
+        (text("μ", "least", 2.4), least),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (
             required("Required there", 0.9),
             lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
-        (words("Limited by", 1.4), lambda margin: lowered(margin.limited_by)),
+        (words("Limited by", 1.3), lambda margin: lowered(margin.limited_by)),
     )
     return listed(margins, columns, package.fmt, kind="compact")
-
-
-def _turned_table(package: PackageData, uncertainty: Uncertainty) -> Table:
-    """Return the PRD at other angles, a column for each."""
-    fmt, used, prd = package.fmt, uncertainty.used_m, length("PRD")
-    names = (*(f"PRD [{unit.symbol}]" for unit in fmt.units()), "PRD / used")
-    columns: list[Column] = [(words("Angle", 1.7), names.__getitem__)]
-    for run in uncertainty.turned:
-        share = number(run.result.prd_m / used, 2) if used > 0.0 else "—"
-        cells = (*prd.cells(run.result.prd_m, fmt.none, prd.units(fmt)), share)
-        columns.append((text(f"{number(run.angle_deg, 1)}°"), cells.__getitem__))
-    return listed(range(len(names)), columns, fmt, kind="compact")
 
 
 def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:

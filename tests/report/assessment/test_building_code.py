@@ -110,7 +110,7 @@ def test_check_says_so_at_the_cell_without_any_run():
 def test_the_example_says_that_it_is_ng_by_asce_7_16_with_the_worst_clearance_and_the_slope():
     done = scenes.shipped("example")
     assert done.verdict is Verdict.CONDITIONS
-    assert listed(done.conditions)["rule_set"].remedy.endswith(
+    assert listed(done.conditions)["rule_set"].outcome.endswith(
         "By ASCE 7-16 13.6.12 with the same motions and S_DS: NG, A1 to RTU-1 65.3 > 48.0 in; A2:"
         " electrical slack too short; A3: roof slope, analysis route, over its limit and 4 more."
     )
@@ -122,7 +122,7 @@ def test_the_basis_says_that_another_rule_set_is_for_comparison_where_one_is_pri
 ):
     done = assessed(code) if code else scenes.usual()
     assert ("By ASCE 7-16 13.6.12" in printed(done, "summary")) is is_beside
-    assert ("part 1 compares it with the code's" in printed(done, "basis")) is is_beside
+    assert ("part 1 compares them with the code's" in printed(done, "basis")) is is_beside
 
 
 @pytest.mark.parametrize("changes", [{}, OF_22, {"rule_set": "ASCE 7-16"}])
@@ -138,22 +138,22 @@ def test_both_conditions_say_what_an_assessment_by_the_rule_set_of_the_code_give
     assert len(rows) == (1 if changes == OF_22 else 2)
     for row in rows.values():
         assert f"By ASCE 7-22 13.6.12 with the same motions and S_DS: {verdict}, {between} " in (
-            row.remedy
+            row.outcome
         )
 
 
 def test_a_reason_other_than_clearances_is_said():
     sections = {"overrides": [{"provision": "max_stories", "value": 9, "reason": "Agreed"}]}
     done = assessed("2022 CBC", sections=sections, stories=8)
-    remedy = listed(done.conditions)["rule_set"].remedy
-    assert "S_DS, without overrides and departures: NG, " in remedy
-    assert "; number of stories" in remedy
+    outcome = listed(done.conditions)["rule_set"].outcome
+    assert "S_DS, without overrides and departures: NG, " in outcome
+    assert "; number of stories" in outcome
 
 
 def test_a_departure_is_not_taken_over():
     options = stand_in.project().options.model_dump() | scenes.DEPARTURE
     done = assessed("2022 CBC", sections={"options": options})
-    assert "without overrides and departures" in listed(done.conditions)["rule_set"].remedy
+    assert "without overrides and departures" in listed(done.conditions)["rule_set"].outcome
 
 
 def test_a_row_of_linked_blocks_counts_under_the_other_rule_set_too():
@@ -166,8 +166,8 @@ def test_a_row_of_linked_blocks_counts_under_the_other_rule_set_too():
     }
     done = assessed("2022 CBC", sections=sections)
     assert not done.is_rigid_enough(done.arrays[0])
-    remedy = listed(done.conditions)["rule_set"].remedy
-    assert remedy.endswith("NG; A1: one rigid block.")
+    outcome = listed(done.conditions)["rule_set"].outcome
+    assert outcome.endswith("NG; A1: one rigid block.")
 
 
 @pytest.mark.quick
@@ -181,5 +181,5 @@ def test_no_run_is_made_again(monkeypatch):
 
     monkeypatch.setattr(assess, "run_motion", run)
     done = assess.assess(book.sheet, book.shaking)
-    assert "By ASCE 7-16" in listed(done.conditions)["rule_set"].remedy
+    assert "By ASCE 7-16" in listed(done.conditions)["rule_set"].outcome
     assert len(runs) == len(set(runs)) == 2 * len(done.arrays) * len(scenes.motions())

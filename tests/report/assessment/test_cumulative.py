@@ -55,7 +55,7 @@ def test_a_rectangular_pulse_gives_the_closed_form():
 def test_the_sums_carry_the_factor_of_the_design_value_beside_them():
     """Three motions: 1.1 times the largest, which is what a sum is compared with."""
     done = made()
-    page = printed(done, "how-sure")
+    page = printed(done, "accuracy")
     table = page.table("Cumulative displacement over the motions")
     assert table.headings[1::2] == (
         "1.10 × mean sum [in]", "1.10 × largest sum [in]", "Design displacement [in]",

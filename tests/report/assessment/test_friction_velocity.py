@@ -82,8 +82,8 @@ def test_friction_beyond_the_tests_above_their_smallest_is_a_condition(by_veloci
     assert "; tested to 1.00 in/s (25.4 mm/s); μ beyond 0.450" in row.found
     assert row.limit == "slower than tested, or μ beyond ≤ 0.400"
     # A coefficient that was not run is not offered: entered, it may be NG.
-    start = "Obtain friction tests at the sliding velocities. With 0.30 at every velocity: "
-    assert row.remedy.startswith(start)
+    assert row.remedy == "Obtain friction tests at the sliding velocities."
+    assert row.outcome.startswith("A1 with μ = 0.30 at every velocity: ")
     assert done.array_verdict(done.arrays[0]) is not Verdict.OK
 
 
@@ -169,13 +169,13 @@ def test_the_low_velocity_coefficient_alone_gives_what_it_gives_when_entered(by_
     assert again.clearances[1].neighbor is Neighbor.LIKE
     assert slow.clearances[2].neighbor is Neighbor.UNLIKE
     failed = [gap.clearance for gap in slow.gaps_of("A2") if not gap.ok]
-    remedy = rows(by_velocity)["A2"].remedy
-    assert all(f"{gap.array} to {gap.object}" in remedy for gap in failed)
-    assert ("NG: " in remedy) is bool(failed)
+    outcome = rows(by_velocity)["A2"].outcome
+    assert all(f"{gap.array} to {gap.object}" in outcome for gap in failed)
+    assert ("NG: " in outcome) is bool(failed)
 
 
 def test_reruns_with_other_friction_have_none_of_their_own(by_velocity):
     assert by_velocity.at_reduced_friction.low_velocity.arrays == ()
     constant = one(tests=runs())
     assert (constant.low_velocity.arrays, constant.low_velocity.clearances) == ((), {})
-    assert "every velocity: " not in rows(constant)["A1"].remedy
+    assert rows(constant)["A1"].outcome == ""

@@ -38,8 +38,7 @@ def test_the_error_of_the_governing_run_is_said_by_its_model(usual):
     assert f"the error of this PRD is below {below_mm(result.error_m)} (a bound)" in page
     alone = tuple(replace(m, ay_mps2=np.empty(0)) for m in scenes.level())
     _, _, page = made(alone)
-    assert "without vertical shaking" in page.line("Governing run")
-    assert "In one axis the solution is exact, event by event" in page
+    assert "in one axis the solution is exact, event by event" in page
 
 
 def inches_up(length_m):
@@ -77,5 +76,5 @@ def test_the_runs_with_less_friction_are_those_of_the_conditions(usual):
 def test_a_block_that_lifts_off_has_no_error_and_no_sensitivity():
     _, _, page = made((*scenes.motions(3, seconds=4.0), stand_in.lifting(signs=(1,))))
     assert "lifts off the roof" in page
-    assert "no permitted design displacement" in page
+    assert set(page.table("Design displacement with").rows[0].values()) >= {"none"}
     assert not re.search(r"\bnan\b", page)

@@ -35,7 +35,7 @@ def test_no_page_rounds_the_design_displacement_down(example):
     for page in PAGES:
         words = printed(example, page)
         assert not re.search(rf"(?<![\d.]){re.escape(down)}(?!\d)", words), page
-    for page in ("letter", "summary", "comparison", "clearances"):
+    for page in ("letter", "summary", "comparison", "plan"):
         assert up in printed(example, page)
     said = "\n".join(summary(example.assessment))
     assert up in said

@@ -10,8 +10,10 @@ import pytest
 import scenes
 from printed import printed
 from report.assessment.evidence import support
+from report.assessment.verdict import as_one
 from report.results.json import results_json
 from report.results.xlsx import results_xlsx
+from report.words.counts import grouped_by
 
 CASES = {
     "example": lambda: scenes.shipped("example"),
@@ -63,11 +65,12 @@ def test_the_verdicts_of_arrays_and_what_governs(made):
 def test_the_verdicts_and_kinds_of_clearances(made):
     package, document, book = made
     gaps = document["clearances"]
-    table = printed(package, "clearances").table("Clearances: required").rows
+    table = printed(package, "plan").table("Schedule of clearances").rows
     kinds = [f"{row['neighbor']}, {row['direction']}" for row in gaps]
     shown = [kind.removesuffix(", any") for kind in kinds]
     assert [row["Verdict"] for row in table] == [row["verdict"] for row in gaps]
-    assert [bare(row["Kind"]) for row in table] == shown
+    measured = printed(package, "notes").table("Schedule of gaps").rows
+    assert [bare(row["Kind"]) for row in measured] == shown
     cells = rows_of(book["Clearances"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in gaps]
     assert [f"{row['Kind']}, {row['Direction']}" for row in cells] == kinds
@@ -84,7 +87,12 @@ def test_the_verdicts_of_requirements(made):
         for row in rows_of(book["Requirements"], 4)
     }
     assert {key: cells[key] for key in expected} == expected
-    said = {(plain(title), plain(found)): word for (_, title, found), word in expected.items()}
+    # In the PDF those that ask the same are one, with what each finds.
+    alike = grouped_by(package.assessment.rows, lambda row: (*row.asked, row.basis, row.verdict))
+    said = {
+        (plain(one.title), plain(one.found)): one.verdict.value
+        for one in map(as_one, alike.values())
+    }
     table = printed(package, "limits").table("Other requirements").rows
     shown = {(plain(r["Requirement"]), plain(r["Found"])): bare(r["Verdict"]) for r in table}
     assert shown

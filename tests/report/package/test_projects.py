@@ -198,7 +198,7 @@ def test_the_schools_design_value_is_from_analysis_without_a_floor(school):
 
 @pytest.mark.nightly
 def test_the_school_states_the_displacement_of_smaller_events_for_information(school):
-    assert "by each of these factors: 0.50, 0.50." in page("school", "how-sure")
+    assert "by each of these factors: 0.50, 0.50." in page("school", "accuracy")
     sums = school.results["cumulative"]
     assert [item["array"] for item in sums] == ["A1", "A2"]
     assert all(item["largest_m"] > item["mean_m"] > 0.0 for item in sums)
@@ -236,8 +236,8 @@ def test_arrays_of_the_campus_that_share_their_runs_share_a_result_sheet():
     results = page("campus", "results")
     names = ("A1 to A8, A11 to A15", "A9, A10", "A16 to A23, A26 to A30", "A24, A25")
     for number, some in enumerate(names, start=1):
-        assert results.line(f"## 7.{number} Arrays {some}")
-    assert "## 7.5" not in results
+        assert results.line(f"## 12.{number} Arrays {some}")
+    assert "## 12.5" not in results
 
 
 # The incomplete warehouse.

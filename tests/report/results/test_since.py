@@ -190,13 +190,14 @@ def test_the_page_and_the_bars_are_there_only_if_asked_for(assessment, document)
     assert "Number of stories" in printed(package, "changes").table("Changes").column("Quantity")
     usual = package_data(assessment)
     listed, plain = (parts(one) for one in (package, usual))
-    assert [part.id for part in listed] == [*(part.id for part in plain), "changes"]
-    assert [part.number for part in listed][:-1] == [part.number for part in plain]
-    # Summary: A1 and clearance 3; results: the design of A1; comparison: A1; clearances: 3.
+    first, *others = plain
+    assert [part.id for part in listed] == [first.id, "changes", *(part.id for part in others)]
+    assert [part.number for part in listed] == ["1", "", *(part.number for part in others)]
+    # Summary: A1 and clearance 3; results: the design of A1; comparison: A1; schedule: 3.
     assert marked(package, "summary") == ["A1", "3"]
     assert marked(package, "results") == ["Design"]
     assert marked(package, "comparison") == ["A1"]
-    assert marked(package, "clearances") == ["3"]
+    assert marked(package, "plan") == ["3"]
     assert not any(marked(usual, id) for id in IDS)
 
 
