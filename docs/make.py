@@ -116,7 +116,8 @@ def _first_cell(path: Path) -> list[str]:
 def _fields() -> Parts:
     for section in SECTIONS:
         place = "a table" if section.is_table else "single cells"
-        rows = "\n".join(map(_field, entries(section.model)))
+        fields = entries(section.model) if section.is_table else [row for _, row in section.rows]
+        rows = "\n".join(map(_field, fields))
         yield (
             f"{section.sheet}: {section.title}",
             f"{_text(section.instruction)} ({place})\n\n"

@@ -102,8 +102,8 @@ def _roof_outline(data: ProjectInput) -> Iterator[Requirement]:
             limit="given",
             basis="roof plan",
             is_satisfied=False,
-            remedy="Enter the outline of the roof on the sheet Site: without it, roof edges near "
-            "the arrays were not looked for.",
+            remedy="Enter the outline of the roof on the sheet Building: without it, roof edges "
+            "near the arrays were not looked for.",
             places=tuple(Place("roof", 0, side) for side in SIDES),
         )
 

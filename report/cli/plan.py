@@ -192,9 +192,9 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
         lines += [f"turned counterclockwise by {degrees:.6g}° about the origin of the drawing"]
     if not math.isnan(drawn.north_deg):
         north = f"{drawn.north_deg:.6g}° counterclockwise from +x"
-        lines += [f"north is {north}: check it on the sheet Site"]
+        lines += [f"north is {north}: check it on the sheet Building"]
     elif degrees:
-        lines += ["the drawing states no north: check its direction on the sheet Site"]
+        lines += ["the drawing states no north: check its direction on the sheet Building"]
     return drawn, lines
 
 

@@ -9,14 +9,18 @@ import datetime as dt
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence, Set
 
-from report.sheet.schema import SECTION, SECTIONS, ProjectInput
+from report.sheet.schema import SECTION, SECTIONS, ProjectInput, legacy_labels
 from report.sheet.schema.choices import ClearanceSource
 from report.sheet.schema.fields import Frozen, Place
 from report.sheet.schema.scene import SIDES, WEIGHT_PARTS
+from report.words.counts import grouped_by
 
 _LETTERS = 6  # of a hash
 _Covers = Mapping[str, Set[str]]
 """Fields by section."""
+
+_Hashes = Mapping[str, str]
+"""Of what is covered, by sheet."""
 
 
 def _all_but(**left_out: str) -> _Covers:
@@ -54,7 +58,7 @@ def to_record(data: ProjectInput, records: Sequence[str]) -> Mapping[Place, str]
     """Return what confirmations cover whose date is not on record, by cell; records with hashes."""
     return {
         place: f"{date}: {', '.join(f'{sheet} {short}' for sheet, short in now.items())}"
-        for place, date, recorded, now in _dated(data, records)
+        for place, date, recorded, now, _ in _dated(data, records)
         if now and not recorded
     }
 
@@ -62,49 +66,64 @@ def to_record(data: ProjectInput, records: Sequence[str]) -> Mapping[Place, str]
 def outdated(data: ProjectInput, records: Sequence[str]) -> ProjectInput:
     """Return an input that knows which sheets have changed since a confirmation covered them."""
     changed = {}
-    for place, _, recorded, now in _dated(data, records):
+    for place, _, recorded, now, earlier in _dated(data, records):
         then = dict(part.rpartition(" ")[::2] for part in recorded.split(", "))
-        titles = dict.fromkeys(section.sheet for section in SECTIONS)
-        other = [title for title in titles if then.get(title) != now.get(title)]
+        # A record has the sheets of its own version, with which it differs least.
+        other = min((_changed(then, now), _changed(then, earlier)), key=len)
         if recorded and other:
             changed[place.section] = f"sheet{'s' * (len(other) > 1)} {', '.join(other)}"
     return data.with_outdated(changed)
 
 
+def _changed(then: _Hashes, now: _Hashes) -> Sequence[str]:
+    titles = dict.fromkeys(section.sheet for section in SECTIONS)
+    return [title for title in titles if then.get(title) != now.get(title)]
+
+
 def _dated(
     data: ProjectInput, records: Sequence[str]
-) -> Iterator[tuple[Place, dt.date, str, Mapping[str, str]]]:
-    """Yield of each confirmation its cell, date, what is on record of that date, and the hashes."""
+) -> Iterator[tuple[Place, dt.date, str, _Hashes, _Hashes]]:
+    """Yield of each confirmation its cell, date, what is on record of that date, and the hashes.
+
+    The last are by the sheets of earlier workbooks.
+    """
     for section, dated, covered, covers in CONFIRMATIONS:
         block = getattr(data, section)
         date = getattr(block, dated)
         if date and getattr(block, "peer_reviewed", True):
             of, _, recorded = getattr(block, covered).partition(": ")
-            hashes = _hashes(covers, data, records)
-            yield Place(section, 0, covered), date, recorded if of == str(date) else "", hashes
+            now = _hashes(covers, data, records, {})
+            earlier = _hashes(covers, data, records, legacy_labels.SHEETS)
+            recorded = recorded if of == str(date) else ""
+            yield Place(section, 0, covered), date, recorded, now, earlier
 
 
-def _hashes(covers: _Covers, data: ProjectInput, records: Sequence[str]) -> Mapping[str, str]:
-    """Return the hash of what is covered, by sheet."""
+def _hashes(
+    covers: _Covers, data: ProjectInput, records: Sequence[str], earlier: Mapping[str, str]
+) -> _Hashes:
+    """Return the hash of what is covered, by sheet; some sections have an earlier one."""
     lines: dict[str, list[str]] = {}
     for key, fields in covers.items():
         rows = getattr(data, key) if SECTION[key].is_table else [getattr(data, key)]
         if key == "clearances":
             rows = [row for row in rows if row.source is ClearanceSource.DRAWING]
-        found = [*filter(None, (_line(row, fields) for row in rows))]
-        found += records if key == "motions" else ()
-        if found:
-            lines.setdefault(SECTION[key].sheet, []).extend([key, *found])
+        of = {name: earlier.get(key) or SECTION[key].sheet_of(name) for name in sorted(fields)}
+        for sheet, together in grouped_by(of, of.__getitem__).items():
+            found = [*filter(None, (_line(key, row, together) for row in rows))]
+            found += records if key == "motions" else ()
+            if found:
+                lines.setdefault(sheet, []).extend([key, *found])
     return {
         sheet: hashlib.sha256("\n".join(each).encode()).hexdigest()[:_LETTERS]
         for sheet, each in lines.items()
     }
 
 
-def _line(row: Frozen, fields: Set[str]) -> str:
+def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
     """Return a row as text: a number in any unit is the same, and a default is none."""
     given = row.model_dump(include=set(fields), exclude_defaults=True)
+    order = {name: at for at, name in enumerate(legacy_labels.ORDERS.get(key, "").split())}
     return "; ".join(
         f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
-        for name, value in given.items()
+        for name, value in sorted(given.items(), key=lambda item: order.get(item[0], len(order)))
     )

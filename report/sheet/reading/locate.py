@@ -5,7 +5,7 @@ Never uses positions or styles, which users change. `cells` converts the content
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from report.sheet.reading.archive import OpenBook
@@ -32,17 +32,17 @@ def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
     position = _position(book, section, entry)
     if position is None:
         raise InputError(
-            f"{section.sheet}: {entry.spoken} is missing (no name {section.cell_name(entry.name)}"
-            f" and no label '{entry.cell.label}'); {FRESH}"
+            f"{section.sheet_of(entry.name)}: {entry.spoken} is missing"
+            f" (no name {section.cell_name(entry.name)} and no label '{entry.cell.label}'); {FRESH}"
         )
     return position
 
 
 def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
-    """Return the cells with content beside the labels of each field on the sheet of a block."""
-    sheet, fields = sheet_titled(book, section.sheet), fields_by_label(section)
+    """Return the cells with content beside the labels of each field on the sheets of a block."""
+    fields = fields_by_label(section)
     found: dict[str, list[CellPosition]] = {}
-    for position, label in labels(book, sheet) if sheet else ():
+    for position, label in _labels(book, section):
         at = replace(position, column=position.column + 1)
         if label in fields and not found_at(book, at).is_blank:
             found.setdefault(fields[label].name, []).append(at)
@@ -108,10 +108,18 @@ def _named(book: OpenBook, names: Iterable[str]) -> CellPosition | None:
 
 def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
     named = _named(book, map(section.cell_name, _fields(section, entry)))
-    sheet = sheet_titled(book, section.sheet)
-    if named or sheet is None:
+    if named:
         return named
     wanted = labels_of(section, entry)
-    found = (position for position, label in labels(book, sheet) if label in wanted)
+    found = (position for position, label in _labels(book, section) if label in wanted)
     at = next(found, None)
     return replace(at, column=at.column + 1) if at else None
+
+
+def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:
+    """Yield what may be a label of a block, from its sheets and the one of earlier workbooks."""
+    titles = [section.sheet_of(entry.name) for entry in entries(section.model)]
+    earlier = legacy_labels.SHEETS.get(section.key, section.sheet)
+    for title in dict.fromkeys((*titles, earlier)):
+        if sheet := sheet_titled(book, title):
+            yield from labels(book, sheet)

@@ -79,11 +79,14 @@ def changed(
         _forget(sheet, {(p.row, p.column) for p in stale if p.sheet == title} - cells.keys())
         files[part] = _written(sheet)
         files |= _longer_tables(files, part, cells)
-    if recalculates:
-        book = _parsed("xl/workbook.xml", files["xl/workbook.xml"])
-        for calculation in book.iter("{*}calcPr"):
-            calculation.set("fullCalcOnLoad", "1")
-        files["xl/workbook.xml"] = _written(book)
+    book = _parsed("xl/workbook.xml", files["xl/workbook.xml"])
+    filled = {position.sheet for position, value in changes.items() if value is not None}
+    for sheet in book.iterfind("{*}sheets/{*}sheet"):
+        if sheet.get("name") in filled:
+            sheet.attrib.pop("state", None)
+    for calculation in book.iter("{*}calcPr") if recalculates else ():
+        calculation.set("fullCalcOnLoad", "1")
+    files["xl/workbook.xml"] = _written(book)
     if has_formula and files.pop(_CALC_CHAIN, b""):
         # The order of computation may name a cell that is no formula any more.
         for name in ("[Content_Types].xml", "xl/_rels/workbook.xml.rels"):

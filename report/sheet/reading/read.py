@@ -6,12 +6,14 @@ Combines opening (`archive`), finding (`locate`), converting (`cells`) and check
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from shlex import quote
 from typing import Any, Generic, TypeVar
+
+from openpyxl.utils import coordinate_to_tuple
 
 from report.sheet.checking.checks import faults
 from report.sheet.reading.archive import OpenBook, open_book
@@ -82,7 +84,7 @@ class SheetOf(Generic[Whole]):
     book: OpenBook  # for columns pasted into it and files beside it
     whole: type[Whole]  # what it is the input of
     draft: Draft
-    echo: tuple[EchoRow, ...]  # every field in the order of the template
+    echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
     problems: tuple[tuple[Place, Problem], ...]
     addresses: Mapping[Place, str]
     unfound: frozenset[str]  # sections
@@ -175,7 +177,10 @@ def read_as(
         book=book,
         whole=whole,
         draft=gathered.draft,
-        echo=tuple(replace(row, unseen=marks.get(row.address, "")) for row in gathered.echo),
+        echo=tuple(
+            replace(row, unseen=marks.get(row.address, ""))
+            for row in sorted(gathered.echo, key=partial(_row_in_book, book.book.sheetnames))
+        ),
         problems=tuple(gathered.problems),
         addresses=gathered.addresses,
         unfound=frozenset(gathered.unfound),
@@ -186,6 +191,10 @@ def read_as(
             *from_outside(book, Place(sections[0].key)),
         ),
     )
+
+
+def _row_in_book(titles: Sequence[str], row: EchoRow) -> tuple[int, int]:
+    return titles.index(row.sheet), coordinate_to_tuple(row.cell)[0]
 
 
 def _where(place: Place, addresses: Mapping[Place, str]) -> str:
@@ -274,20 +283,18 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
             gathered.add(place, error.parts)
             continue
         for at in typed.get(entry.name, ()):
-            if at.row != position.row and at.column == position.column:
+            if at != position and at.column == position.column:
                 twice = f"label '{entry.cell.label}' appears twice, also in {at.address}"
                 gathered.add(place, [Problem(twice, "keep one", position.address)])
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
         found.append((entry, place, cell, column))
-    order, first = [cell.address for _, _, cell, _ in found], len(gathered.echo)
     last = section.model.computed_last
     for entry, place, cell, column in sorted(
         found, key=lambda one: one[2].is_blank and one[0].name in last
     ):
         _read_field(entry, place, cell, column, stated_unit(entry, row, {}), row, gathered)
-    gathered.echo[first:] = sorted(gathered.echo[first:], key=lambda row: order.index(row.address))
 
 
 def _read_table(

@@ -172,7 +172,9 @@ class ProjectInput(Frozen):
     """One row for each issue."""
     site: Annotated[Site, OnSheet("Site", "Site and building")]
     """Give S_DS, S_MS, or S_S and F_a."""
-    roof: Annotated[Roof, OnSheet("Site", "Roof outline and north", may_be_absent=True)] = Roof()
+    roof: Annotated[Roof, OnSheet("Building", "Roof outline and north", may_be_absent=True)] = (
+        Roof()
+    )
     """Optional. The plan draws the outline, and every roof edge near an array must then be an
     object."""
     arrays: Annotated[tuple[Array, ...], OnSheet("Arrays", "Arrays")]
@@ -214,7 +216,7 @@ class ProjectInput(Frozen):
     options: Annotated[Options, OnSheet("Options", "Options")] = Options()
     """The defaults suit most projects."""
     target: Annotated[
-        TargetInput, OnSheet("Options", "Target spectrum and scaling", may_be_absent=True)
+        TargetInput, OnSheet("Building", "Target spectrum and scaling", may_be_absent=True)
     ] = TargetInput()
     """The default target is the AC156 spectrum for roof motions and the ASCE 7 design spectrum for
     ground motions."""

@@ -197,17 +197,17 @@ _IMPORTANCE = f"""
 """
 
 
-def _required(unit: Unit) -> str:
+def _required_m(displacement_in: str) -> str:
     at = "MATCH([neighbor],live_neighbors,0)"
     return f"""
-        MAX(INDEX(live_separation_factors,{at})*[importance]*live_prescriptive_in,
-        INDEX(live_separation_minima_in,{at}))*{INCH_M!r}/{unit.si!r}
+        MAX(INDEX(live_separation_factors,{at})*[importance]*{displacement_in},
+        INDEX(live_separation_minima_in,{at}))*{INCH_M!r}
     """
 
 
-def _demand_capacity(unit: Unit) -> str:
+def _demand_capacity(required_m: str) -> str:
     # Rounded up as by `report.words.units.ratio`, so that 1.00 never hides a failure.
-    ratio = f"[required]*{unit.si!r}/([provided_m]*unit_clearances_provided_m)"
+    ratio = f"{required_m}/([provided_m]*unit_clearances_provided_m)"
     return f"""
         IF(OR([required]="",TRIM([provided_m])=""),"",
         IF([provided_m]>0,MAX(0,ROUNDUP({ratio}-0.000000001,2)),"∞"))
@@ -228,7 +228,7 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
             "required",
             f"Required, prescriptive [{unit.symbol}]",
             "separation for the prescriptive displacement",
-            _required(unit),
+            f"{_required_m('live_prescriptive_in')}/{unit.si!r}",
             number_format=decimals_format(unit),
             width=13,
         ),
@@ -236,9 +236,17 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
             "demand_capacity",
             "D/C, prescriptive",
             "required / provided, rounded up",
-            _demand_capacity(unit),
+            _demand_capacity(f"[required]*{unit.si!r}"),
             number_format="0.00",
             width=13,
+        ),
+        FormulaColumn(
+            "floor_ratio",
+            "D/C, floor",
+            "for the floor of the value from analysis",
+            _demand_capacity(_required_m("live_floor_in")),
+            number_format="0.00",
+            is_helper=True,
         ),
         _row_of("array_row", "array", "array", "arrays"),
         _row_of("other_row", "other array", "object", "arrays"),
@@ -336,6 +344,18 @@ PRESCRIPTIVE_BASIS = (
     'IF(live_prescriptive_formula_in>=rule_prescriptive_minimum_in,"formula","minimum")))'
 )
 """What governs the prescriptive displacement, in words."""
+
+FLOOR_IN = _blank_on_error("rule_analysis_floor*live_prescriptive_in")
+"""The floor of the value from analysis without peer review [in]; with it there is none."""
+
+
+def worst(column: str) -> tuple[str, str]:
+    """Return the largest ratio of a column of the clearances, and of which clearance it is."""
+    ratios, at = f"clearances[{column}]", f"MATCH(MAX(clearances[{column}]),clearances[{column}],0)"
+    at = f'IF(COUNTIF({ratios},"∞"),MATCH("∞",{ratios},0),{at})'
+    of = f'INDEX(clearances[array],{at})&" to "&INDEX(clearances[object],{at})'
+    return _blank_on_error(f"INDEX({ratios},{at})"), _blank_on_error(of)
+
 
 ANSWER_HEADINGS: Mapping[str, frozenset[str]] = {
     section: frozenset(

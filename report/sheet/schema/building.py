@@ -51,7 +51,9 @@ class TargetInput(Frozen):
     tail: Annotated[Tail, Cell("AC156 below 1.3 Hz", "AC156")] = Tail.AC156
     """The line of AC156, or 1/T for periods above 0.77 s as PV1-2012 Sec. 9 permits."""
     t_l_s: Annotated[
-        float | None, Field(gt=0, le=20), Cell("Long-period transition T_L", 8.0, "s")
+        float | None,
+        Field(gt=0, le=20),
+        Cell("Long-period transition T_L", 8.0, "s", below=("site", "s_d1_g")),
     ] = None
     """ASCE 7, 11.4.6. Used with S_1 and F_v for the design spectrum of ground motions."""
     from_s: Annotated[float, Field(ge=0.02, le=10), Cell("Shortest scaling period", 0.2, "s")] = 0.2

@@ -95,6 +95,7 @@ class Cell:
     # Field that states the unit of a number without one of its own, and what its text says of it.
     unit_from: tuple[str, Callable[[str], str]] | None = None
     is_rare: bool = False  # its column is folded at the right of a table
+    below: tuple[str, str] | None = None  # field of another block that its row follows
 
 
 class Frozen(BaseModel):
@@ -145,6 +146,26 @@ class SheetSection:
         if self.is_table:
             return self.whole.model_fields[self.key].is_required()
         return any(entry.is_required for entry in entries(self.model))
+
+    @property
+    def rows(self) -> Sequence[tuple[SheetSection, Entry]]:
+        """The fields in the order of a block's rows, with the section that each is of."""
+        blocks = [section for section in sections_of(self.whole) if not section.is_table]
+        fields = [(block, entry) for block in blocks for entry in entries(block.model)]
+        return [
+            row
+            for section, entry in fields
+            if section is self and not entry.cell.below
+            for row in (
+                (section, entry),
+                *(other for other in fields if other[1].cell.below == (self.key, entry.name)),
+            )
+        ]
+
+    def sheet_of(self, field: str) -> str:
+        """Return the sheet of a field."""
+        key, _ = self.entry(field).cell.below or (self.key, "")
+        return next(part.sheet for part in sections_of(self.whole) if part.key == key)
 
     @property
     def table_name(self) -> str:

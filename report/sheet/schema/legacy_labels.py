@@ -30,6 +30,15 @@ ANSWERS = frozenset({"status"})
 FIELDS: Mapping[tuple[str, str], tuple[str, ...]] = {("site", "stories"): ("storeys",)}
 """Earlier names of a field, which defined names of cells end with."""
 
+SHEETS: Mapping[str, str] = {"roof": "Site", "target": "Options"}
+"""Earlier sheet of a block."""
+
+ORDERS: Mapping[str, str] = {
+    "site": "rule_set risk_category i_e s_s_g s_1_g site_class f_a f_v s_ds_g sdc stories"
+    " structure_height_m roof_height_m edition_name s_ms_g s_m1_g s_d1_g",
+}
+"""Earlier order of the first fields of a block, in which confirmations are hashed."""
+
 ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
     frozenset((section, field) for field in fields.split())
     for section, fields in (

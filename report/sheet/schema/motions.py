@@ -43,7 +43,7 @@ class MotionInput(Frozen):
     """Leave blank if the file states it or has a time column."""
     scaling: Annotated[Scaling, Cell("Scaling", "as recorded")] = Scaling.AS_RECORDED
     """By a factor, to a PPA (peak of the horizontal record), or to the target spectrum over the
-    scaling periods on the sheet Options. All components get the same factor."""
+    scaling periods on the sheet Building. All components get the same factor."""
     scale_value: Annotated[
         float | None,
         Field(gt=0, le=1000),

@@ -45,7 +45,7 @@ Acceleration = Annotated[float, Field(gt=0, le=10)]
 class Project(Frozen):
     """Project data."""
 
-    name: Annotated[RequiredText, Cell("Project name", "Alameda Warehouse")]
+    name: Annotated[RequiredText, Cell("Project name", "Alameda Warehouse, Rooftop Solar")]
     """Printed on the cover."""
     number: Annotated[RequiredText, Cell("Project number", "24-117")]
     """Printed on every page."""
@@ -93,8 +93,30 @@ class Site(Frozen):
 
     rule_set: Annotated[RuleSetName, Cell("Rule set", "SEAOC PV1-2012")]
     """The adopted provisions. Rule sets are never combined."""
+    edition_name: Annotated[EditionName | None, Cell("Edition of ASCE 7", "ASCE 7-16")] = None
+    """For the seismic parameters. Blank: that of the rule set, ASCE 7-16 with PV1-2012."""
     risk_category: Annotated[RiskCategory, Cell("Risk category", "II")]
     """ASCE 7 Table 1.5-1."""
+    site_class: Annotated[SiteClass | None, Cell("Site class", "D")] = None
+    """ASCE 7 chapter 20."""
+    s_s_g: Annotated[Acceleration | None, Cell("S_S", 1.97, "g", usual=(0.1, 3.5))] = None
+    """Mapped value at 0.2 s. Give S_S and F_a, or S_MS, or S_DS."""
+    s_1_g: Annotated[Acceleration | None, Cell("S_1", 0.70, "g", usual=(0.03, 1.5))] = None
+    """Mapped value at 1 s. At 0.75 g or more the SDC is E or F."""
+    f_a: Annotated[float | None, Field(gt=0, le=10), Cell("F_a", 1.2, usual=(0.8, 2.4))] = None
+    """Site coefficient at 0.2 s; ASCE 7-22 has none. Blank, without S_MS and S_DS: of its table."""
+    f_v: Annotated[float | None, Field(gt=0, le=10), Cell("F_v", 1.7, usual=(0.8, 4.2))] = None
+    """Site coefficient at 1 s; ASCE 7-22 has none."""
+    s_ms_g: Annotated[Acceleration | None, Cell("S_MS", 2.349, "g", usual=(0.1, 4.0))] = None
+    """Read from a hazard tool. Blank: F_a S_S, unrounded."""
+    s_m1_g: Annotated[Acceleration | None, Cell("S_M1", 0.98, "g", usual=(0.03, 3.0))] = None
+    """Read from a hazard tool. Blank: F_v S_1, unrounded."""
+    s_ds_g: Annotated[
+        float | None, Field(gt=0, le=5), Cell("S_DS", 1.566, "g", usual=(0.1, 2.5))
+    ] = None
+    """Design value, short period. Blank: 2/3 S_MS, unrounded."""
+    s_d1_g: Annotated[Acceleration | None, Cell("S_D1", 0.653, "g", usual=(0.03, 2.0))] = None
+    """Design value, 1 s. Blank: 2/3 S_M1, unrounded."""
     i_e: Annotated[
         float,
         Field(ge=1.0, le=2.0),
@@ -102,65 +124,41 @@ class Site(Frozen):
     ]
     """At least 1.0 in risk category I or II, 1.25 in III, 1.5 in IV, which a blank cell stands
     for."""
-    s_s_g: Annotated[Acceleration | None, Cell("S_S", 1.97, "g", usual=(0.1, 3.5))] = None
-    """Mapped value at 0.2 s. Give S_S and F_a, or S_MS, or S_DS."""
-    s_1_g: Annotated[Acceleration | None, Cell("S_1", 0.70, "g", usual=(0.03, 1.5))] = None
-    """Mapped value at 1 s. At 0.75 g or more the SDC is E or F."""
-    site_class: Annotated[SiteClass | None, Cell("Site class", "D")] = None
-    """ASCE 7 chapter 20."""
-    f_a: Annotated[float | None, Field(gt=0, le=10), Cell("F_a", 1.2, usual=(0.8, 2.4))] = None
-    """Site coefficient at 0.2 s, ASCE 7-16. Blank without S_MS and S_DS: of its table, by S_S and
-    site class. ASCE 7-22 has none."""
-    f_v: Annotated[float | None, Field(gt=0, le=10), Cell("F_v", 1.7, usual=(0.8, 4.2))] = None
-    """Site coefficient at 1 s, ASCE 7-16. ASCE 7-22 has none."""
-    s_ds_g: Annotated[
-        float | None, Field(gt=0, le=5), Cell("S_DS", 1.566, "g", usual=(0.1, 2.5))
-    ] = None
-    """Design value, short period. Blank: 2/3 S_MS, unrounded."""
     sdc: Annotated[Sdc, Cell("Seismic design category", "D", need="required, or S_1 and S_D1")]
     """ASCE 7 section 11.6. Blank: the least by S_DS, S_D1 and S_1, if all are given or computed."""
-    stories: Annotated[int, Field(ge=1, le=200), Cell("Number of stories", 1, usual=(1.0, 6.0))]
-    """Above grade."""
-    structure_height_m: Annotated[
-        Positive, Cell("Structure height h", 36.0, Quantity.PLAN, usual=(8.0, 120.0))
-    ]
-    """Average roof height above the base, ASCE 7 section 13.3."""
-    roof_height_m: Annotated[
-        NotNegative, Cell("Height of the array z", 36.0, Quantity.PLAN, usual=(8.0, 120.0))
-    ]
-    """Height above the base of the roof that supports the array."""
-    edition_name: Annotated[EditionName | None, Cell("Edition of ASCE 7", "ASCE 7-16")] = None
-    """For the seismic parameters. Blank: that of the rule set, ASCE 7-16 with PV1-2012."""
-    s_ms_g: Annotated[Acceleration | None, Cell("S_MS", 2.349, "g", usual=(0.1, 4.0))] = None
-    """Read from a hazard tool. Blank: F_a S_S, unrounded."""
-    s_m1_g: Annotated[Acceleration | None, Cell("S_M1", 0.98, "g", usual=(0.03, 3.0))] = None
-    """Read from a hazard tool. Blank: F_v S_1, unrounded."""
-    s_d1_g: Annotated[Acceleration | None, Cell("S_D1", 0.653, "g", usual=(0.03, 2.0))] = None
-    """Design value, 1 s. Blank: 2/3 S_M1, unrounded."""
     hazard: Annotated[HazardBasis, Cell("Hazard basis", "mapped values")] = HazardBasis.MAPPED
     """Site class D with S_1 of 0.2 g or more needs a site-specific analysis or the exception of
     ASCE 7-16 11.4.8. Values below those of its tables need one."""
     hazard_source: Annotated[Text, Cell("Source of hazard", "ASCE 7 Hazard Tool")] = ""
-    """Tool, or author of the report on a site-specific analysis."""
+    """Tool, or author of the site-specific analysis."""
     hazard_date: Annotated[dt.date | None, Cell("Date of hazard", dt.date(2026, 2, 20))] = None
     """When the values were read, or of the report."""
     hazard_covered: Annotated[Text, Cell("Hazard covered", "2026-02-20: Site 3f2a91")] = ""
     """Filled in by roofslip report: the date with a short hash of these values. Leave blank."""
     hazard_report: Annotated[Text, Cell("Report number of hazard", "GE-2026-41")] = ""
     """Of the report on a site-specific analysis."""
+    stories: Annotated[int, Field(ge=1, le=200), Cell("Number of stories", 1, usual=(1.0, 6.0))]
+    """Above grade."""
+    structure_height_m: Annotated[
+        Positive, Cell("Structure height h", 36.0, Quantity.PLAN, usual=(8.0, 120.0))
+    ]
+    """Average roof height above the base, ASCE 7, 13.3."""
+    roof_height_m: Annotated[
+        NotNegative, Cell("Height of the array z", 36.0, Quantity.PLAN, usual=(8.0, 120.0))
+    ]
+    """Of the roof that supports it, above the base."""
     force_factor: Annotated[float | None, Field(gt=0, le=5), Cell("a_p or C_AR", 1.0)] = None
-    """Amplification factor of a component: a_p in ASCE 7-16, C_AR in ASCE 7-22. For F_p, which the
-    package prints for comparison."""
+    """Amplification factor of a component, in ASCE 7-16 and 7-22: for F_p, for comparison."""
     force_divisor: Annotated[float | None, Field(ge=1, le=12), Cell("R_p or R_po", 1.5)] = None
-    """R_p in ASCE 7-16, R_po in ASCE 7-22."""
+    """Its divisor, in ASCE 7-16 and 7-22."""
     building_code: Annotated[BuildingCode | None, Cell("Building code", "CBC")] = None
-    """Adopted where the building stands. Printed on the cover."""
+    """As adopted there. Printed on the cover."""
     building_code_year: Annotated[
         int | None, Field(ge=2000, le=2100), Cell("Year of building code", 2022)
     ] = None
     """Edition of the building code."""
     jurisdiction: Annotated[Text, Cell("Jurisdiction", "City of Los Angeles")] = ""
-    """Building department that has jurisdiction. Printed on the cover."""
+    """Building department. Printed on the cover."""
     fire_code_section: Annotated[
         Text, Cell("Fire code section", "Section of the 2022 CFC, as adopted")
     ] = ""

@@ -28,10 +28,12 @@ from report.sheet.schema.layout import TablePlace, Tables, name_cell
 from report.sheet.writing import style
 from report.words.units import Unit
 
-BLANK_ROWS = 20
+BLANK_ROWS, FEWER_ROWS = 20, 6
+"""Rows of a table without rows, and of one that is below others on its sheet."""
+
 SPARE_ROWS = 5
 BLOCK_HEADS = ("", "Value", "Unit", "Computed", "Allowed", "Example", "Note")
-BLOCK_WIDTHS = (28, 30, 13, 16, 24, 20, 46)
+BLOCK_WIDTHS = (29, 32, 13, 16, 27, 18, 54)
 HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
 HINTS_WIDTH = 10
@@ -40,8 +42,8 @@ FIRST = 2
 
 MANY, MANY_WIDTH = 6, 12
 _WIDER = 0.85  # of a column for text that is typed, as fonts may be wider than Calibri
-DATA_LINES = 2
-"""Lines of text that a row of a table shows."""
+DATA_LINES = 5
+"""Most lines of text that a row of a table is made tall for."""
 
 _SOURCES = {
     ("overrides", "provision"): "rule_names",
@@ -57,30 +59,27 @@ def _put_section_title(sheet: Worksheet, section: SheetSection) -> tuple[int, bo
     if sheet.max_row == 1:
         style.put_title(sheet, section.title, section.instruction)
         return 4, True
-    row = sheet.max_row + 3
+    row = sheet.max_row + 2
     style.put_heading(sheet, row, section.title, section.instruction)
     return row + 3, False
 
 
-def write_block(
-    book: Workbook, section: SheetSection, units: UnitsFirst, given: Frozen | None
-) -> None:
-    """Write a block."""
+def write_block(book: Workbook, section: SheetSection, units: UnitsFirst, example: object) -> None:
+    """Write a block, with the values that an example has by section, or blank but for defaults."""
     sheet = book[section.sheet]
     top, is_first = _put_section_title(sheet, section)
     unused = "" if section.key == "site" else "Computed"
     style.put_values(
         sheet, top, [head if head != unused else "" for head in BLOCK_HEADS], are_heads=True
     )
-    rows = {entry.name: row for row, entry in enumerate(entries(section.model), start=top + 1)}
-    for entry in entries(section.model):
+    for row, (of, entry) in enumerate(section.rows, start=top + 1):
         value = units if entry.kind is UnitsFirst else entry.default
-        if given is not None:
-            value = getattr(given, entry.name)
-        row, unit = rows[entry.name], entry.unit(is_us=units.is_us)
+        if example is not None:
+            value = getattr(getattr(example, of.key), entry.name)
+        unit = entry.unit(is_us=units.is_us)
         style.put_input(sheet.cell(row, 2), entry, value, unit)
-        _write_block_row(sheet, row, section, entry, unit)
-    style.make_plain_when_filled(sheet, f"B{top + 1}:C{top + len(rows)}")
+        _write_block_row(sheet, row, of, entry, unit)
+    style.make_plain_when_filled(sheet, f"B{top + 1}:C{top + len(section.rows)}")
     if is_first:
         for column, width in enumerate(BLOCK_WIDTHS, start=1):
             sheet.column_dimensions[get_column_letter(column)].width = width
@@ -99,8 +98,7 @@ def _write_block_row(
         style.put(sheet, row, column, text, color=style.GRAY, italic=column == 6)
     typed = str(sheet.cell(row, 2).value or "")
     lines = _lines((*texts, typed), (*BLOCK_WIDTHS[4:], _WIDER * BLOCK_WIDTHS[1]))
-    is_text = entry.kind is str and not entry.choices
-    sheet.row_dimensions[row].height = 7 + 13 * max(lines, DATA_LINES if is_text else 1)
+    sheet.row_dimensions[row].height = 4 + 13 * lines
     name_cell(section.cell_name(entry.name), sheet, row, 2)
     style.validate(sheet, f"B{row}", entry, 1.0)
     if section.key == "site" and entry.name in SITE_ANSWERS:
@@ -158,7 +156,7 @@ def write_table(
         section=section,
         sheet=section.sheet,
         header=header,
-        size=max(BLANK_ROWS, len(rows) + SPARE_ROWS),
+        size=max(BLANK_ROWS if is_first else FEWER_ROWS, len(rows) + SPARE_ROWS),
         headings={column.name: column.heading for column in columns},
         letters={c.name: get_column_letter(at) for at, c in enumerate(columns, start=FIRST)},
     )
@@ -168,15 +166,15 @@ def write_table(
         if is_first or number > len(BLOCK_WIDTHS):
             sheet.column_dimensions[get_column_letter(number)].width = column.width
     _write_hints(sheet, top, columns, units)
-    lines = 1
+    lines = []
     for number, column in enumerate(columns, start=FIRST):
         _write_heading(sheet, header, number, column)
         if column.entry is not None:
             values = [_unless_default(getattr(row, column.name), column.entry) for row in rows]
             unit = column.entry.unit(is_us=units.is_us)
-            lines = max(lines, _write_column(sheet, place, number, column.entry, values, unit))
-    for row in range(header + 1, header + 1 + place.size):
-        sheet.row_dimensions[row].height = 4 + 14 * min(lines, DATA_LINES)
+            lines.append(_write_column(sheet, place, number, column.entry, values, unit))
+    for row, of_row in enumerate(zip(*lines, strict=True), start=header + 1):
+        sheet.row_dimensions[row].height = 4 + 14 * min(max(of_row), DATA_LINES)
     _add_table(sheet, place)
     if is_first:
         _fold(sheet, columns, rows)
@@ -192,17 +190,18 @@ def _write_column(
     entry: Entry,
     values: Sequence[object],
     unit: Unit | None,
-) -> int:
-    """Write the inputs of a column with their messages; return the lines of its tallest text."""
+) -> list[int]:
+    """Write the inputs of a column with their messages; return the lines of each."""
     width = max(int(sheet.column_dimensions[get_column_letter(number)].width), 1)
     if entry.name == "provision":
         values = [provision_name(str(value)) for value in values]
-    lines = 1
+    lines = []
     for row in range(place.size):
         value = values[row] if row < len(values) else None
         cell = sheet.cell(place.header + 1 + row, number)
         style.put_input(cell, entry, value, unit)
-        lines = max(lines, _lines([str(style.in_cell(value, unit) or "")], [_WIDER * width]))
+        typed = "" if entry.choices else str(style.in_cell(value, unit) or "")
+        lines.append(_lines([typed], [_WIDER * width]))
     if source := _SOURCES.get((place.section.key, entry.name)):
         style.suggest(sheet, place.cells(entry.name), source, entry.cell.label, entry.help)
     else:
@@ -212,17 +211,18 @@ def _write_column(
 
 
 def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
-    """Group the columns that are rarely needed; closed unless one of them has a value."""
+    """Group the columns that are rarely needed; those without a value are closed."""
     folded = [(count, c) for count, c in enumerate(columns, start=FIRST) if c.is_folded]
-    used = any(
-        column.entry and _unless_default(getattr(row, column.name), column.entry) not in (None, "")
-        for row in rows
+    used = {
+        column.name
         for _, column in folded
-    )
+        if (entry := column.entry)
+        and any(_unless_default(getattr(row, entry.name), entry) not in (None, "") for row in rows)
+    }
     for count, column in folded:
         dimension = sheet.column_dimensions[get_column_letter(count)]
         dimension.outlineLevel = 1
-        dimension.hidden = not used or column.entry is None
+        dimension.hidden = column.name not in used
     # LibreOffice would close an open group that is said to be collapsed.
     if folded and not used:
         after = sheet.column_dimensions[get_column_letter(folded[-1][0] + 1)]

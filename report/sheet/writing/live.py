@@ -40,7 +40,7 @@ class Overwritten:
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the blue cells that have lost their formula, by sheet, column and row.
 
-    Start has a sample of their color. The column Status of earlier workbooks has no use any more.
+    Start of earlier workbooks has samples of their color alone, and their column Status no use.
     """
     lost = [
         Overwritten(position=position, found=found, title=title)
@@ -54,11 +54,12 @@ def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
 
 
 def _blue(book: OpenBook) -> Iterator[CellPosition]:
-    if not has_live_formulas(book):
+    panel = area_named(book.book, _PANEL)
+    if panel is None:
         return
     for sheet in book.book.worksheets:
         for cell in (cell for row in sheet.iter_rows() for cell in row):
-            if is_answer(cell) and sheet.title != START:
+            if is_answer(cell) and (sheet.title != START or panel[0] == START):
                 yield CellPosition(sheet.title, *coordinate_to_tuple(cell.coordinate))
 
 

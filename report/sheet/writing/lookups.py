@@ -37,6 +37,7 @@ _STATUS = {
 def write_lookups(book: Workbook, tables: Tables) -> None:
     """Write the sheet, with the defined names that other formulas use."""
     sheet = book.create_sheet(TABLES)
+    sheet.sheet_state = "hidden"
     style.put_title(sheet, TABLES, _HINT)
     sheet.column_dimensions["A"].width = 34
     for letter in "BCDEFGH":
@@ -48,7 +49,6 @@ def write_lookups(book: Workbook, tables: Tables) -> None:
     row = _write_separations(sheet, row)
     row = _write_units(sheet, tables, row)
     _write_names(book, sheet, tables, row)
-    sheet.print_area = f"A1:H{row - 1}"
 
 
 def _write_table(

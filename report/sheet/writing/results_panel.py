@@ -1,4 +1,4 @@
-"""The answers on the sheet Site that belong to no input: prescriptive displacement, separations.
+"""The answers on the sheet Start, before any run: displacements, worst clearances, separations.
 
 Read `write_panel`; `answers` has the formulas.
 """
@@ -8,22 +8,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
-from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import answers
-from report.sheet.schema.layout import name_cell, name_range
+from report.sheet.schema.layout import Tables, name_cell
 from report.sheet.writing import style
 from report.words.units import Quantity
 from solver.model import INCH_M
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _HINT = (
-    "Computed from the cells above, before any analysis. † verify against the adopted code, ‡"
-    " overridden: see the sheet Provisions."
+    "Computed from the other sheets. † verify against the adopted code, ‡ overridden: see the sheet"
+    " Provisions."
 )
+_HEADS = ("", "", "Value", "", "Governs", "Clause", "Worst D/C", "From, to", "Note")
 _SEPARATIONS = {
     Neighbor.LIKE: ("Separation, like arrays", "live_largest_i_p"),
     Neighbor.FIXED: ("Separation, fixed object or unlike array", "live_largest_i_p"),
@@ -32,28 +31,20 @@ _SEPARATIONS = {
 }
 
 
-def write_panel(book: Workbook, *, is_us: bool) -> None:
-    """Write the panel below the blocks of the sheet Site."""
-    sheet = book["Site"]
-    top = sheet.max_row + 3
-    sheet.row_breaks.append(Break(id=top - 1))
-    style.put_heading(sheet, top, "Prescriptive values", _HINT)
-    style.put_values(
-        sheet, top + 3, ("", "Value", "", "Governs", "Clause", "", "Note"), are_heads=True
-    )
-    row = top + 4
-    style.put(sheet, row, 1, "Category used").border = style.LINE
+def write_panel(sheet: Worksheet, top: int, tables: Tables, *, is_us: bool) -> int:
+    """Write the answers from a row on; return the row below them and one more."""
+    style.put_heading(sheet, top, "Before any analysis", _HINT)
+    style.put_values(sheet, top + 2, _HEADS, are_heads=True)
+    row = top + 3
+    style.put(sheet, row, 2, "Category used").border = style.LINE
     used = 'IF(TRIM(site_sdc)<>"",UPPER(TRIM(site_sdc)),live_sdc)'
-    style.put_answer(sheet.cell(row, 2), used)
-    name_cell("live_sdc_used", sheet, row, 2)
+    style.put_answer(sheet.cell(row, 3), used)
+    name_cell("live_sdc_used", sheet, row, 3)
     _write_note(sheet, row, "", "As given; where blank, the least category by S_DS, S_D1 and S_1.")
     lines = _lines(row + 2)
     for at, line in enumerate(lines, start=row + 1):
-        _write_line(sheet, at, line, is_us=is_us)
-    last = row + len(lines)
-    for at in range(row, last + 1):
-        sheet.row_dimensions[at].height = 32
-    name_range("live_panel", sheet, f"$B${row}:$E${last}")
+        _write_line(sheet, at, line, tables, is_us=is_us)
+    return row + len(lines) + 2
 
 
 class _Line(NamedTuple):
@@ -65,12 +56,13 @@ class _Line(NamedTuple):
     note: str
     name: str = ""  # of the cell with inches
     governs: str = ""
+    ratios: str = ""  # column of the clearances
 
 
 def _lines(row: int) -> Sequence[_Line]:
     """Return the lengths of the panel; the prescriptive displacement is in a given row."""
     clause = (
-        f'IF($D{row}="SDC A, B, C",rule_prescriptive_low_sdc_in_clause,IF($D{row}="minimum",'
+        f'IF($E{row}="SDC A, B, C",rule_prescriptive_low_sdc_in_clause,IF($E{row}="minimum",'
         "rule_prescriptive_minimum_in_clause,rule_prescriptive_factor_in_clause))"
     )
     return (
@@ -88,6 +80,21 @@ def _lines(row: int) -> Sequence[_Line]:
             "The formula, or the minimum of the rule set.",
             "live_prescriptive_in",
             answers.PRESCRIPTIVE_BASIS,
+            "demand_capacity",
+        ),
+        _Line(
+            "Floor of the value from analysis",
+            answers.FLOOR_IN,
+            "rule_analysis_floor_clause",
+            "Least design displacement by analysis without peer review.",
+            "live_floor_in",
+            ratios="floor_ratio",
+        ),
+        _Line(
+            "Peer review of the analysis saves, at most",
+            "live_floor_in",
+            "rule_analysis_floor_clause",
+            "With it there is no floor: the value from analysis is used.",
         ),
         *map(_separation, _SEPARATIONS),
     )
@@ -106,11 +113,11 @@ def _separation(neighbor: Neighbor) -> _Line:
     return _Line(label, formula, clause, f"With PV1-2012 times {factor}.")
 
 
-def _write_line(sheet: Worksheet, row: int, line: _Line, *, is_us: bool) -> None:
+def _write_line(sheet: Worksheet, row: int, line: _Line, tables: Tables, *, is_us: bool) -> None:
     """Write a length in both systems, the primary one first."""
-    style.put(sheet, row, 1, line.label).border = style.LINE
+    style.put(sheet, row, 2, line.label).border = style.LINE
     us, si = Quantity.DISPLACEMENT.value
-    inches, other = (2, 3) if is_us else (3, 2)
+    inches, other = (3, 4) if is_us else (4, 3)
     letter = get_column_letter(inches)
     in_si = f'IF(ISNUMBER({letter}{row}),{letter}{row}*{INCH_M!r}/{si.si!r},"")'
     for column, formula, unit in ((inches, line.inches, us), (other, in_si, si)):
@@ -119,11 +126,15 @@ def _write_line(sheet: Worksheet, row: int, line: _Line, *, is_us: bool) -> None
     if line.name:
         name_cell(line.name, sheet, row, inches)
     if line.governs:
-        style.put_answer(sheet.cell(row, 4), line.governs)
+        style.put_answer(sheet.cell(row, 5), line.governs)
+    for column, formula in enumerate(answers.worst(line.ratios) if line.ratios else (), start=7):
+        found = answers.written(formula, tables, tables["clearances"].this)
+        style.put_answer(sheet.cell(row, column), found, "0.00")
     _write_note(sheet, row, f"={line.clause}", line.note)
 
 
 def _write_note(sheet: Worksheet, row: int, clause: str, note: str) -> None:
-    style.put(sheet, row, 5, "", color=style.GRAY).border = style.LINE
-    sheet.cell(row, 5).value = clause or None
-    style.put(sheet, row, 7, note, color=style.GRAY)
+    style.put(sheet, row, 6, "", color=style.GRAY).border = style.LINE
+    sheet.cell(row, 6).value = clause or None
+    style.put(sheet, row, 9, note, color=style.GRAY)
+    sheet.row_dimensions[row].height = 28

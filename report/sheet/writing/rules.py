@@ -22,8 +22,8 @@ from solver.rules.rulesets import ALLOWED, RULE_SETS, RuleSet, usual
 
 PROVISIONS = "Provisions"
 _HEADS = ("Rule", "Unit", "In use", "Clause in use", "Override, allowed", "Override, usual")
-_WIDTHS = (56, 7, 11, 20, 12, 16)
-_RULE_WIDTHS = (10, 20)
+_WIDTHS = (52, 6, 9, 18, 12, 14)
+_RULE_WIDTHS = (10, 16)
 _FIRST = len(_HEADS) + 1
 _FROM, _TO = map(get_column_letter, (_FIRST, _FIRST + 2 * len(RULE_SETS) - 1))
 _HINT = (

@@ -1,4 +1,4 @@
-"""The sheet Start: the six steps, links to the sheets, a picture of the words, and the colors.
+"""The sheet Start: the answers, the six steps, links to the sheets, a picture, and the colors.
 
 Has no inputs. Read `write_start`.
 """
@@ -11,24 +11,32 @@ from pathlib import Path
 from openpyxl import Workbook
 from openpyxl.drawing.image import Image
 from openpyxl.styles import Font
+from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.schema import SECTIONS
-from report.sheet.schema.layout import name_cell
+from report.sheet.schema.layout import Tables, name_cell
 from report.sheet.writing import style
+from report.sheet.writing.results_panel import write_panel
 from report.words.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS
 
 START = "Start"
-LINKS_COLUMN = 4
-_WIDTHS = (5, 24, 76, 16, 14)
+LINKS_COLUMN, COLORS_COLUMN = 7, 8
+_WIDTHS = (5, 42, 14, 14, 16, 22, 14, 20, 42)
+_PICTURE_PX = (730, 296)  # which ends before the links
 _HINT = "From this workbook to the calculation package. This sheet has no input cells."
+
+RARE = {section.sheet for section in SECTIONS} - {
+    section.sheet for section in SECTIONS if not (section.is_table and section.may_be_absent)
+}
+"""Sheets that are rarely needed: of nothing but tables that may be absent."""
 
 STEPS = (
     "Fill in the yellow cells, sheet by sheet. Select a cell to see its instructions.",
     "Put the acceleration records in the folder “records” beside this workbook, or paste them as"
     " columns into a new sheet.",
-    "Look at the blue cells, which compute.",
+    "Look at the blue cells, which compute: here, on the sheets Site, Arrays and Clearances.",
     "Save the workbook as .xlsx and close it.",
     "Run roofslip check FOLDER, which finds what is missing or wrong, as does the page of roofslip"
     " serve. FOLDER contains this workbook, named input.xlsx.",
@@ -41,6 +49,8 @@ _NOTES = (
     "Tables grow: type in the row below the last one. You may rename sheets, insert rows, and add"
     " columns to the right of a table. Columns that are rarely needed are folded at the right: the"
     " + above the headings opens them.",
+    "Sheets that are rarely needed are hidden while they are empty: right-click a tab and choose"
+    " Unhide, in LibreOffice Show Sheet. So is Tables, which has what the formulas look up.",
     "A roof that is drawn is read by roofslip plan read ROOF.DXF FOLDER; the sheet Layers says what"
     " is drawn on each layer of the drawing.",
     "The blue cells compute prescriptive values only; the package alone has the displacement from"
@@ -56,39 +66,41 @@ _SAMPLES = (
         "Required column or sheet; also cells with *.",
     ),
     ("heading, tab", style.WHITE, style.OPTIONAL_FILL, "Optional column or sheet."),
-    ("tab", style.INK, style.RARE_FILL, "Sheet that is rarely needed."),
+    ("tab", style.INK, style.RARE_FILL, "Sheet that is rarely needed, hidden while empty."),
     ("tab", style.WHITE, style.HELP_FILL, "Sheet without input cells."),
     ("1.566", style.INK, style.ANSWER_FILL, "Computed cell: a formula, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
 )
 
 
-def color_tabs(book: Workbook) -> None:
-    """Color the tab of each sheet by the need for it."""
+def mark_sheets(book: Workbook, example: object) -> None:
+    """Color the tab of each sheet by the need for it; hide those rarely needed and empty."""
     for sheet in book.worksheets:
         sections = [section for section in SECTIONS if section.sheet == sheet.title]
-        fill = style.RARE_FILL if sections else style.HELP_FILL
-        if not all(section.may_be_absent for section in sections):
-            is_needed = any(section.is_needed for section in sections)
-            fill = style.REQUIRED_FILL if is_needed else style.OPTIONAL_FILL
+        fill = style.OPTIONAL_FILL if sections else style.HELP_FILL
+        if any(section.is_needed for section in sections):
+            fill = style.REQUIRED_FILL
+        if sheet.title in RARE:
+            fill = style.RARE_FILL
+            if not any(getattr(example, section.key, ()) for section in sections):
+                sheet.sheet_state = "hidden"
         sheet.sheet_properties.tabColor = fill.start_color.rgb
 
 
-def write_start(book: Workbook) -> None:
+def write_start(book: Workbook, tables: Tables, *, is_us: bool) -> None:
     """Write the sheet."""
     sheet = book[START]
-    for column, width in zip("ABCDE", _WIDTHS, strict=True):
-        sheet.column_dimensions[column].width = width
+    for column, width in enumerate(_WIDTHS, start=1):
+        sheet.column_dimensions[get_column_letter(column)].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
-    sheet.page_setup.fitToHeight = 1
-    picture = _write_steps(sheet, 4)
+    picture = _write_steps(sheet, write_panel(sheet, 4, tables, is_us=is_us))
     links = _write_links(book, _put_heading(sheet, picture, "Sheets", LINKS_COLUMN))
-    row = max(_put_picture(sheet, picture), links)
-    row = _put_heading(sheet, _write_colors(sheet, row), "Notes")
+    colors = _write_colors(sheet, picture)
+    row = _put_heading(sheet, max(_put_picture(sheet, picture), links, colors), "Notes")
     for at, note in enumerate(_NOTES, start=row):
         style.put(sheet, at, 2, note)
-        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=5)
-        sheet.row_dimensions[at].height = 34
+        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=len(_WIDTHS))
+        sheet.row_dimensions[at].height = 28
 
 
 def _write_links(book: Workbook, row: int) -> int:
@@ -98,7 +110,8 @@ def _write_links(book: Workbook, row: int) -> int:
         # By a defined name, which follows a sheet that is renamed.
         name = f"top_{title.lower().replace(' ', '_')}"
         name_cell(name, book[title], 1, 1)
-        cell = style.put(book[START], at, LINKS_COLUMN, title)
+        said = f"{title}, rarely needed" if title in RARE else title
+        cell = style.put(book[START], at, LINKS_COLUMN, said, wrap=False)
         cell.hyperlink = Hyperlink(ref=cell.coordinate, location=name)
         cell.font = Font(name="Calibri", size=10, color=style.INK, underline="single")
     return row + len(titles) + 1
@@ -121,16 +134,18 @@ def _write_steps(sheet: Worksheet, row: int) -> int:
 def _put_picture(sheet: Worksheet, row: int) -> int:
     """Place the picture, and return the row below it."""
     picture = Image(io.BytesIO(Path(__file__).with_name("start.png").read_bytes()))
-    picture.width, picture.height = 922, 374
+    picture.width, picture.height = _PICTURE_PX
     sheet.add_image(picture, f"B{row}")
-    return row + 19
+    return row + int(_PICTURE_PX[1] * 0.75 / 15) + 1
 
 
 def _write_colors(sheet: Worksheet, row: int) -> int:
-    row = _put_heading(sheet, row, "Colors")
+    row = _put_heading(sheet, row, "Colors", COLORS_COLUMN)
     for at, (sample, color, fill, meaning) in enumerate(_SAMPLES, start=row):
-        cell = style.put(sheet, at, 2, sample, color=color, bold=color != "000000")
+        cell = style.put(sheet, at, COLORS_COLUMN, sample, color=color, bold=color != "000000")
         cell.fill, cell.border = fill, style.BOX
-        style.put(sheet, at, 3, meaning, color=style.GRAY)
-        sheet.row_dimensions[at].height = 18
+        if fill is style.ANSWER_FILL:
+            cell.value = f"={sample}"
+        style.put(sheet, at, COLORS_COLUMN + 1, meaning, color=style.GRAY)
+        sheet.row_dimensions[at].height = 20
     return row + len(_SAMPLES) + 1

@@ -17,7 +17,6 @@ from openpyxl.formatting.rule import Rule
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.styles.differential import DifferentialStyle
 from openpyxl.worksheet.datavalidation import DataValidation
-from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.sheet.reading.cells import escaped, wish
@@ -247,22 +246,19 @@ def _number_rule(entry: Entry, si: float) -> DataValidation:
     return rule
 
 
-_WIDEST = 200
-"""Characters of a sheet that one page still shows in readable size."""
+_ZOOM, _WIDEST = 55, 190
+"""Percent at which every sheet is printed, and characters that a page then has room for."""
 
 
 def finish(sheet: Worksheet, is_us: bool) -> None:
-    """Set up view and printing: landscape, one page wide, or two with their first columns alike."""
+    """Set up view and printing: landscape, at one zoom, the first columns on each page."""
     sheet.sheet_view.showGridLines = False
     sheet.sheet_view.zoomScale = 100
     page = sheet.page_setup
-    page.orientation, page.fitToWidth = "landscape", 1
-    page.fitToHeight = page.fitToHeight or 0  # as many pages as the rows take
+    page.orientation, page.scale = "landscape", _ZOOM
     page.paperSize = 1 if is_us else 9
-    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     shown = (column for column in sheet.column_dimensions.values() if not column.hidden)
     if sheet.tables and sum(column.width for column in shown) > _WIDEST:
-        page.fitToWidth = 2
         sheet.print_title_cols = "A:B"
     margins = sheet.page_margins
     # A4 is lower and wider than letter: the same rows fill a page of both.

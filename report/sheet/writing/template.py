@@ -10,7 +10,6 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 from openpyxl import Workbook
 
@@ -21,9 +20,8 @@ from report.sheet.schema.layout import TablePlace, Tables
 from report.sheet.writing import style
 from report.sheet.writing.grids import write_answers, write_block, write_table
 from report.sheet.writing.lookups import write_lookups
-from report.sheet.writing.results_panel import write_panel
 from report.sheet.writing.rules import write_rules
-from report.sheet.writing.start import START, color_tabs, write_start
+from report.sheet.writing.start import START, mark_sheets, write_start
 from solver.files import write_whole
 
 
@@ -41,11 +39,10 @@ def template(units: UnitsFirst, example: ProjectInput | None = None) -> bytes:
         System of units of the sheets.
     """
     book, tables = book_of(SECTIONS, START, units, example)
-    write_panel(book, is_us=units.is_us)
     write_rules(book, tables)
     write_lookups(book, tables)
-    write_start(book)
-    color_tabs(book)
+    write_start(book, tables, is_us=units.is_us)
+    mark_sheets(book, example)
     return saved(book, units)
 
 
@@ -62,11 +59,11 @@ def book_of(
     for section in sections:
         if section.sheet not in book.sheetnames:
             book.create_sheet(section.sheet)
-        given: Any = getattr(example, section.key, None)
         if section.is_table:
-            tables[section.key] = write_table(book, section, units, given or ())
+            rows = getattr(example, section.key, ())
+            tables[section.key] = write_table(book, section, units, rows)
         else:
-            write_block(book, section, units, given)
+            write_block(book, section, units, example)
     for place in tables.values():
         write_answers(book, tables, place, is_us=units.is_us)
     return book, tables

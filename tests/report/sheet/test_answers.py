@@ -14,7 +14,7 @@ from cells import cell
 from inputs import FT, INCH, NO_SIDES
 from places import ROOT
 from recalculated import Cell, Sheets, recalculated_sheets
-from report.assessment.clearances import check_clearance
+from report.assessment.clearances import ClearanceCheck, check_clearance
 from report.sheet.reading.read import read
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import SiteClass, UnitsFirst
@@ -22,12 +22,18 @@ from report.sheet.writing.template import write_template
 from report.words.units import PRESSURES, Quantity, number, ratio
 from sheets import formula_cells, project, retitle, same, site, type_into
 from solver.rules import hazard
-from solver.rules.provisions import Neighbor, prescriptive_displacement, required_separation
+from solver.rules.provisions import (
+    Neighbor,
+    Prescriptive,
+    analysis_floor_m,
+    prescriptive_displacement,
+    required_separation,
+)
 from solver.rules.rulesets import RULE_SETS, RuleSet
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
 pytestmark = pytest.mark.nightly
-PROJECTS = ("example", "school", "conditions")
+PROJECTS = ("example", "school", "conditions", "campus")
 
 
 def of_script(name: str) -> ProjectInput:
@@ -104,11 +110,31 @@ class Filled:
         return RULE_SETS[self.data.site.rule_set].overridden(changes)
 
     @property
-    def prescriptive_m(self) -> float:
+    def prescriptive(self) -> Prescriptive:
         site = self.data.site
         return prescriptive_displacement(
             self.rules, s_ds_g=site.s_ds, sdc=site.sdc, importance=site.i_e
-        ).value_m
+        )
+
+    @property
+    def prescriptive_m(self) -> float:
+        return self.prescriptive.value_m
+
+    def checks(self, design_m: float) -> list[ClearanceCheck]:
+        """Return the clearances for a design displacement of every array."""
+        arrays = [
+            SimpleNamespace(
+                id=array.id,
+                array=array,
+                adopted=None,
+                opened_mark="",
+                is_permitted=True,
+                permitted_toward_m=lambda direction: design_m,
+            )
+            for array in self.data.arrays
+        ]
+        rows = self.data.clearances
+        return [check_clearance(self.data, self.rules, arrays, row) for row in rows]
 
     def named(self, name: str) -> Cell:
         sheet, address = self.places[name]
@@ -122,8 +148,12 @@ class Filled:
         at = [head.partition(" [")[0] for head in self.headings(sheet)].index(heading)
         return [row[at] for row in self.sheets[sheet][HEAD_ROW:]]
 
+    def answers(self, label: str) -> list[Cell]:
+        """Return the row of the sheet Start with a label."""
+        return next(row for row in self.sheets["Start"] if row[1] == label)
+
     def lengths(self, label: str) -> list[Cell]:
-        return next(sorted(row[1:3]) for row in self.sheets["Site"] if row[0] == label)
+        return sorted(self.answers(label)[2:4])
 
 
 def in_both_units(length_m: float) -> object:
@@ -310,26 +340,36 @@ def test_the_four_separations_are_those_of_the_package(case):
         assert case.lengths(label) == in_both_units(wanted)
 
 
+def test_the_floor_and_what_peer_review_saves_are_those_of_the_rules(case):
+    floor_m, reviewed_m = (
+        analysis_floor_m(case.rules, case.prescriptive, is_reviewed=reviewed)
+        for reviewed in (False, True)
+    )
+    assert case.lengths("Floor of the value from analysis") == in_both_units(floor_m)
+    saved = case.lengths("Peer review of the analysis saves, at most")
+    assert saved == in_both_units(floor_m - reviewed_m)
+
+
+@pytest.mark.parametrize("label", ["Prescriptive displacement", "Floor of the value from analysis"])
+def test_the_worst_clearance_is_the_first_of_the_largest_ratio(case, label):
+    floor_m = analysis_floor_m(case.rules, case.prescriptive)
+    checks = case.checks(floor_m if "Floor" in label else case.prescriptive_m)
+    ratios = [ratio(check.demand_capacity) for check in checks]
+    worst = max(ratios, key=lambda text: math.inf if text == "∞" else float(text))
+    row = case.data.clearances[ratios.index(worst)]
+    found, of = case.answers(label)[6:8]
+    assert (found if found == "∞" else number(found, 2)) == worst
+    assert of == f"{row.array} to {row.object}"
+
+
 def test_the_ratio_of_each_clearance_is_that_of_the_package(case):
-    arrays = [
-        SimpleNamespace(
-            id=array.id,
-            array=array,
-            adopted=None,
-            opened_mark="",
-            is_permitted=True,
-            permitted_toward_m=lambda direction: case.prescriptive_m,
-        )
-        for array in case.data.arrays
-    ]
     heading = next(h for h in case.headings("Clearances") if h.startswith("Required"))
     unit = Quantity.SIZE.us if "[in]" in heading else Quantity.SIZE.si
     neighbors, required, ratios = (
         case.column("Clearances", name)
         for name in ("Neighbor", "Required, prescriptive", "D/C, prescriptive")
     )
-    for count, row in enumerate(case.data.clearances):
-        wanted = check_clearance(case.data, case.rules, arrays, row)
+    for count, wanted in enumerate(case.checks(case.prescriptive_m)):
         wanted_length = number(wanted.required_m / unit.si, unit.decimals)
         assert neighbors[count] == wanted.neighbor.value
         assert number(required[count], unit.decimals) == wanted_length

@@ -105,6 +105,8 @@ def of(section, index, **changes):
         (of("clearances", 2, provided_m=96 * INCH), {"project": "sheet Clearances"}),
         (of("clearances", 0, source="drawing"), {"project": "sheet Clearances"}),
         ({"building": {"period_s": 0.5}}, {"options": "sheet Building"}),
+        ({"target": {"t_l_s": 6.0}}, {"options": "sheet Site"}),
+        ({"target": {"to_s": 3.0}}, {"options": "sheet Building"}),
         ({"links": [inputs.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
         ({"options": {"statistic": "mean"}}, {"options": "sheet Options"}),
         ({"overrides": []}, {"options": "sheet Options"}),
@@ -116,6 +118,47 @@ def of(section, index, **changes):
 )
 def test_an_input_that_changes_after_a_confirmation_is_named(change, said):
     assert changed(**change) == said
+
+
+EARLIER = {  # as c9c3a2cf put it on record, whose sheet Options had the target spectrum
+    "project": GIVEN["project"] | {"drawing_covered": "2026-02-20: Clearances 0eb8ae"},
+    "site": GIVEN["site"]
+    | {
+        "edition_name": "ASCE 7-16",
+        "s_s_g": 1.97,
+        "s_1_g": 0.7,
+        "site_class": "D",
+        "f_a": 1.2,
+        "f_v": 1.7,
+        "s_ms_g": 2.364,
+        "s_m1_g": 1.19,
+        "s_d1_g": 0.793,
+        "hazard": "site-specific analysis",
+        "hazard_covered": "2026-02-20: Site 4de9ae",
+    },
+    "friction_tests": GIVEN["friction_tests"]
+    | {"tests_covered": "2025-06-12: Friction tests 56db8c"},
+    "target": {"t_l_s": 8.0, "from_s": 0.3, "to_s": 2.0},
+    "options": GIVEN["options"]
+    | {
+        "peer_covered": "2026-03-01: Site ff39b0, Arrays 953ec0, Friction tests 540e4e,"
+        " Motions f2663d, Options bee9a4"
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({}, {}),
+        ({"site": {"s_1_g": 0.6}}, {"site": "sheet Site", "options": "sheet Site"}),
+        ({"target": {"t_l_s": 6.0}}, {"options": "sheet Options"}),
+        ({"target": {"to_s": 3.0}}, {"options": "sheet Options"}),
+    ],
+)
+def test_what_earlier_workbooks_have_on_record_covers_what_it_did(change, said):
+    blocks = {key: block | change.get(key, {}) for key, block in EARLIER.items()}
+    assert outdated(given(**blocks), RECORDS).outdated == said
 
 
 @pytest.mark.parametrize(

@@ -10,17 +10,20 @@ from click.testing import CliRunner
 from packages import undrawn, unlaid
 from places import DATA, ROOT
 from report.cli.main import main
+from report.sheet.checking.covered import CONFIRMATIONS, outdated
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.locate_tables import table_area
 from report.sheet.reading.positions import CellPosition
 from report.sheet.reading.read import read
 from report.sheet.schema import SECTION, ProjectInput
+from report.sheet.schema.fields import Place
 from report.sheet.writing.filled import filled
 from report.study.read import read_study
 from report.study.schema import StudyInput
-from sheets import same
+from sheets import edit, read_workbook, same
 
 EARLIER = DATA / "158bb098"
+CONFIRMED = DATA / "c9c3a2cf" / "confirmed"  # the example, with every confirmation on record
 RECORDED = json.loads((EARLIER / "recorded.json").read_text())
 COMPLETE = ("campus", "conditions", "example", "school")
 
@@ -36,6 +39,29 @@ def beside(folder, name, project):
 def test_a_project_is_read_as_it_was(tmp_path, name):
     sheet = read(beside(tmp_path / name, name, name))
     assert same(sheet.project, ProjectInput.model_validate(RECORDED[name]["input"]))
+
+
+def test_what_stood_on_another_sheet_is_read_by_its_labels_there(tmp_path):
+    def forget(book):
+        for name in [name for name in book.defined_names if name.startswith(("roof_", "target_"))]:
+            del book.defined_names[name]
+
+    path = edit(beside(tmp_path / "example", "example", "example"), forget)
+    found, wanted = read(path), ProjectInput.model_validate(RECORDED["example"]["input"])
+    assert same(found.project, wanted)
+    assert (wanted.target.t_l_s, wanted.roof.placed is None) == (8.0, False)
+    moved = (Place("roof", 0, "x_from_m"), Place("target", 0, "t_l_s"))
+    assert [found.addresses[place].partition("!")[0] for place in moved] == ["Site", "Options"]
+
+
+def test_a_workbook_that_was_confirmed_stays_so(tmp_path):
+    book = read_workbook(beside(tmp_path / "example", CONFIRMED, "example"))
+    data, hashes = book.input, book.hashes
+    on_record = {key for key, _, field, _ in CONFIRMATIONS if getattr(getattr(data, key), field)}
+    assert on_record == {"project", "site", "friction_tests", "options"}
+    assert outdated(data, hashes).outdated == {}
+    later = data.model_copy(update={"target": data.target.model_copy(update={"t_l_s": 6.0})})
+    assert outdated(later, hashes).outdated == {"options": "sheet Options"}
 
 
 @pytest.mark.quick

@@ -270,8 +270,8 @@ CONTRADICTIONS = [
       "Spectrum/2/Horizontal": 9, "Motions/M1/Scaling": "target spectrum"},
      "<Spectrum/heading/Period>: periods range from 8 to 9 s, but motions are scaled over 0.2 to"
      " 5 s; add rows, or change the scaling periods"),
-    ({"Options/Shortest scaling period": 5},
-     "<Options/Longest scaling period>: longest scaling period is 5 s; give more than the"
+    ({"Building/Shortest scaling period": 5},
+     "<Building/Longest scaling period>: longest scaling period is 5 s; give more than the"
      " shortest, 5 s"),
     ({"Motions/M1/Scaling": "target spectrum", "Motions/M1/High-pass corner": 0.5},
      "<Motions/M1/High-pass corner>: high-pass corner is 0.5 Hz, a period of 2 s, but the"
@@ -280,11 +280,11 @@ CONTRADICTIONS = [
       "Building/Period T1": 0.5},
      "<Site/F_v>: F_v is missing; <Motions/M1/Scaling> scales a ground motion to the design"
      " spectrum, which requires S_D1, or S_1 and F_v, and T_L",
-     "<Options/Long-period transition T_L>: long-period transition T_L is missing;"
+     "<Site/Long-period transition T_L>: long-period transition T_L is missing;"
      " <Motions/M1/Scaling> scales a ground motion to the design spectrum, which requires S_D1,"
      " or S_1 and F_v, and T_L"),
-    ({"Options/Long-period transition T_L": 0.5, "Site/F_v": 1.7},
-     "<Options/Long-period transition T_L>: long-period transition T_L is 0.5 s; give more than"
+    ({"Site/Long-period transition T_L": 0.5, "Site/F_v": 1.7},
+     "<Site/Long-period transition T_L>: long-period transition T_L is 0.5 s; give more than"
      " T_S = S_D1/S_DS = 0.507 s"),
     ({"Motions/M1/Factor or PPA": 2},
      "<Motions/M1/Factor or PPA>: factor or PPA is 2, but scaling is 'as recorded'; change the"
@@ -297,16 +297,19 @@ CONTRADICTIONS = [
      "<Site/S_DS>: S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for"
      " site class 'D' (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific"
      " analysis' and give its report"),
-    ({"Site/Roof x from": 0, "Site/Roof x to": 300, "Site/Roof y from": 0},
-     "<Site/Roof y to>: roof y to is missing; give all four sides of the rectangle, or none"),
-    ({"Site/Roof x from": 300, "Site/Roof x to": 0, "Site/Roof y from": 0, "Site/Roof y to": 120},
-     "<Site/Roof x to>: x to is 0.00 ft (0.00 m); give more than x from in <Site/Roof x from>,"
-     " 300.00 ft (91.44 m)"),
-    ({"Site/Roof x from": 25, "Site/Roof x to": 300, "Site/Roof y from": 0, "Site/Roof y to": 74},
+    ({"Building/Roof x from": 0, "Building/Roof x to": 300, "Building/Roof y from": 0},
+     "<Building/Roof y to>: roof y to is missing; give all four sides of the rectangle, or none"),
+    ({"Building/Roof x from": 300, "Building/Roof x to": 0, "Building/Roof y from": 0,
+      "Building/Roof y to": 120},
+     "<Building/Roof x to>: x to is 0.00 ft (0.00 m); give more than x from in"
+     " <Building/Roof x from>, 300.00 ft (91.44 m)"),
+    ({"Building/Roof x from": 25, "Building/Roof x to": 300, "Building/Roof y from": 0,
+      "Building/Roof y to": 74},
      "<Arrays/A1/x from>: x from is 20.00 ft (6.10 m), outside the roof; give 25.00 ft (7.62 m) or"
-     " more, or correct the outline at <Site/Roof x from>",
+     " more, or correct the outline at <Building/Roof x from>",
      *(f"<Arrays/{array}/y to>: y to is 75.00 ft (22.86 m), outside the roof; give 74.00 ft"
-       " (22.56 m) or less, or correct the outline at <Site/Roof y to>" for array in ("A1", "A2"))),
+       " (22.56 m) or less, or correct the outline at <Building/Roof y to>"
+       for array in ("A1", "A2"))),
 ]  # fmt: skip
 
 
@@ -488,7 +491,7 @@ UNITS = [
         "Site/S_DS/Unit": ("m/s2", "S_DS is 'm/s2'; give the number in g, and write g"),
         "Building/Period T1/Unit": ("Hz", "period T1 is 'Hz'; give the number in s, and write s"),
         "Building/Damping/Unit": ("-", "damping is '-'; give the number in %, and write %"),
-        "Options/Long-period transition T_L/Unit": (
+        "Site/Long-period transition T_L/Unit": (
             "Hz", "long-period transition T_L is 'Hz'; give the number in s, and"),
     },
 ]  # fmt: skip
@@ -528,7 +531,9 @@ EDITED = [
     (remove("Objects"),
      f"Objects: the sheet is missing: no table objects_table and no row of its headings; {FRESH}"),
     (remove("Site"),
-     f"Site: the sheet is missing, or all labels of Site and building; {FRESH}"),
+     f"Site: the sheet is missing, or all labels of Site and building; {FRESH}\n"
+     "Site: long-period transition T_L is missing (no name target_t_l_s and no label 'Long-period"
+     f" transition T_L'); {FRESH}"),
     (forget_number,
      "Project: project number is missing (no name project_number and no label 'Project number');"
      f" {FRESH}"),
@@ -540,7 +545,7 @@ EDITED = [
 
 @pytest.mark.parametrize(("change", "line"), EDITED, ids=[line[:40] for _, line in EDITED])
 def test_what_is_missing_or_in_percent_is_reported_once(tmp_path, change, line):
-    assert problems(edit(make(tmp_path), change)) == said(line)
+    assert problems(edit(make(tmp_path), change)) == said(*line.splitlines())
 
 
 @pytest.mark.parametrize(
@@ -563,7 +568,7 @@ def test_merged_cells_of_a_table_or_over_a_single_field_are_reported(tmp_path, n
     ("name", "value"),
     [
         *((name, 1e-9) for name in ("Site/S_S", "Site/S_1")),
-        *((name, 1e9) for name in ("Site/Roof x from", "Arrays/1/x from", "Arrays/2/y from")),
+        *((name, 1e9) for name in ("Building/Roof x from", "Arrays/1/x from", "Arrays/2/y from")),
         *((f"Arrays/{row}/y from", 1e-9) for row in (1, 3)),
     ],
 )

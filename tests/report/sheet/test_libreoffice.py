@@ -2,9 +2,11 @@
 
 import pytest
 from openpyxl import load_workbook
+from pypdfium2 import PdfDocument
 from test_live import OVER, formulas, lost, typed_over
 
 from cells import cell
+from projects.example import make as example
 from recalculated import converted
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import UnitsFirst
@@ -63,3 +65,12 @@ def test_a_saved_book_gives_no_warning_but_of_what_is_typed_over(saved, tmp_path
     spoiled = book.with_name("spoiled.xlsx")
     spoiled.write_bytes(book.read_bytes())
     assert tuple(lost(edit(spoiled, typed_over))) == said(*OVER)
+
+
+def test_the_example_prints_on_twelve_sheets(tmp_path):
+    paths = [tmp_path / f"{units}.xlsx" for units in UnitsFirst]
+    for units, path in zip(UnitsFirst, paths, strict=True):
+        write_template(path, units=units, example=example.project())
+    for path in converted(paths, tmp_path, "pdf"):
+        with PdfDocument(path) as printed:
+            assert len(printed) <= 12, path

@@ -5,18 +5,19 @@ from openpyxl import load_workbook
 from openpyxl.utils import range_boundaries
 
 from cells import address, cell
+from report.sheet.reading.read import read
 from report.sheet.schema import SECTIONS, provision_name
 from report.sheet.schema.choices import UnitsFirst
 from report.sheet.schema.fields import entries
 from report.sheet.writing.template import write_template
-from sheets import arrays, formula_cells, make, project
+from sheets import arrays, formula_cells, make, project, type_into
 from solver.rules.provisions import OVERRIDABLE
 
 SHEETS = [
-    "Start", "Project", "Site", "Arrays", "Friction tests", "Objects", "Clearances", "Motions",
-    "Building", "Spectrum", "Links", "Options", "Outlines",
-    "Layers", "Acknowledged",
+    "Start", "Project", "Site", "Building", "Arrays", "Friction tests", "Objects", "Clearances",
+    "Motions", "Spectrum", "Links", "Options", "Outlines", "Layers", "Acknowledged",
 ]  # fmt: skip
+RARE = {"Spectrum", "Links", "Outlines", "Layers", "Acknowledged"}
 
 
 @pytest.fixture(scope="module", params=list(UnitsFirst))
@@ -57,13 +58,13 @@ def test_every_single_field_has_a_defined_name(blank):
                 assert (section.unit_name(entry.name) in names) == (entry.quantity is not None)
 
 
-def test_every_table_has_its_name_and_twenty_blank_rows(blank):
+def test_every_table_has_its_name_and_blank_rows(blank):
     names = tables(blank)
     for section in SECTIONS:
         if section.is_table:
             sheet, table = names[section.table_name]
             left, top, right, bottom = range_boundaries(table.ref)
-            assert bottom - top == 20
+            assert bottom - top == (20 if top == 7 else 6)
             cells = [c for row in sheet.iter_rows(top + 1, bottom, left, right) for c in row]
             assert all(c.value is None or c.data_type == "f" for c in cells)
 
@@ -88,7 +89,7 @@ def test_inputs_are_yellow_and_formulas_are_blue(blank):
     formulas = formula_cells(blank)
     others = [c for c in formulas if c.fill.start_color.rgb != "00E3EDF5"]
     # The clauses of the panel.
-    assert {(c.parent.title, c.column_letter) for c in others} == {("Site", "E")}
+    assert {(c.parent.title, c.column_letter) for c in others} == {("Start", "F")}
     assert len(others) < len(formulas) / 10
 
 
@@ -99,6 +100,15 @@ def test_an_input_loses_its_color_once_it_is_filled(blank):
         ((first, rule),) = [(str(a.sqref).split(":")[0], a.rules[0]) for a in areas]
         assert rule.formula == [f"NOT(ISBLANK({first}))"]
         assert rule.dxf.fill.start_color.rgb == "00FFFFFF"
+
+
+def test_the_hazard_cells_are_in_the_order_of_a_hazard_tool_the_edition_first(blank):
+    first = cell(blank, "Site/Edition of ASCE 7").row
+    labels = [str(blank["Site"].cell(row, 1).value) for row in range(first, first + 13)]
+    assert [label.removesuffix(" *") for label in labels] == [
+        "Edition of ASCE 7", "Risk category", "Site class", "S_S", "S_1", "F_a", "F_v", "S_MS",
+        "S_M1", "S_DS", "S_D1", "Long-period transition T_L", "Importance factor I_e",
+    ]  # fmt: skip
 
 
 def test_choices_are_dropdowns_with_a_message_and_an_alert(blank):
@@ -162,20 +172,39 @@ def test_messages_and_formulas_satisfy_the_limits_of_excel(blank):
     assert max(map(len, texts)) <= 8192
 
 
-def test_headings_are_frozen_and_sheets_print_one_page_wide(blank):
-    for name in SHEETS[1:]:
-        sheet = blank[name]
-        assert sheet.freeze_panes
-        assert sheet.page_setup.orientation == "landscape"
-        assert sheet.page_setup.fitToHeight == 0
-        assert sheet.sheet_properties.pageSetUpPr.fitToPage
+def test_headings_are_frozen(blank):
+    assert all(blank[name].freeze_panes for name in SHEETS[1:])
+
+
+def test_every_sheet_prints_at_one_zoom(blank):
+    setups = [sheet.page_setup for sheet in blank.worksheets]
+    assert {(setup.orientation, setup.scale) for setup in setups} == {("landscape", 55)}
+    # Another zoom would follow from these.
+    assert (
+        {setup.fitToWidth for setup in setups} == {setup.fitToHeight for setup in setups} == {None}
+    )
+
+
+def test_sheets_that_are_rarely_needed_are_hidden_while_they_are_empty(blank, tmp_path):
+    hidden = {sheet.title for sheet in blank.worksheets if sheet.sheet_state == "hidden"}
+    assert hidden == RARE | {"Tables"}
+    rows = [{"period_s": t, "horizontal_g": 1.0} for t in (0.1, 1.0)]
+    path = make(tmp_path, spectrum=rows)
+    assert load_workbook(path)["Spectrum"].sheet_state == "visible"
+
+
+def test_a_hidden_sheet_is_shown_where_it_is_filled(tmp_path):
+    path = type_into(make(tmp_path), {"Layers/1/Layer": "PV", "Layers/1/Drawn on it": "array"})
+    states = {sheet.title: sheet.sheet_state for sheet in load_workbook(path).worksheets}
+    assert (states["Layers"], states["Outlines"]) == ("visible", "hidden")
+    assert read(path).unseen == ()
 
 
 def test_defaults_are_filled_and_the_rest_is_blank(blank, is_us):
     assert cell(blank, "Project/Primary units").value == ("US" if is_us else "SI")
     assert cell(blank, "Options/Design value statistic").value == "rule set"
     assert cell(blank, "Options/Peer review").value == "No"
-    labels = ("Rule set", "Height of the array z")
+    labels = ("Rule set", "Seismic design category")
     first, last = (cell(blank, f"Site/{label}").row for label in labels)
     assert all(blank["Site"].cell(row, 2).value is None for row in range(first, last + 1))
 
@@ -187,7 +216,8 @@ def test_start_has_the_six_steps_a_picture_and_the_colors(blank):
         assert part in text
     assert "Run roofslip check FOLDER, which finds what is missing or wrong" in text
     links = {c.value for row in sheet for c in row if c.hyperlink}
-    assert links == {section.sheet for section in SECTIONS}
+    assert {link.removesuffix(", rarely needed") for link in links} == {*SHEETS[1:]}
+    assert {link.partition(",")[0] for link in links if "rarely" in link} == RARE
     tops = [blank.defined_names[c.hyperlink.location] for row in sheet for c in row if c.hyperlink]
     assert {top.attr_text.partition("!")[2] for top in tops} == {"$A$1"}
     assert [row[0] for row in sheet.values if str(row[0]).isdecimal()] == list("123456")
