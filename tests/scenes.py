@@ -10,6 +10,7 @@ from collections import OrderedDict
 from dataclasses import replace
 from functools import cache
 
+import inputs
 import stand_in
 from places import ROOT
 from report.assessment.assess import assess
@@ -33,6 +34,16 @@ REVIEW = {
     "peer_license": "CA S0000",
     "peer_date": dt.date(2026, 3, 1),
     "peer_letter": "peer-review.pdf",
+}
+CONFIRMED = {
+    "site": inputs.SITE | {"building_code": "CBC", "building_code_year": 2022},
+    "confirmation": {
+        "by": "RG, SE",
+        "date": dt.date(2026, 3, 1),
+        "rule_set": "SEAOC PV1-2012",
+        "edition": "ASCE 7-16",
+        "code": "2022 CBC",
+    },
 }
 DEPARTURE = {
     "directional": True,

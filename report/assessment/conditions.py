@@ -67,6 +67,7 @@ def project_rows(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> tupl
         _building_code(data),
         *_roof_outline(data),
         *_dates(data),
+        *_confirmation(data),
         *_peer_review(data),
         *override_rows(data),
         *hazard_rows(data),
@@ -122,6 +123,8 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
          f"{compare} Test report covered."),
         ("hazard", data.site.hazard_date, Place("site", 0, "hazard_date"),
          f"{compare} Hazard covered."),
+        ("confirmation of the provisions", data.confirmation.date,
+         Place("confirmation", 0, "date"), f"{again}: until then the marks † stay."),
         ("confirmation of the drawing", data.project.drawing_confirmed_date,
          Place("project", 0, "drawing_confirmed_date"), f"{again}."),
     )  # fmt: skip
@@ -143,6 +146,21 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
                 limit="confirmation for these inputs",
                 remedy=remedy,
             )
+
+
+def _confirmation(data: ProjectInput) -> Iterator[Requirement]:
+    given, adopted = data.confirmation, data.site.adopted
+    if given.date and "confirmation" not in data.outdated:  # else a row on its date says so
+        yield condition(
+            id="confirmation",
+            title="Confirmation of the provisions",
+            found=f"{', '.join(given.of)}: {given.by}, {given.date}",
+            limit=", ".join(part or f"building code {NOT_GIVEN}" for part in adopted),
+            basis="plan check",
+            is_satisfied=given.of == adopted,
+            remedy="Have the provisions of these inputs confirmed: until then the marks † stay.",
+            places=(Place("confirmation", 0, "date"),),
+        )
 
 
 def _peer_review(data: ProjectInput) -> Iterator[Requirement]:

@@ -25,13 +25,14 @@ _FIELDS = {
 def hazard_rows(data: ProjectInput) -> tuple[Requirement, ...]:
     """Return the rows on the seismic parameters of the site."""
     site = data.site
-    return (*_code(site), _source(site), _category(site), *_site_class(site), *_site_specific(site))
+    return (*_code(data), _source(site), _category(site), *_site_class(site), *_site_specific(site))
 
 
-def _code(site: Site) -> Iterator[Requirement]:
+def _code(data: ProjectInput) -> Iterator[Requirement]:
     """Yield what is not by the edition of ASCE 7 that the building code references."""
+    site, mark = data.site, "" if data.confirmed else "†"
     code, edition = site.code_text, REFERENCED.get(site.code_text)
-    row = partial(condition, basis=f"{code}, chapter 35†", is_satisfied=False)
+    row = partial(condition, basis=f"{code}, chapter 35{mark}", is_satisfied=False)
     if code and not edition:
         yield row(
             id="code_edition",
@@ -51,7 +52,7 @@ def _code(site: Site) -> Iterator[Requirement]:
                 id=field,
                 title=f"Acceptance of {what}{used} by the jurisdiction",
                 found=used,
-                limit=f"{edition} of the {code}†, or acceptance in writing",
+                limit=f"{edition} of the {code}{mark}, or acceptance in writing",
                 remedy=f"Obtain the jurisdiction's acceptance in writing, or {instead} {edition}. "
                 f"{STAYS}",
                 places=(Place("site", 0, field),),
@@ -60,24 +61,36 @@ def _code(site: Site) -> Iterator[Requirement]:
 
 def _source(site: Site) -> Requirement:
     source, date = ("source", site.hazard_source), ("date", site.hazard_date)
+    file = site.hazard_printout and f"{site.hazard_printout}, attached"
     if site.hazard is not HazardBasis.SITE_SPECIFIC:
         return condition(
             id="hazard_source",
-            title="Source and date of the seismic parameters",
-            **stated("site", hazard_source=source, hazard_date=date),
-            limit="source and date",
+            title="Source, date and printout of the seismic parameters",
+            **stated(
+                "site",
+                hazard_source=source,
+                hazard_date=date,
+                hazard_printout=("printout", file),
+            ),
+            limit="source, date and printout",
             basis="seismic parameters",
-            remedy="State on the sheet Site which tool or report the values are from, and when "
-            "they were read.",
+            remedy="State source and date on the sheet Site, and attach the printout of the tool.",
         )
     number = ("report number", site.hazard_report)
     return condition(
         id="hazard_source",
         title="Report on the site-specific hazard analysis",
-        **stated("site", hazard_source=source, hazard_report=number, hazard_date=date),
-        limit="source, report number and date",
+        **stated(
+            "site",
+            hazard_source=source,
+            hazard_report=number,
+            hazard_date=date,
+            hazard_printout=("report attached", file),
+        ),
+        limit="source, report number, date and the report attached",
         basis=site.edition.clause("site_specific"),
-        remedy="Obtain the report, and state its author, number and date on the sheet Site.",
+        remedy="Obtain the report, attach it, and state its author, number and date on the sheet "
+        "Site.",
     )
 
 

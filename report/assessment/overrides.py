@@ -40,16 +40,16 @@ def override_rows(data: ProjectInput) -> tuple[Requirement, ...]:
 
 
 def rule_set_of(data: ProjectInput) -> RuleSet:
-    """Return the rule set of a project with its overrides.
+    """Return the rule set of a project with its overrides, as it was confirmed.
 
     Raises
     ------
     InputError
         For an override of a provision that the rule set does not have.
     """
-    return RULE_SETS[data.site.rule_set].overridden(
-        {row.provision: (row.value, row.reason) for row in data.overrides}
-    )
+    changes = {row.provision: (row.value, row.reason) for row in data.overrides}
+    rules = RULE_SETS[data.site.rule_set].overridden(changes)
+    return rules.confirmed() if data.confirmed else rules
 
 
 def as_adopted(data: ProjectInput) -> ProjectInput:

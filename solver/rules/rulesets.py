@@ -17,7 +17,7 @@ from solver.model import INCH_M, InputError
 class Confidence(StrEnum):
     """Confidence in a number; every number not CONFIRMED is marked for the reader to verify."""
 
-    CONFIRMED = "C"  # agrees with a published permit calculation
+    CONFIRMED = "C"  # agrees with a published permit calculation, or confirmed for a project
     KNOWN = "K"  # commonly known and consistent across sources; code text not available
     LOW = "L"
 
@@ -189,6 +189,13 @@ class RuleSet:
         values = dict(self.values)
         for key, (value, reason) in changes.items():
             values[key] = replace(values[key], value=value, reason=reason)
+        return replace(self, values=values)
+
+    def confirmed(self) -> RuleSet:
+        """Return the rule set as compared with its text: no number but an override has a mark."""
+        values = {
+            key: replace(row, confidence=Confidence.CONFIRMED) for key, row in self.values.items()
+        }
         return replace(self, values=values)
 
 

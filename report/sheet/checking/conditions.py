@@ -60,12 +60,19 @@ _OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet 
 _LAW = "give high-velocity friction and friction rate, or neither"
 _CODE = "give building code and year, or neither"
 _CONFIRMED = "give who confirmed the drawing distances and when, or neither"
+_CONFIRMATION = ("by", "date", "rule_set", "edition", "code")
 
 REQUIRED: Mapping[tuple[str, str], Required] = {
     ("site", "building_code"): Required(_filled("building_code_year"), _CODE),
     ("site", "building_code_year"): Required(_filled("building_code"), _CODE),
     ("project", "drawing_confirmed_by"): Required(_filled("drawing_confirmed_date"), _CONFIRMED),
     ("project", "drawing_confirmed_date"): Required(_filled("drawing_confirmed_by"), _CONFIRMED),
+    **{
+        ("confirmation", field): Required(
+            _filled(*_CONFIRMATION), "give all five cells of the confirmation, or none"
+        )
+        for field in _CONFIRMATION
+    },
     **{("roof", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},
     **{("arrays", side): Required(_has_no_outline, _OR_OUTLINE) for side in SIDES},
     **{("objects", side): Required(_filled(*SIDES), _OR_NONE) for side in SIDES},

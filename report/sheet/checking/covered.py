@@ -30,8 +30,8 @@ def _all_but(**left_out: str) -> _Covers:
 
 # What the design displacements follow from.
 _ANALYSIS = _all_but(
-    site="hazard_source hazard_date hazard_covered hazard_report building_code building_code_year"
-         " jurisdiction fire_code_section fire_lane_m",
+    site="hazard_source hazard_date hazard_covered hazard_report hazard_printout building_code"
+         " building_code_year jurisdiction fire_code_section fire_lane_m",
     arrays=" ".join((*SIDES, *WEIGHT_PARTS, "place_from interconnection_n slack_m roof_capacity_pa"
                      " wind_weight_pa")),
     friction_tests="tests_covered report_file",
@@ -47,6 +47,9 @@ CONFIRMATIONS: Sequence[tuple[str, str, str, _Covers]] = (
     ("friction_tests", "date", "tests_covered", _all_but(friction_runs="")),
     ("options", "peer_date", "peer_covered",
      {**_ANALYSIS, "options": {"statistic", "directional"}}),
+    ("confirmation", "date", "covered",
+     {"site": {"rule_set", "edition_name", "building_code", "building_code_year"},
+      **_all_but(confirmation="date covered", overrides="")}),
 )  # fmt: skip
 """Section, fields of the date and of the record, and what is covered."""
 

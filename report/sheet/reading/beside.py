@@ -25,7 +25,11 @@ MAX_DOCUMENTS = 20_000_000
 MOST_LISTED = 2_000
 """Files among which one is sought whose name nearly fits, and names that are taken."""
 
-DOCUMENTS = (("friction_tests", "report_file"), ("options", "peer_letter"))
+DOCUMENTS = (
+    ("site", "hazard_printout"),
+    ("friction_tests", "report_file"),
+    ("options", "peer_letter"),
+)
 """Single cells that name a document to attach."""
 
 

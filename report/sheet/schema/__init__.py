@@ -16,9 +16,11 @@ from report.sheet.schema.building import BuildingInput, SpectrumPoint, TargetInp
 from report.sheet.schema.choices import (
     ClearanceSource,
     DistanceBasis,
+    EditionName,
     PackageEdition,
     PlanPaper,
     RequiredText,
+    RuleSetName,
     Statistic,
     Text,
     decimals,
@@ -82,55 +84,67 @@ class Options(Frozen):
         ),
     ] = Statistic.RULE_SET
     peer_reviewed: Annotated[bool, Cell("Peer review", "No")] = False
-    """Yes removes the lower limit on the displacement from analysis."""
+    """Yes removes the floor of the value from analysis."""
     peer_reviewer: Annotated[Text, Cell("Peer reviewer", "Reviewer of record")] = ""
     """Required with peer review."""
     peer_license: Annotated[Text, Cell("Reviewer's license", "CA S0000")] = ""
     """State and number. Required with peer review."""
     peer_date: Annotated[dt.date | None, Cell("Date of review", dt.date(2026, 3, 1))] = None
     """Required with peer review."""
-    peer_covered: Annotated[
-        Text, Cell("Review covered", "2026-03-01: Site 3f2a91, Arrays 91bc07")
-    ] = ""
-    """Filled in by roofslip report: the date with a short hash of each sheet that the analysis
-    follows from, records included. Leave blank."""
+    peer_covered: Annotated[Text, Cell("Review covered", "2026-03-01: Site 3f2a91")] = ""
+    """Filled in by roofslip report: date, and a hash of each sheet that the analysis rests on."""
     peer_letter: Annotated[Text, Cell("Letter of review", "peer-review.pdf")] = ""
-    """The reviewer's letter as a PDF in the workbook's folder; the package attaches it. With the
-    friction test report, at most 20 MB. Required with peer review."""
+    """PDF in the workbook's folder. Required with peer review."""
     directional: Annotated[bool, Cell("Displacement by direction", "No")] = False
-    """No: a clearance takes the full design displacement in every direction, as the rule sets do.
-    Yes: the displacement toward it, a departure that the package prints."""
-    directional_reason: Annotated[
-        Text, Cell("Reason for direction", "Agreed with the building department")
-    ] = ""
+    """Yes: displacement toward each clearance, a departure."""
+    directional_reason: Annotated[Text, Cell("Reason for direction", "Agreed 2026-02-10")] = ""
     """Required with displacement by direction."""
     directional_reviewer: Annotated[Text, Cell("Reviewer of direction", "Reviewer of record")] = ""
     """Required with displacement by direction."""
     directional_license: Annotated[Text, Cell("License for direction", "CA S0000")] = ""
-    """State and number. Required with displacement by direction."""
+    """State and number. Required likewise."""
     directional_date: Annotated[dt.date | None, Cell("Date for direction", dt.date(2026, 3, 1))] = (
         None
     )
     """Required with displacement by direction."""
     smaller_events: Annotated[Text, Cell("Smaller events", "0.50, 0.50")] = ""
-    """Up to 20 factors on the motions, each above 0.0 and up to 1.0, separated by commas: the
-    package adds the displacement of these events to that of the design event, for information.
-    Blank: none."""
+    """Up to 20 factors on the motions, above 0.0 and up to 1.0, separated by commas. The package
+    adds these events to the design event, for information."""
     package_edition: Annotated[PackageEdition, Cell("Edition", "plan check")] = (
         PackageEdition.PLAN_CHECK
     )
-    """Plan check: what a plan checker reads. Complete adds the input echo, the table of spectra,
-    the histories and paths of every motion, the symbols and the whole hashes of the records."""
+    """Complete adds input echo, table of spectra, histories, paths, symbols and whole hashes."""
     letter: Annotated[bool, Cell("Letter of results", "No")] = False
     """Yes: a letter to the client with the results is in the package."""
     plan_paper: Annotated[PlanPaper, Cell("Paper of the roof plan", "by size")] = PlanPaper.BY_SIZE
-    """By size: Letter, or where labels or the schedule of clearances have no room on it, 11 x 17 in
-    with US units first and A3 with SI units first."""
+    """By size: Letter, or where it has no room, 11 x 17 in with US units first and A3 with SI."""
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:
         """Factors on the motions for the smaller events; empty if none are asked for."""
         return factors(self.smaller_events)
+
+
+class Confirmation(Frozen):
+    """Who compared the provisions with the adopted code, and which."""
+
+    by: Annotated[Text, Cell("Confirmed by", "RG, SE")] = ""
+    """Name. With all four below, the package marks no number of the rule set with †."""
+    date: Annotated[dt.date | None, Cell("Confirmed on", dt.date(2026, 3, 1))] = None
+    """When they were compared."""
+    rule_set: Annotated[RuleSetName | None, Cell("Confirmed rule set", "SEAOC PV1-2012")] = None
+    """Whose numbers and clauses were compared with its text."""
+    edition: Annotated[EditionName | None, Cell("Confirmed edition of ASCE 7", "ASCE 7-16")] = None
+    """That of the seismic parameters."""
+    code: Annotated[Text, Cell("Confirmed building code", "2022 CBC")] = ""
+    """Adopted code with its year, as on the sheet Site."""
+    covered: Annotated[Text, Cell("Confirmation covered", "2026-03-01: Site 3f2a91")] = ""
+    """Filled in by roofslip report: date, and a hash of these cells, of Site, of the overrides."""
+
+    @property
+    def of(self) -> tuple[str, str, str]:
+        """What was confirmed: rule set, edition and building code."""
+        return self.rule_set or "", self.edition or "", self.code
 
 
 class Override(Frozen):
@@ -144,9 +158,7 @@ class Override(Frozen):
     """The number to replace, from the list; the sheet Provisions has its value and clause."""
     value: Annotated[float, Cell("Value", 18.0, unit_from=("provision", _unit_of_named))]
     """In the unit stated on the sheet Provisions."""
-    reason: Annotated[
-        RequiredText, Cell("Reason", "Agreed with the building department, 2026-02-10")
-    ]
+    reason: Annotated[RequiredText, Cell("Reason", "Agreed 2026-02-10")]
     """Printed in the package."""
 
 
@@ -215,6 +227,10 @@ class ProjectInput(Frozen):
     adequate. The blocks have equal weights and lie in a row along the slope."""
     options: Annotated[Options, OnSheet("Options", "Options")] = Options()
     """The defaults suit most projects."""
+    confirmation: Annotated[
+        Confirmation, OnSheet("Options", "Confirmation of the provisions", may_be_absent=True)
+    ] = Confirmation()
+    """Optional. A later change of any of these, or of an override, brings the marks † back."""
     target: Annotated[
         TargetInput, OnSheet("Building", "Target spectrum and scaling", may_be_absent=True)
     ] = TargetInput()
@@ -297,6 +313,14 @@ class ProjectInput(Frozen):
         reviewed = self.options.peer_date or self.project.date
         is_of_these = "options" not in self.outdated
         return self.options.peer_reviewed and is_of_these and reviewed <= self.project.date
+
+    @property
+    def confirmed(self) -> str:
+        """Who confirmed the provisions of these inputs, and when; empty where nobody did."""
+        given = self.confirmation
+        is_of_these = "confirmation" not in self.outdated and given.of == self.site.adopted
+        is_dated = given.date is not None and given.date <= self.project.date
+        return f"{given.by}, {given.date}" if is_of_these and is_dated else ""
 
     def basis_of(self, row: Clearance) -> DistanceBasis:
         """Return the basis of the distance of a clearance."""

@@ -41,8 +41,8 @@ class FrictionTests(Frozen):
     support: Annotated[Text, Cell("Support material", "EPDM pad")] = ""
     """Surface of the array's supports as tested."""
     report_file: Annotated[Text, Cell("Test report file", "friction-report.pdf")] = ""
-    """The report as a PDF in the workbook's folder; the package attaches it. With the letter of
-    review, at most 20 MB."""
+    """The report as a PDF in the workbook's folder; the package attaches it. All such files: at
+    most 20 MB."""
 
 
 class FrictionTestRow(Frozen):

@@ -64,6 +64,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("friction_tests", "tests_covered"),
         ("options", "peer_covered"),
         ("options", "package_edition letter"),
+        ("site", "hazard_printout"),
     )
 )
 """Single cells that earlier workbooks do not have, those of one version together; a workbook

@@ -137,6 +137,8 @@ class Site(Frozen):
     """Filled in by roofslip report: the date with a short hash of these values. Leave blank."""
     hazard_report: Annotated[Text, Cell("Report number of hazard", "GE-2026-41")] = ""
     """Of the report on a site-specific analysis."""
+    hazard_printout: Annotated[Text, Cell("Hazard printout", "hazard.pdf")] = ""
+    """Of the tool, or the report, as a PDF in the workbook's folder; the package attaches it."""
     stories: Annotated[int, Field(ge=1, le=200), Cell("Number of stories", 1, usual=(1.0, 6.0))]
     """Above grade."""
     structure_height_m: Annotated[
@@ -239,6 +241,11 @@ class Site(Frozen):
     def code_text(self) -> str:
         """The building code with its year, such as `2022 CBC`; empty if not given."""
         return f"{self.building_code_year} {self.building_code}" if self.building_code else ""
+
+    @property
+    def adopted(self) -> tuple[str, str, str]:
+        """Rule set, edition and building code."""
+        return self.rule_set, self.edition.name, self.code_text
 
     @property
     def sdc_lacks(self) -> tuple[str, ...]:

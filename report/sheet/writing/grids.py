@@ -33,7 +33,7 @@ BLANK_ROWS, FEWER_ROWS = 20, 6
 
 SPARE_ROWS = 5
 BLOCK_HEADS = ("", "Value", "Unit", "Computed", "Allowed", "Example", "Note")
-BLOCK_WIDTHS = (29, 32, 13, 16, 27, 18, 54)
+BLOCK_WIDTHS = (29, 31, 13, 16, 27, 19, 54)
 HINT_ROWS = ("", "Allowed", "Example")
 CODE_WIDTH, NUMBER_WIDTH, TEXT_WIDTH = 10, 9, 22
 HINTS_WIDTH = 10

@@ -171,7 +171,11 @@ def test_without_a_permitted_displacement_no_fire_pathway_is_left():
     assert found.verdict is Verdict.NG
 
 
-SOURCED = {"hazard_source": "ASCE 7 Hazard Tool", "hazard_date": dt.date(2026, 2, 20)}
+SOURCED = {
+    "hazard_source": "ASCE 7 Hazard Tool",
+    "hazard_date": dt.date(2026, 2, 20),
+    "hazard_printout": "hazard.pdf",
+}
 STUDIED = SOURCED | {"hazard": "site-specific analysis", "hazard_report": "GE-12"}
 BLANK = dict.fromkeys(("s_s_g", "s_1_g", "f_a", "f_v", "s_ms_g", "s_m1_g", "s_d1_g", "site_class"))
 S_DS_ALONE = BLANK | {"s_ds_g": 1.0}
@@ -203,6 +207,8 @@ def hazard(**changes):
         (without(STUDIED, "hazard_source"), ["hazard_source"]),
         (without(STUDIED, "hazard_date"), ["hazard_source"]),
         (without(STUDIED, "hazard_report"), ["hazard_source"]),
+        (without(SOURCED, "hazard_printout") | {"site_class": "C"}, ["hazard_source"]),
+        (without(STUDIED, "hazard_printout"), ["hazard_source"]),
         (S_DS_ALONE, ["hazard_source", "sdc", "site_class", "site_specific_hazard"]),
         (S_DS_ALONE | SOURCED | {"site_class": "C"}, ["sdc"]),
         (SOURCED | ASCE_7_22, ["site_class"]),
@@ -456,6 +462,8 @@ LATER = ISSUED + dt.timedelta(days=1)
         ({"site": inputs.SITE | {"hazard_date": LATER}}, "hazard"),
         ({"project": inputs.HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": LATER}},
          "confirmation of the drawing"),
+        (scenes.CONFIRMED | {"confirmation": scenes.CONFIRMED["confirmation"] | {"date": LATER}},
+         "confirmation of the provisions"),
     ],
 )  # fmt: skip
 def test_what_is_dated_later_than_the_package_is_a_condition(changes, what):
@@ -544,6 +552,62 @@ def test_values_that_changed_after_their_document_are_a_condition_until_they_are
         key = found.places[0].section
         cleared = given | change | {key: (given | change)[key] | clear}
         assert outdated_row(title, **cleared) is None
+
+
+OVERRIDE = {"provision": "parapet_height_in", "value": 18.0, "reason": "Agreed on 2026-02-11"}
+
+
+def test_provisions_that_are_confirmed_have_no_mark_but_where_they_are_overridden():
+    done = assessed(**scenes.CONFIRMED, overrides=[OVERRIDE])
+    assert row(done, "confirmation").verdict is Verdict.OK
+    marked = {key for key, value in done.rules.values.items() if not value.verified}
+    assert marked == {OVERRIDE["provision"]}
+    assert len({k for k, v in assessed().rules.values.items() if not v.verified}) > 10
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"rule_set": "ASCE 7-16", "edition_name": "ASCE 7-16"},
+        {"edition_name": "ASCE 7-22", "s_1_g": 0.7},
+        {"building_code_year": 2019},
+        {"building_code": "IBC"},
+    ],
+)
+def test_provisions_of_another_rule_set_edition_or_code_are_not_those_confirmed(change):
+    """Also where no report has been made between, which would have put it on record."""
+    site = scenes.CONFIRMED["site"] | change
+    done = assessed(**scenes.CONFIRMED | {"site": site})
+    found = row(done, "confirmation")
+    assert found.verdict is Verdict.CONDITION
+    assert found.found == "SEAOC PV1-2012, ASCE 7-16, 2022 CBC: RG, SE, 2026-03-01"
+    assert (done.project.confirmed, found.limit) == ("", ", ".join(done.project.site.adopted))
+    assert done.rules.values == assessed(site=site).rules.values
+
+
+@pytest.mark.parametrize(
+    ("change", "sheet"),
+    [
+        ({"overrides": [OVERRIDE]}, "sheet Options"),
+        ({"confirmation": {"by": "MT"}}, "sheet Options"),
+        ({"confirmation": {"code": "2019 CBC"}, "site": {"building_code_year": 2019}},
+         "sheets Site, Options"),
+        ({"site": {"rule_set": "ASCE 7-16"}}, "sheet Site"),
+    ],
+)  # fmt: skip
+def test_a_later_change_of_what_was_confirmed_brings_the_marks_back(change, sheet):
+    given = on_record(**scenes.CONFIRMED)
+    assert assessed(**given).project.confirmed == "RG, SE, 2026-03-01"
+    rows = {key: given[key] | part for key, part in change.items() if key in given}
+    done = assessed(**given | change | rows)
+    assert done.project.confirmed == ""
+    (said,) = (row for row in done.rows if row.title == "Confirmation of the provisions")
+    assert said.verdict is Verdict.CONDITION
+    assert said.found == f"2026-03-01, given before these inputs changed: {sheet}"
+    again = given | change | rows
+    again["confirmation"] = again["confirmation"] | {"date": dt.date(2026, 3, 2)}
+    is_same = done.project.confirmation.of == done.project.site.adopted
+    assert bool(assessed(**again).project.confirmed) is is_same
 
 
 def test_a_drawing_distance_that_changed_by_hand_is_not_confirmed_any_more():

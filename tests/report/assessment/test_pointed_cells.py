@@ -16,6 +16,11 @@ from report.sheet.schema.scene import SIDES
 pytestmark = pytest.mark.quick
 
 HAZARD = {"hazard_source": "GeoEngineers", "hazard_date": dt.date(2026, 2, 1)}
+HAZARD = {
+    "hazard_source": "GeoEngineers",
+    "hazard_date": dt.date(2026, 2, 1),
+    "hazard_printout": "hazard.pdf",
+}
 TESTS = {"laboratory": "Laboratory", "report": "FT-1", "date": dt.date(2025, 6, 12)}
 REVIEW = {
     "peer_reviewed": True, "peer_reviewer": "Reviewer", "peer_license": "CA S1",
@@ -43,8 +48,8 @@ CASES = {
     ),
     "date of the hazard": (
         site(hazard_source="Tool"),
-        "source and date of the seismic parameters",
-        [("site", 0, "hazard_date")],
+        "source, date and printout of the seismic parameters",
+        [("site", 0, "hazard_date"), ("site", 0, "hazard_printout")],
     ),
     "S_1 that decides on a site-specific analysis": (
         site(s_1_g=None), "hazard analysis for site class D", [("site", 0, "s_1_g")],

@@ -82,12 +82,13 @@ def test_new_example_writes_the_example_of_the_projects(tmp_path):
         parts = [part for part in one.namelist() if part.endswith(".xml")]
         for part in set(parts) - {"docProps/core.xml"}:
             assert one.read(part) == other.read(part), part
-    assert "no errors, 2 warnings" in printed("check", made)
+    assert "no errors, 3 warnings" in printed("check", made)
 
 
-def test_check_finds_no_error_in_the_example_but_friction_tests_without_repeats():
+def test_check_finds_no_error_in_the_example_but_what_it_has_no_document_of():
     told = printed("check", EXAMPLE)
-    assert "no errors, 2 warnings. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
+    assert "no errors, 3 warnings. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
+    assert "printout not given" in told
     assert "three runs at each velocity" in told
 
 

@@ -10,6 +10,7 @@ from report.sheet.reading.read import read
 from sheets import at, problems, type_into
 
 LETTER, REPORT = "Options/Letter of review", "Friction tests/Test report file"
+PRINTOUT = "Site/Hazard printout"
 PDF = b"%PDF-1.7\nletter"
 
 
@@ -77,10 +78,11 @@ def test_all_documents_together_have_a_limit(workbook, monkeypatch):
     assert "'letter.pdf' and the other documents have more than" in problem
 
 
-def test_one_file_in_both_cells_is_named_twice(workbook):
+def test_one_file_in_three_cells_is_named_three_times(workbook):
     naming(workbook, "both.pdf", PDF)
-    found = read(type_into(workbook, {REPORT: "both.pdf"})).documents
+    found = read(type_into(workbook, {REPORT: "both.pdf", PRINTOUT: "both.pdf"})).documents
     assert [(one.label, one.path) for one in found] == [
+        ("Hazard printout", "both.pdf"),
         ("Test report file", "both.pdf"),
         ("Letter of review", "both.pdf"),
     ]

@@ -28,6 +28,7 @@ GIVEN = {
     "friction_runs": [RUN],
     "clearances": [*OTHERS, DRAWN],
     "options": scenes.REVIEW,
+    "confirmation": scenes.CONFIRMED["confirmation"],
 }
 
 
@@ -68,6 +69,7 @@ def test_each_confirmation_is_put_on_record_with_its_date_and_the_sheets_that_it
             "2026-03-01",
             ["Site", "Arrays", "Friction tests", "Motions", "Options"],
         ),
+        "covered": ("2026-03-01", ["Site", "Options"]),
     }
     assert to_record(recorded(given()), RECORDS) == {}
     assert outdated(recorded(given()), RECORDS).outdated == {}
@@ -79,6 +81,7 @@ def test_what_is_not_confirmed_or_covers_nothing_is_not_put_on_record():
         site=inputs.SITE,
         friction_runs=[],
         options=scenes.REVIEW | {"peer_reviewed": False},
+        confirmation={},
     )
     assert to_record(none, RECORDS) == {}
 
@@ -109,7 +112,14 @@ def of(section, index, **changes):
         ({"target": {"to_s": 3.0}}, {"options": "sheet Building"}),
         ({"links": [inputs.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
         ({"options": {"statistic": "mean"}}, {"options": "sheet Options"}),
-        ({"overrides": []}, {"options": "sheet Options"}),
+        ({"overrides": []}, {"options": "sheet Options", "confirmation": "sheet Options"}),
+        ({"confirmation": {"by": "MT"}}, {"confirmation": "sheet Options"}),
+        ({"confirmation": {"edition": "ASCE 7-22"}}, {"confirmation": "sheet Options"}),
+        (
+            {"site": {"rule_set": "ASCE 7-16"}},
+            {"options": "sheet Site", "confirmation": "sheet Site"},
+        ),
+        ({"site": {"building_code_year": 2019}}, {"confirmation": "sheet Site"}),
         (
             {"site": {"roof_height_m": 9.0}} | of("arrays", 0, mu=0.42),
             {"options": "sheets Site, Arrays"},
@@ -144,6 +154,7 @@ EARLIER = {  # as c9c3a2cf put it on record, whose sheet Options had the target 
         "peer_covered": "2026-03-01: Site ff39b0, Arrays 953ec0, Friction tests 540e4e,"
         " Motions f2663d, Options bee9a4"
     },
+    "confirmation": {},
 }
 
 

@@ -270,6 +270,10 @@ CONTRADICTIONS = [
       "Spectrum/2/Horizontal": 9, "Motions/M1/Scaling": "target spectrum"},
      "<Spectrum/heading/Period>: periods range from 8 to 9 s, but motions are scaled over 0.2 to"
      " 5 s; add rows, or change the scaling periods"),
+    ({"Options/Confirmed by": "RG", "Options/Confirmed rule set": "SEAOC PV1-2012"},
+     *(f"<Options/{label}>: {label.lower().replace('asce', 'ASCE')} is missing; give all five"
+       " cells of the confirmation, or none"
+       for label in ("Confirmed on", "Confirmed edition of ASCE 7", "Confirmed building code"))),
     ({"Building/Shortest scaling period": 5},
      "<Building/Longest scaling period>: longest scaling period is 5 s; give more than the"
      " shortest, 5 s"),

@@ -85,6 +85,7 @@ def without(section, *fields):
         ("site", "building_code", "building_code_year", "jurisdiction"),
         ("friction_tests", "report_file"),
         ("options", "peer_letter"),
+        ("site", "hazard_printout"),
         ("site", "fire_code_section", "fire_lane_m"),
     ],
 )
