@@ -9,8 +9,11 @@ import datetime as dt
 from collections import OrderedDict
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import inputs
+import sheets
 import stand_in
 from places import ROOT
 from report.assessment.assess import assess
@@ -125,6 +128,14 @@ def grounded(data, given, *, vertical: bool = True, transverse: bool = False) ->
 def shipped(name: str) -> Assessment:
     """Return a project that comes with the program."""
     book = read_workbook(ROOT / "projects" / name)
+    return assess(book.sheet, book.shaking)
+
+
+@cache
+def without_motions() -> Assessment:
+    """Return the example with no rows on its sheet Motions."""
+    with TemporaryDirectory() as folder:
+        book = read_workbook(sheets.without_motions(Path(folder)))
     return assess(book.sheet, book.shaking)
 
 

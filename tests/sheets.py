@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 import math
+import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
@@ -21,7 +22,7 @@ from openpyxl.utils import coordinate_to_tuple, range_boundaries
 import inputs
 from cells import address, addressed, cell
 from inputs import FT, INCH, clearance, motion, roof_object
-from places import DATA
+from places import DATA, ROOT
 from report.assessment.precheck import findings
 from report.motions.prepare import Shaking, prepare
 from report.sheet.checking.findings import located
@@ -217,6 +218,15 @@ def type_into(path: Path, cells: Mapping[str, object]) -> Path:
     changes = {_position(place): value for place, value in cells.items()}
     path.write_bytes(changed(content, changes))  # type: ignore[arg-type]
     return path
+
+
+def without_motions(folder: Path) -> Path:
+    """Copy the shipped example into a folder, the rows of its sheet Motions emptied, no record."""
+    path = Path(shutil.copy(ROOT / "projects" / "example" / "input.xlsx", folder))
+    cells = read(path).addresses.items()
+    return type_into(
+        path, {at: None for place, at in cells if place.section == "motions" and place.field}
+    )
 
 
 def of(row: str, values: Mapping[str, object]) -> dict[str, object]:

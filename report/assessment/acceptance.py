@@ -17,7 +17,12 @@ from solver.records.acceptance import Acceptance, acceptance
 
 
 def shaking_acceptance(shaking: Shaking, targets: Targets) -> Acceptance:
-    """Compare the motions as run with the targets at the roof, and with the other limits."""
+    """Compare the motions as run with the targets at the roof, and with the other limits.
+
+    Without motions, no limit on them applies.
+    """
+    if not shaking.motions:
+        return Acceptance(rows=(), motions=())
     return acceptance(
         shaking.motions,
         [_hold_s(prepared, shaking.records) for prepared in shaking.prepared],

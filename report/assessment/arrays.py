@@ -26,6 +26,12 @@ from solver.sliding.uplift import Uplift
 NOT_PERMITTED = "not permitted"
 """In place of a design displacement by a route that is not permitted, or beside it."""
 
+MOTIONS_KEY = "analysis_min_motions"
+"""Of the limit on the number of motions."""
+
+NO_UPLIFT = Uplift(n_min_g=math.nan, t_first_s=math.nan, duration_s=0.0, times=0)
+"""Of an array without runs: nothing is known of its normal force."""
+
 
 class DesignBasis(StrEnum):
     """Source of a design displacement."""
@@ -52,6 +58,11 @@ class RouteLimits:
     analysis_checks: tuple[Limit, ...]
     prescriptive_checks: tuple[Limit, ...]
     route: Route  # by which the design displacement is obtained
+
+    @property
+    def may_be_analyzed(self) -> bool:
+        """Whether the analysis route is permitted once there are enough motions."""
+        return all(check.ok or check.key == MOTIONS_KEY for check in self.analysis_checks)
 
     @property
     def of_route(self) -> tuple[Limit, ...]:
@@ -92,12 +103,13 @@ class ArrayAssessment(RouteLimits):
         motions.
     design_m : float
         Design displacement [m]. By analysis: the larger of the value from analysis and the floor.
-        By the prescriptive route: the prescriptive value, not less than the largest PRD. NaN where
-        a run has no final displacement, or neither route gives a value.
+        By the prescriptive route: the prescriptive value, not less than the largest PRD of any
+        runs. NaN where a run has no final displacement, or neither route gives a value.
     by_direction : bool
         Whether clearances take the displacement toward them, a departure from the rule sets.
     tipping, uplift : Tipping, Uplift
-        Of the run nearest to tipping, and of the run with the smallest normal force.
+        Of the run nearest to tipping, and of the run with the smallest normal force. Without runs,
+        tipping by the most that friction transmits, and no uplift.
     checks : tuple of Limit
         Limits that apply to both routes.
     analysis_checks, prescriptive_checks : tuple of Limit
@@ -258,8 +270,9 @@ class ArrayAssessment(RouteLimits):
 
     @property
     def fastest_mps(self) -> float:
-        """Largest sliding velocity of all runs [m/s]; NaN where a run gives none."""
-        return max((run.result.peak_speed_mps for run in self.runs), key=nan_is_worst)
+        """Largest sliding velocity of all runs [m/s]; NaN where a run gives none, or none is."""
+        speeds = (run.result.peak_speed_mps for run in self.runs)
+        return max(speeds, key=nan_is_worst, default=math.nan)
 
     @property
     def worst(self) -> MotionRun:
@@ -286,6 +299,7 @@ def limits_of(
     Parameters
     ----------
     n_motions : int
+        Without any, the route is prescriptive.
     has_value : bool
         Whether the motions are enough for a value from analysis, and qualify for it.
     """
@@ -311,8 +325,10 @@ def limits_of(
         ),
         analysis_checks=analysis,
         prescriptive_checks=prescriptive,
-        # By analysis, unless that alone is not permitted.
-        route=Route.PRESCRIPTIVE if by_prescription and not by_analysis else Route.ANALYSIS,
+        # By analysis, unless there is none or that alone is not permitted.
+        route=Route.PRESCRIPTIVE
+        if not n_motions or (by_prescription and not by_analysis)
+        else Route.ANALYSIS,
     )
 
 
@@ -374,7 +390,9 @@ def assess_array(
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         by_direction=data.options.directional,
         tipping=_nearest_to_tipping(array, each),
-        uplift=min((motion.uplift for motion in runs), key=lambda found: found.n_min_g),
+        uplift=min(
+            (motion.uplift for motion in runs), key=lambda found: found.n_min_g, default=NO_UPLIFT
+        ),
         interconnection_n=interconnection_n(data, rules, array),
         # The input itself, if it has no override and no departure.
         adopted=None
@@ -400,9 +418,10 @@ def interconnection_n(data: ProjectInput, rules: RuleSet, array: Array) -> float
 
 def _nearest_to_tipping(array: Array, runs: Sequence[OrientedRun]) -> Tipping:
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
-    # Both ratios of the check rise with the friction that a run demands.
-    worst = max(runs, key=lambda run: run.solution.friction_demand)
-    return tipping_at(worst.solution.friction_demand, worst.scene.friction, supports)
+    # Both ratios of the check rise with the friction that a run demands. Without runs, friction
+    # alone limits what is transmitted.
+    demand = max((run.solution.friction_demand for run in runs), default=math.inf)
+    return tipping_at(demand, array.friction, supports)
 
 
 def _design_m(
@@ -413,7 +432,7 @@ def _design_m(
     floor_m: float,
 ) -> float:
     """Return the design displacement of a route [m]; NaN where a run has no final value."""
-    largest_m = max((run.governing.prd_m for run in runs), key=nan_is_worst)
+    largest_m = max((run.governing.prd_m for run in runs), key=nan_is_worst, default=0.0)
     if math.isnan(largest_m):
         return math.nan
     if route is Route.PRESCRIPTIVE:

@@ -104,7 +104,8 @@ def _beside(other: Assessment, given: Assessment) -> Assessment:
     """Return an assessment with the outcome by the rule set of its building code in its rows."""
     linked = tuple(replace(row, design=by_id(other.arrays, row.design.id)) for row in given.linked)
     one, two = ((each.project.overrides, each.project.options) for each in (given, other))
-    how = "the same motions and S_DS" + ("" if one == two else ", without overrides and departures")
+    how = "the same motions and S_DS" if given.has_motions else "the same S_DS"
+    how += "" if one == two else ", without overrides and departures"
     words = outcome(replace(other, linked=linked)).words(given.project.us_first)
     text = f"By {other.rules.name} 13.6.12 with {how}: {words}."
     ids = "rule_set", "edition_name"
@@ -177,15 +178,16 @@ def _assess(
     has_pairs : bool
         Whether the plan is measured: with less friction it is the same.
     reduced_friction : callable, optional
-        Assesses the same with less friction. With it, one rigid block is compared with a row of
-        linked blocks, and the verdicts with those for less friction.
+        Assesses the same with less friction. With it, the verdicts are compared with those for less
+        friction and, where there are motions, one rigid block with a row of linked blocks.
     """
     rules = rule_set_of(data)
+    has_runs = bool(reduced_friction and shaking.motions)
     arrays = tuple(
         assess_array(data, rules, array, *wait(), motions_qualify=acceptance.qualifies)
         for array, wait in zip(data.arrays, begun, strict=True)
     )
-    links = data.links if reduced_friction else ()
+    links = data.links if has_runs else ()
     linked = tuple(assess_linked(pool, rules, row, by_id(arrays, row.array)) for row in links)
     clearances = tuple(check_clearance(data, rules, arrays, row) for row in data.clearances)
     pairs = _plan_pairs(sheet, data, rules, arrays) if has_pairs else ()
@@ -197,7 +199,7 @@ def _assess(
     # Last, as these runs are begun last.
     by_runs = {item.id for item in arrays if item.is_by_runs}
     reduced, slower = reduced_friction() if reduced_friction else None, NOT_BY_VELOCITY
-    if slow:
+    if slow and has_runs:
         slower = low_velocity(data, rules, arrays, slow, motions_qualify=acceptance.qualifies)
     return Assessment(
         sheet=sheet,
@@ -213,7 +215,7 @@ def _assess(
         acceptance=acceptance,
         rows=(
             *noted(rows, by_runs),
-            *noted(velocity_rows(data, arrays, slower) if reduced_friction else (), by_runs),
+            *noted(velocity_rows(data, arrays, slower) if has_runs else (), by_runs),
             *pathway_rows(data, arrays, clearances),
             *plan_rows(data, [pair for pair in pairs if pair.is_listed]),
             *(

@@ -18,6 +18,7 @@ from report.sheet.schema.choices import ModelChoice
 from report.words.counts import ids_by, lowered, ranged
 from report.words.units import Quantity, compared_pairs, ratio
 from solver.model import Status
+from solver.rules.provisions import review_lifts_slope
 
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
@@ -109,7 +110,8 @@ def reasons(assessment: Assessment) -> Iterator[str]:
         yield f"building, {limit_words(check, us_first)}"
     for item in assessment.arrays:
         for check in (check for check in item.limits if not check.ok):
-            yield f"array {item.id}, {limit_words(check, us_first)}"
+            otherwise = _way_out(assessment, item, check)
+            yield f"array {item.id}, {limit_words(check, us_first)}{otherwise}"
     few = [each.id for each in assessment.arrays if each.lacks_motions]
     if few:
         basis, count = statistic_basis(assessment.project), len(assessment.shaking.motions)
@@ -125,6 +127,17 @@ def reasons(assessment: Assessment) -> Iterator[str]:
             yield row_words(row, ids)
 
 
+def _way_out(assessment: Assessment, item: ArrayAssessment, check: Limit) -> str:
+    """Return that motions would do, where the prescriptive route alone is not permitted."""
+    if assessment.has_motions or check not in item.prescriptive_checks:
+        return ""
+    is_lifted = review_lifts_slope(assessment.rules, assessment.project.site.sdc)
+    if not (item.may_be_analyzed or is_lifted):
+        return ""
+    review = "" if item.may_be_analyzed else " with peer review"
+    return f"; or give motions on the sheet Motions, for an analysis{review}"
+
+
 def row_words(row: Requirement, subjects: Sequence[str]) -> str:
     """Return a requirement that is not satisfied, with all that it is said of."""
     where = f"{ranged(subjects)}, " if row.subject else ""
@@ -136,10 +149,11 @@ def _models(assessment: Assessment) -> Iterator[str]:
     """Yield arrays that tip, and whose model is not adequate."""
     for item in assessment.arrays:
         if not item.tipping.is_ok:
+            tips = "starts to tip" if item.runs else "may start to tip"
             tipping = f"{ratio(item.tipping.ratio)} of the ratio at which it tips; 1.00 or less is"
             yield (
-                f"array {item.id} starts to tip: {tipping} required, with a lower center of gravity"
-                " or wider supports"
+                f"array {item.id} {tips}: {tipping} required, with a lower center of gravity or"
+                " wider supports"
             )
         if not item.is_model_enough:
             text = f"array {item.id}, requested model '{item.array.model}' is not adequate; select"

@@ -56,7 +56,7 @@ MOTIONS_ID = "motions"
 """Of the rows on limits that the motions miss."""
 
 _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_ROW)
-_NO_EFFECT = "The design displacement is prescriptive and does not follow from the analysis."
+_NO_EFFECT = "The design displacement is prescriptive and does not follow from an analysis."
 
 NO_DESIGN = "unknown without a permitted design displacement"
 
@@ -117,7 +117,7 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
         "Compare these inputs with it, and enter its date if that is new; if they agree, clear"
     )
     dated = (
-        ("peer review", options.peer_date if options.peer_reviewed else None,
+        ("peer review", options.peer_date if options.peer_reviewed and data.motions else None,
          Place("options", 0, "peer_date"), f"{again}: until then the package does not rest on it."),
         ("friction report", tests.date, Place("friction_tests", 0, "date"),
          f"{compare} Test report covered."),
@@ -139,7 +139,7 @@ def _dates(data: ProjectInput) -> Iterator[Requirement]:
                 limit=f"not later than the package, {issued}",
                 remedy="Correct the date, or date the package later.",
             )
-        if sheets := data.outdated.get(place.section):
+        if date and (sheets := data.outdated.get(place.section)):
             yield row(
                 title=capitalized(what),
                 found=f"{date}, given before these inputs changed: {sheets}",
@@ -165,7 +165,7 @@ def _confirmation(data: ProjectInput) -> Iterator[Requirement]:
 
 def _peer_review(data: ProjectInput) -> Iterator[Requirement]:
     options = data.options
-    if not options.peer_reviewed:
+    if not (options.peer_reviewed and data.motions):
         return
     fields = ("reviewer", "license", "date", "letter")
     lifts_slope = review_lifts_slope(RULE_SETS[data.site.rule_set], data.site.sdc)
@@ -509,12 +509,13 @@ def less_friction_rows(
     row = partial(condition, id="less_friction", is_satisfied=False, basis="sensitivity")
     for array, less in zip(arrays, less_arrays, strict=True):
         if array.is_permitted and not less.is_permitted:
+            left = "no route is" if array.runs else "this route is not"
             yield row(
                 title=f"The {array.route} route with {friction}",
                 subject=array.id,
                 found="not permitted",
                 limit="permitted",
-                remedy=f"With {friction} no route is permitted: confirm the friction coefficient.",
+                remedy=f"With {friction} {left} permitted: confirm the friction coefficient.",
             )
     for gap, short in zip(clearances, less_clearances, strict=True):
         if gap.verdict.is_permitted and not short.verdict.is_permitted:

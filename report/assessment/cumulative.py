@@ -37,9 +37,9 @@ class Cumulative:
 
 
 def cumulative(given: Assessment) -> tuple[Cumulative, ...]:
-    """Return the sums of every array; none where the workbook names no smaller events."""
+    """Return the sums of every array; none without motions, or where no smaller event is named."""
     factors = given.project.options.smaller_factors
-    if not factors:
+    if not (factors and given.has_motions):
         return ()
     return tuple(
         Cumulative(

@@ -42,10 +42,10 @@ def runs_envelope(array: ArrayAssessment) -> Outline:
     """Return the outline of an array in all of its runs, by their largest excursions.
 
     A run is within its excursions downslope, upslope and cross-slope, and within its PRD. Empty if
-    a run has no displacement.
+    a run has no displacement, or without runs.
     """
     moves = [point for run in array.runs for point in _region(run)]
-    if any(math.isnan(along + across) for along, across in moves):
+    if not moves or any(math.isnan(along + across) for along, across in moves):
         return ()
     downslope = math.radians(array.array.downslope_deg)
     cos, sin = math.cos(downslope), math.sin(downslope)

@@ -32,8 +32,8 @@ class Evidence:
     # effect of the high-pass of each motion on the slip of the governing array
     highpass: tuple[Beyond, ...]
     remedies: tuple[Remedy, ...]  # what would satisfy each clearance and array marked NG
-    # margins in friction, and directions of shaking that are not run
-    uncertainty: Uncertainty
+    # margins in friction, and directions of shaking that are not run; none without motions
+    uncertainty: Uncertainty | None
     cumulative: tuple[Cumulative, ...]  # for each array, if the workbook names smaller events
     building: tuple[tuple[BuildingInput, AnalysisValue], ...]  # with other periods and damping
 

@@ -38,6 +38,8 @@ _FIELDS: Mapping[str, str] = {
     "low_profile_in": "cg_height_m",
     "ibc_max_slope_deg": "slope_value",
     "analysis_max_slope_deg": "slope_value",
+    "prescriptive_max_slope_deg": "slope_value",
+    "prescriptive_min_mu": "mu",
     "max_risk_category": "risk_category",
     "max_stories": "stories",
 }
@@ -137,7 +139,7 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     for index, limits in enumerate(routes):
         for check in limits.limits:
             yield from _limit(check, "arrays", index, us_first)
-        if limits.route is Route.PRESCRIPTIVE:
+        if limits.route is Route.PRESCRIPTIVE and shaking.motions:
             failed = [check for check in limits.analysis_checks if not check.ok]
             why = "; ".join(limit_words(check, us_first) for check in failed)
             place = statistic if lacking else Place("motions")
@@ -146,6 +148,8 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
                 f"array {data.arrays[index].id} takes the prescriptive displacement: "
                 f"{why or lacking or 'the motions do not qualify'}",
             )
+    if not shaking.motions:
+        yield from _not_run(data)
     pairs = zip(data.arrays, routes, strict=True)
     by_runs = {array.id for array, limits in pairs if limits.route is Route.ANALYSIS}
     rows = motion_rows(acceptance, (limits.route for limits in routes))
@@ -158,6 +162,19 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
                 f"{array.id}, electrical slack: not given; provide at least the design displacement"
             )
             yield limit(f"{text}: {Verdict.CONDITION}", Place("arrays", index, "slack_m"))
+
+
+def _not_run(data: ProjectInput) -> Iterator[Finding]:
+    """Yield what a workbook without motions asks for and only runs can give."""
+    asked = (
+        (Place("links"), "the comparison with a row of linked blocks", bool(data.links)),
+        (Place("options", 0, "smaller_events"), "the sum with smaller events",
+         bool(data.options.smaller_factors)),
+        (Place("options", 0, "peer_reviewed"), "peer review", data.options.peer_reviewed),
+    )  # fmt: skip
+    for place, what, is_asked in asked:
+        if is_asked:
+            yield note(place, f"{what} needs motions: nothing follows from it here")
 
 
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:

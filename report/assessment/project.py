@@ -104,6 +104,11 @@ class Assessment:
         return f"Assessment: {self.verdict.value}; {counts}, {len(self.conditions)} conditions"
 
     @property
+    def has_motions(self) -> bool:
+        """Whether there is an analysis; without one, every array takes the prescriptive route."""
+        return bool(self.shaking.motions)
+
+    @property
     def governing(self) -> ArrayAssessment:
         """The array with the largest design displacement, or one without a value."""
         return max(self.arrays, key=lambda array: nan_is_worst(array.design_m))

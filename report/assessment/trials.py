@@ -165,9 +165,9 @@ def _other_runs(array: Array, first: MotionRun) -> MotionRun:
 
 
 def is_final(array: ArrayAssessment) -> bool:
-    """Whether an array has a design value and every run ended at rest."""
-    statuses = {run.result.status for run in array.runs}
-    return statuses == {Status.OK} and not math.isnan(array.design_m)
+    """Whether an array has a design value and every run, if any, ended at rest."""
+    is_at_rest = all(run.result.status is Status.OK for run in array.runs)
+    return is_at_rest and not math.isnan(array.design_m)
 
 
 def single_array_check(

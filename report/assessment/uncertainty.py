@@ -117,8 +117,13 @@ class Uncertainty:
         return max(self.turned, key=lambda run: nan_is_worst(run.result.prd_m))
 
 
-def uncertainty(given: Assessment) -> Uncertainty:
-    """Return how the governing array and every clearance react to what is not known exactly."""
+def uncertainty(given: Assessment) -> Uncertainty | None:
+    """Return how the governing array and every clearance react to what is not known exactly.
+
+    None without motions.
+    """
+    if not given.has_motions:
+        return None
     governing = given.governing
     motion = governing.worst
     angles = ANGLES_DEG if motion.motion.has_transverse else ()

@@ -96,11 +96,24 @@ def checked(
                 *missing_clearances(sheet),
                 *other_sources(sheet),
                 *findings(sheet, shaking),
+                *_without_motions(sheet, shaking),
                 *_computed(sheet),
                 *_in_future(sheet, dt.date.today()),
             ]
         ),
     )
+
+
+def _without_motions(sheet: Sheet, shaking: Shaking) -> Iterator[Finding]:
+    """Yield what is made of a workbook without motions."""
+    if shaking.motions:
+        return
+    from report.assessment.assess import assess
+    from report.pages.summary import without_motions
+    from report.sheet.checking.findings import note
+    from report.sheet.schema.fields import Place
+
+    yield note(Place("motions"), without_motions(assess(sheet, shaking)))
 
 
 def _computed(sheet: Sheet) -> Iterator[Finding]:

@@ -165,8 +165,9 @@ class DirectionResult(Entity):
 class TippingResult(Entity):
     """Tipping of an array, for the run nearest to it."""
 
-    demand: float
-    """Largest shear over normal force without slip; null where the array lifts off."""
+    demand: Number
+    """Largest shear over normal force without slip; null where the array lifts off, and without
+    motions."""
     capacity: float
     """Shear over normal force at which it begins to tip, b / (2 h)."""
     held_ratio: Annotated[float, at("at_rest_ratio")]
@@ -180,8 +181,8 @@ class TippingResult(Entity):
 class UpliftResult(Entity):
     """Uplift of an array, for the run with the smallest normal force."""
 
-    n_min_g: float
-    """Least normal force / weight; negative with uplift."""
+    n_min_g: Number
+    """Least normal force / weight; negative with uplift, null without motions."""
     t_first_s: Number
     """Time when the normal force first falls below zero; null if it never does."""
     duration_s: float
@@ -278,7 +279,7 @@ class ArrayResult(LowVelocityResult):
     def residual_m(self) -> float:
         """Largest distance from its place at the end of a run [m]."""
         ends = (math.hypot(run.residual_m, run.residual_across_m) for run in self.runs)
-        return max(ends, key=nan_is_worst)
+        return max(ends, key=nan_is_worst, default=math.nan)
 
     @unwritten(_weight("Lighter part"))
     def lighter_n(self) -> float:
@@ -345,9 +346,9 @@ def array_result(
 
 
 def models_used(item: ArrayAssessment) -> str:
-    """Return the numbers of the models that the runs of an array use."""
-    models = {int(run.solution.model) for run in item.runs}
-    return " to ".join(str(end) for end in sorted({min(models), max(models)}))
+    """Return the numbers of the models that the runs of an array use; nothing without runs."""
+    models = sorted({int(run.solution.model) for run in item.runs})
+    return " to ".join(map(str, dict.fromkeys((*models[:1], *models[-1:]))))
 
 
 def gap_name(gap: ComparedGap, array_id: str) -> str:

@@ -14,6 +14,7 @@ from report.assessment.project import Assessment
 from report.entities.columns import UnitFormat
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import Direction
+from report.words.units import Quantity, no_less
 from solver.rules.provisions import PrescriptiveBasis, Provision
 
 UNVERIFIED = (
@@ -49,6 +50,14 @@ class Marked:
     def fmt(self) -> UnitFormat:
         """Format of values."""
         return UnitFormat(us_first=self.data.us_first)
+
+    def both(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return a value in both systems of units: `81.6 in (2072 mm)`."""
+        return self.fmt.both(value_si, Quantity[quantity])
+
+    def both_up(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
+        """Return what is required, or what a requirement follows from, rounded up."""
+        return self.fmt.both(value_si, Quantity[quantity], no_less)
 
     def mark(self, key: str) -> str:
         """Return the marks of a provision."""

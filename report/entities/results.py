@@ -136,8 +136,8 @@ class Results(Compared):
     """Pairs in plan that are near or have a clearance."""
     remedies: tuple[RemedyResult, ...]
     """Changes that would satisfy what is NG."""
-    certainty: UncertaintyResult
-    """Margins in friction, slope and direction."""
+    certainty: UncertaintyResult | None
+    """Margins in friction, slope and direction; null without motions."""
     cumulative: tuple[CumulativeResult, ...]
     """Cumulative displacement; empty where it is not asked for."""
     building_variations: tuple[VariationResult, ...]
@@ -177,7 +177,7 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
         remedies=tuple(
             remedy_result(item, assessment.project.us_first) for item in evidence.remedies
         ),
-        certainty=uncertainty_result(evidence.uncertainty),
+        certainty=evidence.uncertainty and uncertainty_result(evidence.uncertainty),
         cumulative=evidence.cumulative,
         building_variations=tuple(starmap(variation_result, evidence.building)),
     )

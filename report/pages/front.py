@@ -81,19 +81,20 @@ class _Ratio(NamedTuple):
     part: str  # id of the page that has it
 
 
-def _worst_other(package: PackageData) -> _Ratio:
-    """Return the largest ratio of the checks of the arrays beside their clearances.
+def _worst_other(package: PackageData) -> _Ratio | None:
+    """Return the largest ratio of the checks of the arrays beside their clearances, if any.
 
     Of an array without a permitted design displacement, that of its slack is not known.
     """
     known = (item for item in _ratios(package) if not math.isnan(item.ratio))
-    return max(known, key=lambda item: item.ratio)
+    return max(known, key=lambda item: item.ratio, default=None)
 
 
 def _ratios(package: PackageData) -> Iterator[_Ratio]:
     for item in package.assessment.arrays:
         array = item.array
-        yield _Ratio(item.tipping.ratio, "tipping", item.id, "model")
+        if item.runs:
+            yield _Ratio(item.tipping.ratio, "tipping", item.id, "model")
         if array.interconnection_n:
             strength = item.interconnection_n / array.interconnection_n
             yield _Ratio(strength, "interconnection strength", item.id, "limits")
@@ -120,7 +121,7 @@ def _worst(clearances: Sequence[ClearanceResult]) -> Sequence[ClearanceResult]:
 
 def plan(package: PackageData) -> Mapping[str, object]:
     """Return what the tables and notes of the roof plan need beside its drawings."""
-    fmt = replace(unit_format(package.assessment), systems=1)
+    fmt = replace(unit_format(package.assessment), systems=1, none="none")
     return {
         "fmt": fmt,
         "arrays": alike_arrays(package.assessment, fmt),

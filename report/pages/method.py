@@ -16,10 +16,11 @@ from report.words.units import Quantity
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 
-def below(_: PackageData) -> tuple[tuple[str, str], ...]:
+def below(package: PackageData) -> tuple[tuple[str, str], ...]:
     """Return the parts below, in order."""
+    motion = ("method-motion", "Motion of an array")
     return (
-        ("method-motion", "Motion of an array"),
+        *([motion] if package.assessment.has_motions else []),
         ("method-design", "Design displacement"),
         ("method-separation", "Separations"),
     )

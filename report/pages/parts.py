@@ -16,6 +16,7 @@ from report.assessment.causes import reasons
 from report.assessment.changes import NO_FORMER, Changes
 from report.assessment.friction_rows import basis_words
 from report.assessment.precheck import limit_value
+from report.assessment.savings import Saving, saving
 from report.assessment.verdict import Verdict
 from report.document.tables import stamp
 from report.entities.array import ArrayResult, array_results
@@ -25,7 +26,6 @@ from report.provenance.files import fingerprint
 from report.sheet.schema.choices import PackageEdition, RecordedAt
 from report.sheet.schema.scene import Array
 from report.words.counts import ids_by
-from report.words.units import Quantity, no_less
 from solver.rules.limit import Limit
 from solver.rules.provisions import Basis
 
@@ -121,6 +121,11 @@ class PackageData(Marked):
         """What makes the project NG, in order."""
         return tuple(reasons(self.assessment))
 
+    @cached_property
+    def saving(self) -> Saving:
+        """What an analysis could save; for a project without motions."""
+        return saving(self.assessment)
+
     @property
     def fingerprint(self) -> str:
         """Short hash of workbook, records and version, at the foot of every sheet."""
@@ -132,14 +137,6 @@ class PackageData(Marked):
         options = self.data.options
         by = (options.peer_reviewer, options.peer_license, options.peer_date or "")
         return ", ".join(str(part) for part in by if part) or "reviewer not given"
-
-    def both(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
-        """Return a value in both systems of units: `81.6 in (2072 mm)`."""
-        return self.fmt.both(value_si, Quantity[quantity])
-
-    def both_up(self, value_si: float, quantity: str = "DISPLACEMENT") -> str:
-        """Return what is required, or what a requirement follows from, rounded up."""
-        return self.fmt.both(value_si, Quantity[quantity], no_less)
 
     def rule_length(self, key: str) -> str:
         """Return a length of the rule set in both systems of units, with its marks."""

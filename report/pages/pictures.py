@@ -35,22 +35,28 @@ def draw_assessment(package: PackageData) -> Drawings:
 
     us_first, assessment = package.fmt.us_first, package.assessment
     printed = printed_plan(assessment)
-    return {
+    drawings = {
         "inputs-friction": friction_tests.drawings(package),
+        "plan": [printed, *(plan.paper_svg(each) for each in (printed.plan, printed.key))],
+    }
+    if not assessment.has_motions:
+        return drawings
+    return drawings | {
         "method-motion": [array_section(package.governing.array, us_first)],
         "motions-list": [
             accelerations.accelerations(some)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
-        "plan": [printed, *(plan.paper_svg(each) for each in (printed.plan, printed.key))],
     }
 
 
 def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
-    """Return the drawings of spectra and of runs."""
+    """Return the drawings of spectra and of runs; none without motions."""
     from report.figures.charts import comparison
     from report.figures.spectra import spectra
 
+    if not package.assessment.has_motions:
+        return {}
     us_first = package.fmt.us_first
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]

@@ -99,6 +99,11 @@ PAGES = (
     _complete("symbols", "Symbols", _alone(symbols.page)),
 )
 
+OF_MOTIONS = frozenset(
+    {"motions", "results", "comparison", "model", "accuracy", "hashes", "spectra", "histories"}
+)
+"""Pages that need runs: a package without motions does not have them."""
+
 LETTER = Part(id="letter", number="", title="Letter of results", parts=())
 """Before the first page, without a number."""
 
@@ -106,12 +111,22 @@ CHANGES = Page("changes", "Changes", _alone(changes.page))
 """After the summary, without a number: the other parts have the same in every revision."""
 
 
-def pages_of(edition: PackageEdition, since: Changes) -> tuple[Page, ...]:
+def pages_of(
+    edition: PackageEdition, since: Changes, *, has_motions: bool = True
+) -> tuple[Page, ...]:
     """Return the pages of a package: with the changes only where they are asked for."""
-    pages = tuple(page for page in PAGES if page.edition in (PackageEdition.PLAN_CHECK, edition))
+    left_out = frozenset() if has_motions else OF_MOTIONS
+    editions = PackageEdition.PLAN_CHECK, edition
+    pages = tuple(page for page in PAGES if page.edition in editions and page.id not in left_out)
     title = f"Changes since revision {since.revision}"
     changed = (replace(CHANGES, title=title),) if since.is_asked_for else ()
     return (*pages[:1], *changed, *pages[1:])
+
+
+def pages_in(package: PackageData) -> tuple[Page, ...]:
+    """Return the pages that a package has."""
+    given = package.assessment
+    return pages_of(package.edition, package.changes, has_motions=given.has_motions)
 
 
 def package_data(
@@ -127,7 +142,7 @@ def package_data(
         By the sheet Options if not given.
     """
     edition = edition or assessment.project.options.package_edition
-    numbers = _numbers(pages_of(edition, since))
+    numbers = _numbers(pages_of(edition, since, has_motions=assessment.has_motions))
     return PackageData(assessment=assessment, edition=edition, numbers=numbers, changes=since)
 
 
@@ -151,5 +166,5 @@ def parts(package: PackageData) -> tuple[Part, ...]:
                 for count, (name, title) in enumerate(page.below(package), start=1)
             ),
         )
-        for page in pages_of(package.edition, package.changes)
+        for page in pages_in(package)
     )

@@ -13,6 +13,8 @@ from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.causes import causes, reasons, row_words
 from report.assessment.overrides import MEANING
 from report.assessment.precheck import findings
+from report.assessment.savings import saving
+from report.document.templates import sentence
 from report.entities.array import ArrayResult, array_results
 from report.entities.columns import UnitFormat
 from report.entities.marks import Marked
@@ -20,6 +22,7 @@ from report.pages.remedies import best_words
 from report.sheet.checking.findings import lines
 from report.sheet.schema.fields import Level
 from report.sheet.writing.legacy_notes import what_is_new
+from report.typeset.pdf import TEMPLATES
 from report.words.formats import aligned, finite
 from solver.rules.limit import Consequence
 
@@ -42,12 +45,20 @@ def summary(assessment: Assessment) -> Iterator[str]:
     """Yield the table of the arrays, what needs attention, and the verdict."""
     marked = Marked(assessment=assessment, has_daggers=False)
     rows = [_COLUMNS, *(_row(marked.fmt, item) for item in array_results(marked))]
+    if not assessment.has_motions:  # nothing is computed
+        rows = [(id, *others) for id, _, *others in rows]
     yield from aligned(rows)
     if assessment.is_overridden:
         yield MEANING
     for line in attention(assessment):
         yield f"{line.level}: {line.text}"
     yield f"verdict: {assessment.verdict.value}"
+
+
+def without_motions(assessment: Assessment) -> str:
+    """Return what is made without motions, and what an analysis could save."""
+    marked = Marked(assessment=assessment, has_daggers=False)
+    return sentence(TEMPLATES, "without_motions", marked, saving(assessment))
 
 
 def document(assessment: Assessment) -> dict[str, Any]:
@@ -96,6 +107,8 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[Conce
     for row, ids in assessment.alike_conditions:
         if row.verdict.is_permitted:
             yield Concern(row.consequence.value, row_words(row, ids))
+    if not assessment.has_motions:
+        yield Concern(Consequence.NOTE.value, without_motions(assessment))
     for row in assessment.notes:
         yield Concern(row.consequence.value, row_words(row, [row.subject]))
     for finding in what_is_new(assessment.sheet.book):

@@ -15,12 +15,15 @@ from report.entities.shown import length, required, text, words
 from report.pages.parts import PackageData
 from report.words.counts import lowered
 from report.words.units import number
+from solver.model import DefectError
 from solver.rules.provisions import Neighbor
 
 
 def margins(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return margins in friction, other directions, and sums over smaller events."""
     uncertainty, sums = evidence.uncertainty, evidence.cumulative
+    if uncertainty is None:
+        raise DefectError("a package without motions has no page on margins")
     return {
         "found": uncertainty,
         "margin": _smallest(uncertainty.margins),

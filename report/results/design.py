@@ -69,6 +69,13 @@ class DesignRow(SheetRow, ArrayResult):
     slack_m: Annotated[float | None, Column("Electrical slack [in]", 1, is_input=True)]
 
 
+_FROM = {
+    True: "From the sheets Peaks, any direction, and Inputs.",
+    False: "From the sheet Inputs; no motions are given, and the displacement is prescriptive.",
+}
+"""What the sheet follows from, with motions and without."""
+
+
 def write_design(
     pages: Pages,
     assessment: Assessment,
@@ -86,15 +93,15 @@ def write_design(
     """
     rows = []
     for item in assessment.arrays:
-        refs = {"inputs": inputs, "peaks": peaks[item.id, Direction.ANY]}
+        refs = {"inputs": inputs, "peaks": peaks.get((item.id, Direction.ANY), "")}
         rows.append(_row(assessment, item, refs, results[item.id]))
     sheet = write_live(
         pages,
         DesignRow,
         rows,
         "Design displacement",
-        f"{assessment.rules.name}. From the sheets Peaks, any direction, and Inputs. Other "
-        "requirements, those that need other runs or the plan, are those of the report."
+        f"{assessment.rules.name}. {_FROM[assessment.has_motions]} Other requirements, those that "
+        "need other runs or the plan, are those of the report."
         + (f" {MEANING}." if assessment.is_overridden else ""),
     )
     sheet.write_string("B3", "Verdict", pages.head)
@@ -164,7 +171,10 @@ def _row(
     formulas = {"verdict": _verdict(results)}
     if rules.importance_in_separation:
         formulas["importance"] = ""
-    if math.isnan(item.analysis.mean_m):
+    if not assessment.has_motions:
+        formulas |= dict.fromkeys(("n_motions", "mean_prd_m", "largest_prd_m"), "")
+        formulas |= {"computed_m": '="none"', "design_m": "={prescriptive_m}"}
+    elif math.isnan(item.analysis.mean_m):
         formulas |= dict.fromkeys(("computed_m", "design_m"), '="none"')
     elif item.route is Route.PRESCRIPTIVE:
         formulas["design_m"] = "=MAX({prescriptive_m},{largest_prd_m})"

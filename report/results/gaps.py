@@ -117,7 +117,7 @@ def _sides(assessment: Assessment, gap: ClearanceCheck) -> tuple[str, str]:
 
 def _displacement(assessment: Assessment, row: int, toward: Direction) -> str:
     """Return the cell of the displacement of an array that a clearance takes."""
-    if not assessment.project.options.directional:
+    if not (assessment.project.options.directional and assessment.has_motions):
         return fixed(DesignRow, "design_m", row)
     ways = list(Direction)
     return fixed(DirectionRow, "design_m", TOP + len(ways) * (row - TOP) + ways.index(toward))

@@ -63,10 +63,11 @@ class MotionRow(SheetRow, MotionResult):
 def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]) -> None:
     """Write the runs, the components of the motions, the records, spectra and neighbors."""
     shaking = assessment.shaking
-    write_list(pages, RunRow.sheet, list(_runs(assessment)))
-    write_list(pages, MotionRow.sheet, list(_motions(shaking)))
-    write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
-    write_table(pages, "Spectra", _spectra(spectra))
+    if assessment.has_motions:
+        write_list(pages, RunRow.sheet, list(_runs(assessment)))
+        write_list(pages, MotionRow.sheet, list(_motions(shaking)))
+        write_list(pages, "Records", list(map(RecordResult.of, shaking.records)))
+        write_table(pages, "Spectra", _spectra(spectra))
     if assessment.neighbors:
         write_list(pages, "Neighbors", list(map(NeighborResult.of, assessment.neighbors)))
 

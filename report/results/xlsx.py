@@ -26,11 +26,16 @@ _ORDER = (
 """The sheets in the order of the package."""
 
 
+OF_MOTIONS = {"Motions", "Records", "Spectra", "Directions", "Peaks", "Runs"}
+"""The sheets that a workbook without motions has not."""
+
+
 def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     """Return the tables as a workbook, with live formulas from the peaks to the separations."""
     buffer = io.BytesIO()
     absent = set() if assessment.linked else {"Links", "LinkRuns"}
     absent |= set() if assessment.neighbors else {"Neighbors"}
+    absent |= set() if assessment.has_motions else OF_MOTIONS
     with text_workbook(buffer, assessment.project.project.date) as workbook:
         pages = Pages(workbook, is_a4=not assessment.project.us_first)
         for name in _ORDER:
@@ -44,7 +49,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
 
 def _write_live(pages: Pages, assessment: Assessment) -> None:
     """Write the sheets with formulas, and the runs of rows of linked blocks."""
-    peaks = write_peaks(pages, assessment)
+    peaks = write_peaks(pages, assessment) if assessment.has_motions else {}
     inputs = write_inputs(pages, assessment)
     ids = [item.id for item in assessment.arrays]
     results = {id: [*result_cells(assessment, id), *link_cells(assessment, id)] for id in ids}
@@ -54,5 +59,6 @@ def _write_live(pages: Pages, assessment: Assessment) -> None:
     if assessment.linked:
         write_list(pages, LinkRunRow.sheet, list(link_run_rows(assessment)))
         write_links(pages, assessment, designs)
-    write_directions(pages, assessment, peaks, designs)
+    if assessment.has_motions:
+        write_directions(pages, assessment, peaks, designs)
     write_clearances(pages, assessment, inputs)

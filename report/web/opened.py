@@ -14,6 +14,7 @@ from report.motions.prepare import Shaking, read_records, shaking
 from report.motions.stiff_links import stiff_links
 from report.sheet.reading.read import Sheet, read
 from report.sheet.reading.what_if import retyped
+from report.sheet.schema.fields import Finding, Place
 from report.typeset.letters import check_letters
 from report.web.values import Values, typed
 
@@ -40,6 +41,12 @@ class Opened:
         return {motion.id: motion.scale for motion in self.shaking.motions}
 
 
+_NOTHING_TO_RUN = (
+    "no motion is given",
+    "fill in at least one row; roofslip report makes a package of the prescriptive displacement",
+)
+
+
 def opened(path: Path) -> Opened:
     """Read a workbook and its records.
 
@@ -50,6 +57,8 @@ def opened(path: Path) -> Opened:
     """
     sheet = read(path)
     check_letters(sheet)
+    if not sheet.draft["motions"]:
+        sheet.refuse([Finding.error(Place("motions"), *_NOTHING_TO_RUN)])
     by_motion = read_records(sheet)
     sheet.book.files.clear()  # for a package, which another process makes
     sheet.book.records.clear()

@@ -60,9 +60,8 @@ def faults(draft: Draft, where: Where) -> list[Finding]:
 
 
 def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
-    for section, noun in (("arrays", "array"), ("motions", "motion")):
-        if not draft[section]:
-            yield Finding.error(Place(section), f"no {noun} is given", "fill in at least one row")
+    if not draft["arrays"]:
+        yield Finding.error(Place("arrays"), "no array is given", "fill in at least one row")
 
 
 def _ids(draft: Draft, where: Where) -> Iterator[Finding]:

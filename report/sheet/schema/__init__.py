@@ -207,9 +207,10 @@ class ProjectInput(Frozen):
     rectangle is optional; enter an edge as a strip outside the roof."""
     clearances: Annotated[tuple[Clearance, ...], OnSheet("Clearances", "Clearances")] = ()
     """One row for each clearance to check; the object may be another array."""
-    motions: Annotated[tuple[MotionInput, ...], OnSheet("Motions", "Roof motions")]
-    """One row for each motion. Records are files beside this workbook (file, or file | channel) or
-    columns pasted into a sheet (Sheet!Header). Columns to the right of Source are optional."""
+    motions: Annotated[tuple[MotionInput, ...], OnSheet("Motions", "Roof motions")] = ()
+    """One row for each motion; without any, no analysis is made. Records are files beside this
+    workbook (file, or file | channel) or columns pasted into a sheet (Sheet!Header). Columns to the
+    right of Source are optional."""
     building: Annotated[
         BuildingInput, OnSheet("Building", "Building between ground and roof", may_be_absent=True)
     ] = BuildingInput()

@@ -43,6 +43,8 @@ STEPS = (
     "Run roofslip report FOLDER. It writes the calculation package to FOLDER/out.",
 )
 _NOTES = (
+    "Without rows on the sheet Motions, no analysis is made: the package takes the prescriptive"
+    " displacement for every array, and says what an analysis could save.",
     "Units are in brackets in the table headings and elsewhere in the column Unit. You may change"
     f" them: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}; stiffnesses to"
     f" {', '.join(STIFFNESSES)}; velocities to {', '.join(VELOCITIES)}.",

@@ -19,6 +19,7 @@ SETS = {
     "school": partial(scenes.shipped, "school"),
     "conditions": partial(scenes.shipped, "conditions"),
     "campus": partial(scenes.shipped, "campus"),
+    "without-motions": scenes.without_motions,
 }
 ALIKE = {"contents", "plan", "echo", "symbols"}
 """Parts that other projects print as the first one does."""
@@ -40,7 +41,9 @@ CHOSEN = {
     "school": [key for key in KEYS if key in SHIPPED],
     "conditions": [key for key in KEYS if key in SHIPPED],
     "campus": ["results", "limits"],
-}
+    "without-motions": ["cover", "contents", "letter", "summary", "basis", "inputs", "method",
+                        "limits", "records", "notes"],
+}  # fmt: skip
 PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
 
 

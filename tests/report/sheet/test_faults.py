@@ -414,11 +414,14 @@ def test_a_number_format_may_name_the_unit_of_its_cell(tmp_path, units, formats)
     read_workbook(formatted(make(tmp_path, UnitsFirst(units)), formats))
 
 
-@pytest.mark.parametrize(("key", "noun"), [("arrays", "array"), ("motions", "motion")])
-def test_at_least_one_row_is_required(tmp_path, key, noun):
-    assert problems(make(tmp_path, **{"clearances": [], key: []})) == said(
-        f"<{key.title()}/heading/ID>: no {noun} is given; fill in at least one row"
+def test_at_least_one_array_is_required(tmp_path):
+    assert problems(make(tmp_path, clearances=[], arrays=[])) == said(
+        "<Arrays/heading/ID>: no array is given; fill in at least one row"
     )
+
+
+def test_no_motion_is_required(tmp_path):
+    assert read_workbook(make(tmp_path, motions=[])).input.motions == ()
 
 
 @pytest.mark.quick

@@ -1,0 +1,185 @@
+"""A package without motions: every array takes the prescriptive displacement, and says so."""
+
+import json
+import math
+import re
+from itertools import pairwise
+
+import pytest
+from click.testing import CliRunner
+
+import printed
+import scenes
+from recalculated import recalculated
+from report.assessment.arrays import Route
+from report.assessment.assess import assess, changed
+from report.assessment.causes import reasons
+from report.assessment.evidence import support
+from report.assessment.verdict import Verdict
+from report.cli.check import checked, lines
+from report.cli.main import main
+from report.drawing.dxf import write_dxf
+from report.drawing.layers import Layer
+from report.drawing.plan import plan_drawing
+from report.making import make
+from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in
+from report.pages.summary import summary
+from report.results.json import results_json
+from report.results.since import former_from
+from report.results.xlsx import results_xlsx
+from report.sheet.schema.choices import PackageEdition
+from sheets import type_into, without_motions
+
+PRESCRIPTIVE_M = 60 * 0.0254 * (1.566 - 0.4) ** 2
+
+
+def with_arrays(**changes):
+    """The example without motions, its first array changed."""
+    given = scenes.without_motions()
+    first, *others = given.project.arrays
+    arrays = (first.model_copy(update=changes), *others)
+    return assess(given.sheet, given.shaking, project=changed(given.project, arrays=arrays))
+
+
+def test_every_array_takes_the_prescriptive_displacement_and_has_no_value_from_analysis():
+    for item in scenes.without_motions().arrays:
+        assert item.route is Route.PRESCRIPTIVE
+        assert item.is_permitted
+        assert item.design_m == pytest.approx(PRESCRIPTIVE_M, rel=1e-4)
+        assert not item.runs
+        assert math.isnan(item.analysis.value_m)
+
+
+def test_a_clearance_is_compared_with_the_prescriptive_displacement():
+    given = scenes.without_motions()
+    verdicts = {gap.between: gap.verdict for gap in given.clearances}
+    assert verdicts["A1", "A2"] is Verdict.OK  # 96 in, for 81.6
+    assert verdicts["A1", "RTU-1"] is Verdict.NG  # 48 in
+    assert given.verdict is Verdict.NG
+
+
+def test_a_route_that_is_not_permitted_is_ng_with_what_would_do():
+    given = with_arrays(mu=0.35)
+    first = given.arrays[0]
+    assert given.array_verdict(first) is Verdict.NG
+    assert math.isnan(first.permitted_m)
+    assert {gap.verdict for gap in given.gaps_of("A1")} == {Verdict.NONE}
+    said = next(reasons(given))
+    assert said.startswith("array A1, friction coefficient, prescriptive route: 0.350; at least 0.")
+    assert said.endswith("; or give motions on the sheet Motions, for an analysis")
+
+
+def test_where_no_analysis_would_be_permitted_either_it_is_not_offered():
+    found = [said for said in reasons(with_arrays(slope_value=8.0)) if said.startswith("array A1")]
+    assert found
+    assert not any("give motions" in said for said in found)
+
+
+def test_tipping_is_checked_with_the_most_that_friction_transmits():
+    array = with_arrays(mu=0.5, cg_height_m=1.0, support_spacing_m=0.8).arrays[0]
+    assert array.tipping.ratio == pytest.approx(0.5 / (0.8 / 2.0))
+    assert not array.tipping.is_ok
+
+
+def test_the_package_has_the_pages_that_need_no_run():
+    package = package_data(scenes.without_motions(), edition=PackageEdition.COMPLETE)
+    ids = [page.id for page in PAGES]
+    assert set(ids) >= OF_MOTIONS
+    assert [page.id for page in pages_in(package)] == [id for id in ids if id not in OF_MOTIONS]
+    usual = package_data(scenes.usual(), edition=PackageEdition.COMPLETE)
+    assert [page.id for page in pages_in(usual)] == ids
+
+
+CLAIMED = re.compile(
+    r"PRD|final value|as run|runs? of [0-9]|response history|every run|all runs|AC156",
+    re.IGNORECASE,
+)
+"""What only runs give."""
+
+
+@pytest.mark.parametrize(
+    "id", [*printed.FRONT, *(id for id in printed.IDS if id not in OF_MOTIONS | {"symbols"})]
+)
+def test_no_page_states_anything_of_runs(id):
+    text = printed.printed(scenes.without_motions(), id)
+    # What the workbook was given, and the numbers of the rule set, are no claims.
+    if id not in ("echo", "provisions"):
+        assert not CLAIMED.search(text)
+    assert "nan" not in text.split()
+
+
+def test_the_summary_says_what_an_analysis_could_save():
+    page = printed.printed(scenes.without_motions(), "summary")
+    assert page.facts["Analysis"] == "none: no motions are given"
+    said = page.line(
+        "By analysis, the design displacement of all arrays could be as low as 40.8 in"
+    )
+    assert said.endswith("all of the four clearances that are not satisfied would be.")
+
+
+def test_the_screen_says_it_too_and_shows_no_computed_displacement():
+    said = list(summary(scenes.without_motions()))
+    assert said[0].split()[:3] == ["array", "prescriptive", "design"]
+    (note,) = [line for line in said if line.startswith("note: no motions are given")]
+    assert "81.6 in (2072 mm)" in note
+    assert "40.8 in (1036 mm)" in note
+    assert said[-1] == "verdict: NG"
+
+
+def test_check_says_what_is_made_and_what_is_not(tmp_path):
+    path = type_into(without_motions(tmp_path), {"Options/Smaller events": "0.50"})
+    sheet, _, found = checked(path)
+    notes = [line for line in lines(sheet, found) if line.startswith("note: ")]
+    assert any("Motions!" in note and "takes the prescriptive displacement" in note
+               for note in notes)  # fmt: skip
+    assert any("smaller events needs motions" in note for note in notes)
+
+
+def test_results_json_has_null_for_what_needs_runs_and_is_read_as_a_former_revision():
+    given = scenes.without_motions()
+    content = results_json(given, support(given))
+    document = json.loads(content)
+    assert document["motions"] == document["acceptance"] == []
+    assert document["certainty"] is None
+    array = document["arrays"][0]
+    assert array["computed_m"] is array["peak_speed_mps"] is array["uplift"]["n_min_g"] is None
+    assert array["design_governs"] == "prescriptive"
+    assert array["runs"] == []
+    former = former_from(content, "former")
+    assert former.arrays[0].design_m == given.arrays[0].design_m
+
+
+def test_the_plan_is_drawn_without_the_envelope_of_runs():
+    drawn = write_dxf(plan_drawing(scenes.without_motions())).decode()
+    layers = [after.strip() for at, after in pairwise(drawn.splitlines()) if at.strip() == "8"]
+    assert Layer.DESIGN.title in layers
+    assert Layer.RUNS.title not in layers
+
+
+def _book(tmp_path):
+    path = tmp_path / "results.xlsx"
+    path.write_bytes(results_xlsx(scenes.without_motions(), ()))
+    (book,) = recalculated([path], tmp_path)
+    return book
+
+
+@pytest.mark.nightly
+def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
+    book = _book(tmp_path)
+    assert book.sheetnames == ["Design", "Clearances", "Neighbors", "Requirements", "Inputs"]
+    rows = [[cell.value for cell in row] for row in book["Design"].iter_rows(min_row=4)]
+    heads, first = rows[0], rows[1]
+    design = dict(zip(heads, first, strict=False))
+    assert design["Computed [in]"] == "none"
+    assert design["Number of motions"] == 0
+    assert first.count(pytest.approx(PRESCRIPTIVE_M / 0.0254, abs=0.05)) >= 3
+    cells = [cell for sheet in book for row in sheet for cell in row if cell.value is not None]
+    assert not [cell.coordinate for cell in cells if str(cell.value).startswith("#")]
+
+
+@pytest.mark.nightly
+def test_the_package_is_made_and_verified_from_the_workbook_alone(tmp_path):
+    _, folder, made, _ = make(without_motions(tmp_path), None, None, lambda _: None)
+    assert {path.name for path in folder.iterdir()} >= made.keys()
+    ran = CliRunner().invoke(main, ["verify-package", str(folder / "calc-package.pdf")])
+    assert ran.exit_code == 0, ran.output
