@@ -125,6 +125,44 @@ def grounded(data, given, *, vertical: bool = True, transverse: bool = False) ->
 
 
 @cache
+def twelve(*, is_long: bool) -> PackageData:
+    """Return twelve arrays in three columns, each with a unit beside it, and 29 clearances.
+
+    The names of arrays, units and motions have 40 characters, or a few.
+    """
+
+    def name(start: str, words: str, number: int) -> str:
+        return f"{words} {number:02}" if is_long else f"{start}{number}"
+
+    arrays = [name("A", "NORTHWEST CORNER OF UPPER ROOF, ARRAY", k) for k in range(1, 13)]
+    units = [name("RTU-", "Make-up air unit of the kitchens, no.", k) for k in range(1, 13)]
+    ids = [name("M", "Loma Prieta 1989, Gilroy, scaled, no.", k) for k in range(1, 8)]
+    places = [(15 + 90 * (k // 4), 15 + 66 * (k % 4)) for k in range(12)]
+    clearances = [
+        *(
+            stand_in.clearance(array, unit, 2 * FOOT)
+            for array, unit in zip(arrays, units, strict=True)
+        ),
+        *(stand_in.clearance(arrays[k], arrays[k - 1], 4 * FOOT) for k in range(12) if k % 4),
+        *(stand_in.clearance(arrays[k], arrays[k - 4], 8 * FOOT) for k in range(4, 12)),
+    ]
+    return package(
+        tuple(replace(motion, id=id) for motion, id in zip(motions(7), ids, strict=True)),
+        arrays=[
+            stand_in.array(id, 2.0, x=x, y=y) for id, (x, y) in zip(arrays, places, strict=True)
+        ],
+        objects=[
+            stand_in.roof_object(id, "fixed object", x + 82, x + 86, y + 20, y + 25)
+            for id, (x, y) in zip(units, places, strict=True)
+        ],
+        clearances=clearances,
+        motions=[inputs.motion(id) for id in ids],
+        roof=inputs.sides(0, 300, 0, 290),
+        options={"package_edition": "plan check", "letter": False},
+    )
+
+
+@cache
 def shipped(name: str) -> Assessment:
     """Return a project that comes with the program."""
     book = read_workbook(ROOT / "projects" / name)

@@ -161,7 +161,8 @@ def _dimension(plan: PlanSheet, provided: str, equal: Sequence[Lane]) -> None:
             base = (x + BASE_IN, y) if is_upright else (x, y - BASE_IN)
             plan.paper.text(*base, words, is_centered=True, is_upright=is_upright)
             return
-    plan.beside(equal[0].number, words.split(", "), RADIUS_IN)
+    if not plan.beside(equal[0].number, words.split(", "), RADIUS_IN):
+        plan.unnamed.append(words)
 
 
 def alongside(lane: Lane, long: float, overhang: float) -> Iterator[float]:

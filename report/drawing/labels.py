@@ -16,7 +16,7 @@ from report.drawing.paper import LINE_IN, PAD_IN, text_size
 from report.drawing.placer import Frame, centered
 from report.drawing.schedule import size_words
 from report.drawing.sheet import PlanSheet
-from report.drawing.widths import tick_text, width_in
+from report.drawing.widths import width_in
 from report.sheet.schema.choices import ObjectKind
 from report.sheet.schema.scene import RoofObject
 from report.sheet.schema.shapes import Point, Rectangle
@@ -32,11 +32,11 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
     for item in plan.edges:
         shape, words = plan.shapes[item.id], _edge_words(plan, item)
         if not isinstance(shape, Rectangle):
-            plan.beside(plan.room(item.id), [words])
+            plan.name_beside(plan.room(item.id), words)
             continue
         frame = plan.paper.frame(shape)
         if width_in(words) > max(frame.wide, frame.tall) or not plan.size.is_full:
-            words = tick_text(item.id)
+            words = plan.printed(item.id)
         _write_along(plan, frame, middle, words)
 
 
@@ -61,10 +61,12 @@ def along_strip(frame: Frame, middle: Point, wide: float) -> tuple[Frame, bool]:
 
 def _edge_words(plan: PlanSheet, item: RoofObject) -> str:
     if item.kind is ObjectKind.EDGE_WITHOUT_PARAPET:
-        return f"{tick_text(item.id)}: no parapet"
+        return f"{plan.printed(item.id)}: no parapet"
     height = math.nan if item.height_m is None else item.height_m
     note = parapet_note(plan.assessment, item)
-    return f"{tick_text(item.id)}: parapet {pair(height, Quantity.SIZE, plan.fmt.us_first)}{note}"
+    return (
+        f"{plan.printed(item.id)}: parapet {pair(height, Quantity.SIZE, plan.fmt.us_first)}{note}"
+    )
 
 
 def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
@@ -111,12 +113,12 @@ def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
     else:
         lines = []
         if frame.wide < name.wide or frame.tall < name.tall:
-            plan.beside(frame, [tick_text(array.id)])
+            plan.name_beside(frame, plan.printed(array.id))
         else:
             plan.paper.placer.take(name)
-            plan.paper.label(name, [tick_text(array.id)], first_bold=True)
+            plan.paper.label(name, [plan.printed(array.id)], first_bold=True)
     if len(lines) < min(3, len(shown[0])):
-        plan.shortened.append(array.id)
+        plan.crowded.append(array.id)
 
 
 def _write(
@@ -139,7 +141,7 @@ def _write(
 
 def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
     """Yield the lines of an array's label, then fewer where there is less room."""
-    name, fmt, says = tick_text(array.id), plan.fmt, [plan.fmt.short]
+    name, fmt, says = plan.printed(array.id), plan.fmt, [plan.fmt.short]
     if plan.designs:
         yield [name, f"Δ {plan.designs[array.id]}"]
         yield [name]
@@ -161,7 +163,7 @@ def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]
 def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
     """Return where the name of an object fits in the middle of it, if it does."""
     frame = plan.room(item.id)
-    wide, tall = text_size([tick_text(item.id)])
+    wide, tall = text_size([plan.printed(item.id)])
     is_room = wide < frame.wide and tall < frame.tall
     return centered(*frame.middle, wide, tall) if is_room else None
 
@@ -169,11 +171,11 @@ def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
 def label_object(plan: PlanSheet, item: RoofObject) -> None:
     """Name an object inside of it, or beside it with a leader."""
     frame = plan.room(item.id)
-    words = tick_text(item.id)
+    words = plan.printed(item.id)
     wide, tall = text_size([words])
     label = plan.paper.placer.place(wide, tall, frame.middle, _inner(frame))
     if label is None:
-        plan.beside(frame, [words])
+        plan.name_beside(frame, words)
         return
     plan.paper.box(Mark.BACKING, label)
     plan.paper.label(label, [words])

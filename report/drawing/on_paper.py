@@ -7,6 +7,7 @@ Places finished numbers and words; `report.figures.plan` and `report.web.plan` p
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -23,10 +24,11 @@ from report.drawing.labels import (
 )
 from report.drawing.paper import Paper, Scale, round_scale
 from report.drawing.placer import Frame, Placer
-from report.drawing.schedule import Schedule, alike_arrays, beside
+from report.drawing.schedule import Schedule, alike_arrays, beside, key_tall
 from report.drawing.shapes import draw_coordinates, draw_outlines, take_edges
 from report.drawing.sheet import (
     A3,
+    A4,
     BESIDE_IN,
     COLUMN_IN,
     LANDSCAPE,
@@ -43,7 +45,7 @@ from report.sheet.schema.shapes import Rectangle, around
 def is_wide(assessment: Assessment) -> bool:
     """Whether the large plan goes on a page in landscape: for a larger scale, or a wide roof."""
     extent = _extent(assessment)
-    flat, tall = (_scale(assessment, extent, size).m_per_in for size in (LANDSCAPE, PORTRAIT))
+    flat, tall = (_scale(assessment, extent, size).m_per_in for size in _small(assessment))
     if flat == tall:
         return extent.x_to_m - extent.x_from_m >= extent.y_to_m - extent.y_from_m
     return flat < tall
@@ -100,17 +102,27 @@ def printed_plan(assessment: Assessment) -> PrintedPlan:
         sheet = plan_on_paper(assessment, size)
         key = key_on_paper(sheet, COLUMN_IN - BESIDE_IN)
         found = room(size, key.tall)
-        if found.is_all(assessment) and not sheet.unnamed + sheet.shortened:
+        if found.is_all(assessment) and not sheet.unnamed + sheet.crowded:
             break
     return PrintedPlan(size, sheet.paper, key, found, sheet.unnamed)
 
 
 def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
     """Return the sizes on the paper asked for, or on any, the smallest first."""
-    letter = LANDSCAPE if is_wide(assessment) else PORTRAIT
-    papers = {PlanPaper.LETTER: (letter,), PlanPaper.TABLOID: TABLOID, PlanPaper.A3: A3}
-    large = TABLOID if unit_format(assessment).us_first else A3
-    return papers.get(assessment.project.options.plan_paper, (letter, *large))
+    flat, upright = _small(assessment)
+    small = (flat if is_wide(assessment) else upright,)
+    large = A3 if assessment.project.is_on_a4 else TABLOID
+    sizes = {
+        PlanPaper.BY_SIZE: (*small, *large),
+        **dict.fromkeys((PlanPaper.LETTER, PlanPaper.A4), small),
+        **dict.fromkeys((PlanPaper.TABLOID, PlanPaper.A3), large),
+    }[assessment.project.options.plan_paper]
+    return [replace(size, tall=size.tall - key_tall(assessment, size)) for size in sizes]
+
+
+def _small(assessment: Assessment) -> tuple[PlanSize, PlanSize]:
+    """Return the sizes on the small paper, in landscape and upright."""
+    return A4 if assessment.project.is_on_a4 else (LANDSCAPE, PORTRAIT)
 
 
 def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Frame]:

@@ -23,6 +23,7 @@ _OFFSETS = np.column_stack(
 _DISTANCES_IN = np.hypot(*_OFFSETS.T)
 _NEAR_IN = 0.4  # tried first
 _TRIED = 200  # candidates whose leaders are checked, the nearest ones
+_CROSSED = 3.0  # what a leader that may cross a label or a wall costs more
 _AT_START_IN = 0.12  # length of a leader within the mark that it leads from
 
 
@@ -131,6 +132,8 @@ class Placer:
         near: Point,
         within: Frame | None = None,
         maximum: float = 4.0,
+        *,
+        may_cross: bool = False,
     ) -> Frame | None:
         """Reserve and return the frame of a label nearest to a point; None if there is no room.
 
@@ -142,12 +145,16 @@ class Placer:
             Where it must lie; the page if not given.
         maximum : float
             Largest distance of its center from the point [in].
+        may_cross : bool
+            Whether the leader may cross labels and walls, as few as there can be.
         """
         page = self._page if within is None else within
         if wide > page.wide or tall > page.tall:
             return None
+        cost = _CROSSED if may_cross else np.inf
         tables = (self._taken, self._threads, self._lines, self._walls)
-        frame = _placed((wide, tall), near, page, maximum, *(table.tobytes() for table in tables))
+        rows = (table.tobytes() for table in tables)
+        frame = _placed((wide, tall), near, page, maximum, cost, *rows)
         if frame is not None:
             self.take(frame)
         return frame
@@ -155,18 +162,25 @@ class Placer:
 
 # While a slider moves, sizes of labels stay: most are placed again where they were.
 @lru_cache(500)
-def _placed(size: Point, near: Point, page: Frame, maximum: float, *tables: bytes) -> Frame | None:
+def _placed(
+    size: Point, near: Point, page: Frame, maximum: float, crossed: float, *tables: bytes
+) -> Frame | None:
     """Return the frame of a label of a size among what is taken, threads, lines and walls."""
     rows = [np.frombuffer(table).reshape(-1, 4) for table in tables]
     # Most labels find room near; what is farther away costs more than its distance.
-    cost, frame = _best(size, near, page, min(_NEAR_IN, maximum), rows)
+    cost, frame = _best(size, near, page, min(_NEAR_IN, maximum), crossed, rows)
     if cost > _NEAR_IN:
-        _, frame = _best(size, near, page, maximum, rows)
+        _, frame = _best(size, near, page, maximum, crossed, rows)
     return frame
 
 
 def _best(
-    label: Point, near: Point, page: Frame, maximum: float, tables: Sequence[Corners]
+    label: Point,
+    near: Point,
+    page: Frame,
+    maximum: float,
+    crossed: float,
+    tables: Sequence[Corners],
 ) -> tuple[float, Frame | None]:
     """Return the frame that costs least, with its cost; infinity if there is none."""
     size = np.array(label)
@@ -190,7 +204,8 @@ def _best(
     first = np.argsort(cost, kind="stable")[:_TRIED]
     low, cost = low[first], cost[first]
     total = cost + 0.5 * _crossings(low, low + size, near, threads)
-    total[_crossings(low, low + size, near, np.vstack((taken, walls))) > 0.0] = np.inf
+    crossings = _crossings(low, low + size, near, np.vstack((taken, walls)))
+    total[crossings > 0.0] += crossed * crossings[crossings > 0.0]
     best = int(np.argmin(total))
     if total[best] == np.inf:
         return np.inf, None

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from report.assessment.arrays import ArrayAssessment
 from report.assessment.envelopes import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.project import Assessment
-from report.drawing.sheet import PlanSize
+from report.drawing.sheet import COLUMN_IN, PlanSize
 from report.drawing.widths import width_in
 from report.entities.columns import UnitFormat
 from report.sheet.schema.shapes import Shape, around
@@ -21,8 +21,9 @@ from report.words.counts import ids_by, ranged
 from report.words.units import Quantity, measured, no_less, number
 
 ROW_IN = 0.175  # of a table of the package
-_IDS_IN, _FROM_IN, _TO_IN = 0.48, 0.33, 0.46  # width of words in columns of the tables
+_IDS_IN, _FROM_IN, _TO_IN = 0.48, 0.22, 0.48  # width of words in columns of the tables
 _AROUND_ARRAYS_IN, _AROUND_SCHEDULE_IN = 1.05, 0.62  # captions, headings, notes and margins
+_KEY_ROW_IN, _KEY_COLUMN_IN, _AROUND_KEY_IN = 0.15, 2.7, 0.25  # of the key to names
 _BELOW_IN = 0.35  # by which columns may be taller than the plan
 
 
@@ -68,17 +69,32 @@ class Schedule(NamedTuple):
         return self.has_arrays and sum(self.rows) == len(assessment.clearances)
 
 
+def key_tall(assessment: Assessment, size: PlanSize) -> float:
+    """Return the height of the key to the names below a full plan and its tables [in]."""
+    data = assessment.project
+    ids = [*(row.id for row in data.arrays), *(row.id for row in data.objects)]
+    keys = data.names.keys.keys() & ids
+    columns = math.floor((size.wide + size.columns * COLUMN_IN) / _KEY_COLUMN_IN)
+    return _AROUND_KEY_IN + _KEY_ROW_IN * math.ceil(len(keys) / columns) if keys else 0.0
+
+
 def beside(
     assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize, key_tall: float
 ) -> Schedule:
     """Return what has room beside a plan; the first column has the legend, of a height [in]."""
     room = size.tall + _BELOW_IN - key_tall
-    arrays_tall = _AROUND_ARRAYS_IN + ROW_IN * sum(_lines(row.ids, _IDS_IN) for row in arrays)
+    printed = assessment.project.names
+    arrays_tall = _AROUND_ARRAYS_IN
+    arrays_tall += ROW_IN * sum(_lines(printed(row.ids), _IDS_IN) for row in arrays)
     has_arrays = arrays_tall <= room
     if has_arrays:
         room -= arrays_tall
     tall = [
-        ROW_IN * max(_lines(gap.clearance.array, _FROM_IN), _lines(gap.clearance.object, _TO_IN))
+        ROW_IN
+        * max(
+            _lines(printed(gap.clearance.array), _FROM_IN),
+            _lines(printed(gap.clearance.object), _TO_IN),
+        )
         for gap in assessment.clearances
     ]
     rows: list[int] = []

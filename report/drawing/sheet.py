@@ -6,7 +6,7 @@ Read `report.drawing.on_paper` first.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -17,8 +17,8 @@ from report.drawing.items import Mark
 from report.drawing.layers import Layer
 from report.drawing.paper import Paper, text_size
 from report.drawing.placer import Frame
+from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
-from report.sheet.schema.choices import PlanPaper
 from report.sheet.schema.scene import RoofObject
 from report.sheet.schema.shapes import Point, Shape, room
 
@@ -36,8 +36,8 @@ class PlanSize:
     key_wide, key_tall : float
         Of the legend, to the right of the plan, or on a screen below it. That of a full plan is on
         a paper of its own.
-    paper : PlanPaper
-        What a full plan is printed on.
+    sheet : str
+        Which of the sheets of the package a full plan is printed on, by its name there.
     columns : int
         Columns of tables beside a full plan.
     is_full : bool
@@ -50,7 +50,7 @@ class PlanSize:
     tall: float
     key_wide: float = 0.0
     key_tall: float = 0.0
-    paper: PlanPaper = PlanPaper.LETTER
+    sheet: str = ""
     columns: int = 0
     is_full: bool = False
     is_screen: bool = False
@@ -65,17 +65,16 @@ COLUMN_IN, BESIDE_IN = 2.8, 0.15
 """Width of a column of tables beside a full plan, with its distance, and this distance."""
 
 
-def _full(
-    wide: float, tall: float, columns: int = 1, paper: PlanPaper = PlanPaper.LETTER
-) -> PlanSize:
+def _full(sheet: str, wide: float, tall: float, columns: int = 1) -> PlanSize:
     """Return a full plan beside columns of tables on a sheet with this room [in]."""
     left = wide - columns * COLUMN_IN
-    return PlanSize(wide=left, tall=tall, columns=columns, paper=paper, is_full=True)
+    return PlanSize(wide=left, tall=tall, columns=columns, sheet=sheet, is_full=True)
 
 
-LANDSCAPE, PORTRAIT = _full(9.8, 5.5), _full(7.3, 8.0)
-TABLOID = tuple(_full(15.8, 7.5, columns, PlanPaper.TABLOID) for columns in (1, 2))
-A3 = tuple(_full(15.3, 8.2, columns, PlanPaper.A3) for columns in (1, 2))
+LANDSCAPE, PORTRAIT = _full("letter-landscape", 9.8, 5.5), _full("letter-upright", 7.3, 8.0)
+A4 = _full("a4-landscape", 10.49, 5.27), _full("a4-upright", 7.07, 8.69)
+TABLOID = tuple(_full("tabloid", 15.8, 7.5, columns) for columns in (1, 2))
+A3 = tuple(_full("a3", 15.3, 8.2, columns) for columns in (1, 2))
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,9 +108,9 @@ class PlanSheet:
     has_verdicts : bool
         Whether it says which gaps are NG.
     unnamed : list of str
-        What found no room for its label so far.
-    shortened : list of str
-        The arrays whose labels found no room for displacement and dimensions.
+        What found no room for its label so far, and has none.
+    crowded : list of str
+        What found no room for its label, or for all of it, near its place.
     """
 
     assessment: Assessment
@@ -120,7 +119,7 @@ class PlanSheet:
     designs: Mapping[str, str]
     has_verdicts: bool
     unnamed: list[str] = field(default_factory=list)
-    shortened: list[str] = field(default_factory=list)
+    crowded: list[str] = field(default_factory=list)
 
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:
@@ -136,6 +135,11 @@ class PlanSheet:
     def fmt(self) -> UnitFormat:
         """The units of the plan."""
         return unit_format(self.assessment)
+
+    @cached_property
+    def printed(self) -> Callable[[str], str]:
+        """How the names of arrays and objects are printed."""
+        return tick_text if self.size.is_screen else self.assessment.project.names
 
     @property
     def envelopes(self) -> Collection[Layer]:
@@ -184,16 +188,36 @@ class PlanSheet:
             self.paper.lines(Mark.LEADER, (start, end))
             self.paper.placer.take_segment(start, end)
 
-    def beside(self, frame: Frame, lines: Sequence[str], radius: float = 0.0) -> None:
-        """Name something outside of it, with a leader from its middle or a circle about that."""
-        size = text_size(lines)
-        label = self.paper.placer.place(*size, frame.middle, maximum=self.leader_in)
-        if label is None:
-            self.unnamed.append(", ".join(lines))
+    def name_beside(self, frame: Frame, name: str) -> None:
+        """Name an array or an object outside of it: on a full plan far from it rather than not."""
+        if self.beside(frame, [name]):
             return
+        self.crowded.append(name)
+        if not self.size.is_full or not self.beside(frame, [name], is_last=True):
+            self.unnamed.append(name)
+
+    def beside(
+        self,
+        frame: Frame,
+        lines: Sequence[str],
+        radius: float = 0.0,
+        *,
+        is_last: bool = False,
+    ) -> bool:
+        """Write outside of something, with a leader from its middle or a circle about that.
+
+        Return whether there is room for it; if it `is_last`, also far away and across others.
+        """
+        maximum = math.inf if is_last else self.leader_in
+        label = self.paper.placer.place(
+            *text_size(lines), frame.middle, maximum=maximum, may_cross=is_last
+        )
+        if label is None:
+            return False
         self.leader(frame.middle, label, radius)
         self.paper.box(Mark.FRAME, label)
         self.paper.label(label, lines)
+        return True
 
 
 def unit_format(assessment: Assessment) -> UnitFormat:

@@ -5,12 +5,11 @@ Computes only the layout. Read `report.figures.base` first.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.drawing.widths import tick_text
 from report.figures.base import GRAY, INK, Broken, canvas, style, svg_text
 from report.figures.history import envelope
 from report.words.units import G_MPS2, round_below
@@ -23,8 +22,10 @@ _BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at l
 _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
-def accelerations(motions: Sequence[Motion]) -> str:
+def accelerations(motions: Sequence[Motion], printed: Callable[[str], str] = str) -> str:
     """Return the scaled accelerations of the motions over time, all at one scale.
+
+    `printed` gives the names as they are printed.
 
     All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
@@ -36,7 +37,7 @@ def accelerations(motions: Sequence[Motion]) -> str:
         rows = (-len(motions) - _BOTTOM_IN / _ROW_IN, _TOP_IN / _ROW_IN)
         figure, axes = canvas(height, (-_LABELS, len(_COLUMNS)), rows)
         _lines(axes, motions, scaled, reach, seconds)
-        _words(axes, motions, scaled)
+        _words(axes, [printed(motion.id) for motion in motions], scaled)
         _scales(axes, len(motions), reach, seconds)
         return svg_text(figure)
 
@@ -61,11 +62,11 @@ def _lines(
     axes.plot(histories.x, histories.y, color=INK, linewidth=0.4)
 
 
-def _words(axes: Axes, motions: Sequence[Motion], scaled: Sequence[Sequence[Floats]]) -> None:
+def _words(axes: Axes, names: Sequence[str], scaled: Sequence[Sequence[Floats]]) -> None:
     for column, title in enumerate(_COLUMNS):
         axes.text(column, 0.1, title, weight="semibold", va="bottom")
-    for row, (motion, components) in enumerate(zip(motions, scaled, strict=True)):
-        axes.text(-_LABELS, -row - 0.5, tick_text(motion.id), va="center")
+    for row, (name, components) in enumerate(zip(names, scaled, strict=True)):
+        axes.text(-_LABELS, -row - 0.5, name, va="center")
         for column, a_g in enumerate(components):
             if not a_g.size:
                 axes.text(column + 0.47, -row - 0.5, "none", va="center", ha="center")

@@ -7,14 +7,13 @@ meaning). Fonts and style are in `base`.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from report.assessment.arrays import NOT_PERMITTED, ArrayAssessment
-from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
 from report.figures.base import ACCENT, GRAY, INK, framed, style, svg_text
 from report.words.counts import ranged
@@ -26,6 +25,7 @@ def comparison(
     groups: Sequence[Sequence[ArrayAssessment]],
     us_first: bool,
     others_m: Mapping[str, float] = {},
+    printed: Callable[[str], str] = str,
 ) -> str:
     """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays.
 
@@ -33,11 +33,13 @@ def comparison(
     ----------
     others_m : mapping of str to float, optional
         The design displacement [m] of an array with another input.
+    printed : callable, optional
+        Gives the names as they are printed.
     """
     first, second = UnitFormat(us_first).units()
     with style():
         height = 1.3 + _row_in(len(groups)) * len(groups)
-        names = [cut(ranged(tick_text(array.id) for array in group), 32) for group in groups]
+        names = [cut(printed(ranged(array.id for array in group)), 32) for group in groups]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
             _compare(axes, row, group[0], first)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -12,7 +12,6 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from report.assessment.runs import MotionRun
-from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
 from report.figures.base import (
     ACCENT,
@@ -45,9 +44,12 @@ class RunPanel(NamedTuple):
     history: SlideHistory
 
 
-def histories(panels: Sequence[RunPanel], us_first: bool) -> str:
+def histories(
+    panels: Sequence[RunPanel], us_first: bool, printed: Callable[[str], str] = str
+) -> str:
     """Return the relative displacement in the governing run of each panel, PRD marked.
 
+    `printed` gives the names as they are printed.
     All panels share one pair of axes, with offsets: one pair for each would take ten times as long.
     """
     grid = _Grid(panels, UnitFormat(us_first).units()[0])
@@ -58,7 +60,7 @@ def histories(panels: Sequence[RunPanel], us_first: bool) -> str:
         _rules(axes, grid, len(panels))
         _traces(axes, grid)
         for index, panel in enumerate(panels):
-            _titles(axes, grid, index, panel, us_first)
+            _titles(axes, grid, index, panel, us_first, printed)
         return svg_text(figure)
 
 
@@ -165,11 +167,18 @@ def _names(axes: Axes, grid: _Grid, index: int, history: SlideHistory) -> None:
         axes.text(grid.x(index, grid.seconds) + 0.015, level, name, va="center")
 
 
-def _titles(axes: Axes, grid: _Grid, index: int, panel: RunPanel, us_first: bool) -> None:
+def _titles(
+    axes: Axes,
+    grid: _Grid,
+    index: int,
+    panel: RunPanel,
+    us_first: bool,
+    printed: Callable[[str], str],
+) -> None:
     top, run = grid.y(index, grid.high) + 0.045, panel.motion
-    name = f"{tick_text(run.motion.id)} {_short(run)}"
+    name = f"{printed(run.motion.id)} {_short(run)}"
     if panel.array:
-        name = f"{tick_text(panel.array)}: {name}"
+        name = f"{printed(panel.array)}: {name}"
     prd = UnitFormat(us_first).both(run.governing.prd_m)
     axes.text(grid.x(index, 0.0), top, name, weight="semibold")
     axes.text(index % grid.columns + 0.97, top, prd, ha="right")

@@ -7,14 +7,13 @@ from the top of the page. Read `hodographs`.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from report.assessment.runs import MotionRun
-from report.drawing.widths import tick_text
 from report.entities.columns import UnitFormat
 from report.figures.base import GRAY, INK, WIDTH_IN, canvas, style, svg_text
 from report.words.units import round_below
@@ -27,11 +26,14 @@ STEP_IN = 0.008  # between points of a path: what print resolves
 
 
 def hodographs(
-    motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
+    motions: Sequence[MotionRun],
+    followed: Sequence[SlideHistory],
+    us_first: bool,
+    printed: Callable[[str], str] = str,
 ) -> str:
     """Return the path in plan of the governing run of each motion, PRD marked, with a scale bar.
 
-    `followed` are the histories of these runs.
+    `followed` are the histories of these runs; `printed` gives the names as they are printed.
     """
     paths = [path_of(history) for history in followed]
     panel = PanelScale.around(paths)
@@ -43,7 +45,7 @@ def hodographs(
         for index, (run, path) in enumerate(zip(motions, paths, strict=True)):
             left = index % columns * panel.wide_in
             top = tall - index // columns * (panel.tall_in + TITLE_IN)
-            name = tick_text(run.motion.id)
+            name = printed(run.motion.id)
             axes.text(left, top - 0.03, name, va="top", weight="semibold")
             _draw(axes, panel, path, (left, top - TITLE_IN))
         _arrow(axes)

@@ -15,6 +15,7 @@ from report.drawing.on_paper import printed_plan
 from report.pages import friction_tests
 from report.pages.parts import PackageData
 from report.words.counts import ranged
+from report.words.names import Names
 from solver.model import SlideHistory
 
 PANELS, CHART_ROWS, ACCELERATION_ROWS = 12, 16, 16  # maximum in one figure: it must fit on a page
@@ -34,6 +35,7 @@ def draw_assessment(package: PackageData) -> Drawings:
     from report.figures.section import array_section
 
     us_first, assessment = package.fmt.us_first, package.assessment
+    names = package.data.names
     printed = printed_plan(assessment)
     drawings = {
         "inputs-friction": friction_tests.drawings(package),
@@ -44,7 +46,7 @@ def draw_assessment(package: PackageData) -> Drawings:
     return drawings | {
         "method-motion": [array_section(package.governing.array, us_first)],
         "motions-list": [
-            accelerations.accelerations(some)
+            accelerations.accelerations(some, names)
             for some in _in_parts(assessment.shaking.motions, ACCELERATION_ROWS)
         ],
     }
@@ -57,28 +59,30 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
 
     if not package.assessment.has_motions:
         return {}
-    us_first = package.fmt.us_first
+    us_first, names = package.fmt.us_first, package.data.names
     roof = [part for part in shown.spectra if not part.is_ground]
     ground = [part for part in shown.spectra if part.is_ground]
     runs = list(zip(package.assessment.alike, shown.histories, strict=True))
     others_m = {case.array.id: case.array.design_m for case in cases(package.assessment, shown)}
     drawings: dict[str, Sequence[Any]] = {
         "comparison": [
-            comparison(some, us_first, others_m)
+            comparison(some, us_first, others_m, names)
             for some in _in_parts(package.assessment.alike, CHART_ROWS)
         ],
         "motions-spectra": [spectra(parts) for parts in ((roof, ground) if ground else (roof,))],
-        "results": list(_governing(runs, us_first)),
+        "results": list(_governing(runs, us_first, names)),
     }
     if "histories" in package.numbers:
         drawings["histories"] = [
-            list(_histories(group[0], followed, us_first)) for group, followed in runs
+            list(_histories(group[0], followed, us_first, names)) for group, followed in runs
         ]
     return drawings
 
 
 def _governing(
-    runs: Sequence[tuple[Sequence[ArrayAssessment], Sequence[SlideHistory]]], us_first: bool
+    runs: Sequence[tuple[Sequence[ArrayAssessment], Sequence[SlideHistory]]],
+    us_first: bool,
+    names: Names,
 ) -> Iterator[str]:
     """Yield the histories of the governing runs, a panel for each group of arrays."""
     from report.figures.history import RunPanel, histories
@@ -90,11 +94,11 @@ def _governing(
         if motion is group[0].worst
     ]
     for some in _in_parts(panels, PANELS):
-        yield histories(some, us_first)
+        yield histories(some, us_first, names)
 
 
 def _histories(
-    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
+    array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool, names: Names
 ) -> Iterator[tuple[str, str]]:
     from report.figures.history import RunPanel, histories
     from report.figures.hodograph import hodographs
@@ -102,4 +106,5 @@ def _histories(
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for motions, paths in runs:
         panels = [RunPanel("", *run) for run in zip(motions, paths, strict=True)]
-        yield histories(panels, us_first), hodographs(motions, paths, us_first)
+        paths_in_plan = hodographs(motions, paths, us_first, names)
+        yield histories(panels, us_first, names), paths_in_plan

@@ -11,7 +11,6 @@ from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import friction_standard
 from report.provenance.files import SHORT, holds_records, record_bytes, record_paths
 from report.provenance.software import versions
-from report.words.formats import shortened
 
 
 def page(package: PackageData) -> Mapping[str, object]:
@@ -33,7 +32,7 @@ def hashes(package: PackageData) -> Mapping[str, object]:
     alike = _alike(rows)
     own = [name for name in _ALIKE if name not in alike]
     columns = (
-        (words("Motion", 0.45), lambda row: shortened(row.motion_id, 12)),
+        (words("Motion", 0.45), lambda row: row.motion_id),
         (words("Component", 0.68), lambda row: row.component),
         *((words(name, 0.55), _ALIKE[name]) for name in own),
         (plain("Peak [g]", 4, share=0.5), lambda row: row.peak_g),

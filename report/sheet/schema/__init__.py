@@ -33,6 +33,7 @@ from report.sheet.schema.motions import MotionInput
 from report.sheet.schema.project import Project, Revision, Site
 from report.sheet.schema.scene import ROOF, Array, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.sheet.schema.shapes import Point, ring
+from report.words.names import Names
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, OVERRIDABLE
 
 MAX_EVENTS = 20
@@ -117,7 +118,8 @@ class Options(Frozen):
     letter: Annotated[bool, Cell("Letter of results", "No")] = False
     """Yes: a letter to the client with the results is in the package."""
     plan_paper: Annotated[PlanPaper, Cell("Paper of the roof plan", "by size")] = PlanPaper.BY_SIZE
-    """By size: Letter, or where it has no room, 11 x 17 in with US units first and A3 with SI."""
+    """By size: Letter with US units first, A4 with SI units first; 11 x 17 in or A3 where labels or
+    the schedule of clearances have no room. The other sheets go with it: Letter or A4."""
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:
@@ -296,6 +298,20 @@ class ProjectInput(Frozen):
     def us_first(self) -> bool:
         """Whether US units are printed before SI units."""
         return self.project.units_first.is_us
+
+    @property
+    def is_on_a4(self) -> bool:
+        """Whether the package is on A4 and A3, and not on Letter and 11 x 17 in."""
+        paper = self.options.plan_paper
+        if paper is PlanPaper.BY_SIZE:
+            return not self.us_first
+        return paper in (PlanPaper.A4, PlanPaper.A3)
+
+    @property
+    def names(self) -> Names:
+        """How a package prints the names of arrays, objects and motions."""
+        kinds = (self.arrays, self.objects, self.motions)
+        return Names.of(*([row.id for row in rows] for rows in kinds))
 
     def with_outdated(self, sheets: Mapping[str, str]) -> ProjectInput:
         """Return the same with the sheets that a confirmation does not cover, by its section."""

@@ -230,11 +230,12 @@ class PackageEdition(StrEnum):
 
 
 class PlanPaper(StrEnum):
-    """Paper of the roof plan; the rest of the package is on Letter."""
+    """Paper of the roof plan; the rest of the package is on Letter, or with A4 and A3 on A4."""
 
     BY_SIZE = "by size"
     LETTER = "Letter"
     TABLOID = "11 x 17"
+    A4 = "A4"
     A3 = "A3"
 
 

@@ -201,6 +201,7 @@ def test_the_small_plan_has_numbers_without_leaders_across_arrays():
         (PlanPaper.BY_SIZE, False, (420 / 25.4, 297 / 25.4)),
         (PlanPaper.A3, True, (420 / 25.4, 297 / 25.4)),
         (PlanPaper.LETTER, True, (11.0, 8.5)),
+        (PlanPaper.A4, True, (297 / 25.4, 210 / 25.4)),
     ],
 )
 @pytest.mark.nightly
@@ -215,7 +216,7 @@ def test_the_sheet_of_the_plan_is_as_large_as_the_roof_needs_or_as_asked(
     with pikepdf.open(path) as pdf:
         first, *rest = ([float(v) / 72 for v in page.mediabox[2:]] for page in pdf.pages)
     assert first == pytest.approx(size_in, abs=0.01)
-    assert bool(rest) == (paper is PlanPaper.LETTER)
+    assert bool(rest) == (paper in (PlanPaper.LETTER, PlanPaper.A4))
 
 
 def numbers(done):

@@ -223,11 +223,12 @@ def test_a_clearance_that_is_not_satisfied_is_hatched_and_marked(done):
     assert "NG" not in words(roof_plan(satisfied, LANDSCAPE))
 
 
-def test_what_has_no_room_and_neighbors_without_a_clearance_are_named_in_the_notes(crowded):
+def test_all_is_named_and_neighbors_without_a_clearance_are_in_the_notes(crowded):
     on = printed_plan(crowded)
     shown, page = words(paper_svg(on.plan)), printed(crowded, "plan")
-    for item in crowded.project.objects:
-        assert item.id in shown or item.id in on.unnamed
+    for item in (*crowded.arrays, *crowded.project.objects):
+        assert item.id in shown
+        assert item.id not in on.unnamed
     assert "No clearance is given: A5 to" in page
     assert ("Not labeled, for lack of space" in page) == bool(on.unnamed)
 
