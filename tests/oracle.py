@@ -78,7 +78,8 @@ def slide(ax, dt, *, slope_rad, mu, az=None, scale=1.0, g=9.80665):
                     push, rate = sign * (starts[sign] + rates[sign] * t), sign * rates[sign]
                     if push > mpf("1e-36"):
                         onsets.append((t, sign))
-                    elif rate > 0 and t - push / rate < dt:
+                    # What reaches the limit at the end of a step slips in the next, or not at all.
+                    elif rate > 0 and t - push / rate < dt - mpf("1e-36"):
                         onsets.append((max(t, t - push / rate), sign))
                 if not onsets:
                     break

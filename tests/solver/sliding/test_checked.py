@@ -174,6 +174,7 @@ slopes = st.sampled_from([0.0, math.atan(0.25), 0.1])
 @settings(max_examples=150)
 @given(st.one_of(lattice, anything), frictions, slopes, st.sampled_from([0.01, 0.25, 1.0]))
 @example([0.0, 1.5, 0.0, 0.0, 1e-38], 0.25, 0.0, 0.01)
+@example([1.5, 3.0, 0.5, -2.0, 0.0], 1.0, 0.0, 0.25)  # touches the limit of friction at a sample
 def test_any_short_record_agrees_with_forty_digits_to_the_allowance(values, mu, slope, dt):
     result = slide(values, dt, slope_rad=slope, mu=mu, g_mps2=2.0, units="m/s2")
     if result.status is not Status.UPLIFT:
