@@ -17,6 +17,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from report.typeset.finish import Attached, finish
+from report.typeset.unbroken import unbroken
 from solver.model import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
@@ -48,7 +49,7 @@ def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
     with _clean_log(), _no_fonts_left(), warnings.catch_warnings():
         # The renderer leaves the file of its color profile to the garbage collector.
         warnings.simplefilter("ignore", ResourceWarning)
-        pages = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher()).render()
+        pages = HTML(string=unbroken(html), base_url=f"{_SCHEME}/", url_fetcher=_fetcher()).render()
         created = pages.metadata.created
         date = dt.datetime.fromisoformat(created) if created else _NO_DATE
         pdf: bytes = pages.write_pdf(

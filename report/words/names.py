@@ -53,7 +53,8 @@ class Names:
         """Return a text with the keys of the names in it."""
         if not self.keys:
             return text
-        return re.sub(_any_of(self.keys), lambda match: self.keys[match[0]], text)
+        any_of = _any_of(self.keys)
+        return re.compile(any_of).sub(lambda match: self.keys[match[0]], text)
 
     def in_html(self, html: str) -> str:
         """Return a document with the keys of the names in its texts.
@@ -64,7 +65,8 @@ class Names:
             return html
         keys = {str(escape(name)): key for name, key in self.keys.items()}
         head, body, rest = html.partition("<body")
-        pattern = re.compile(rf"{_KEPT}|{_any_of(keys)}", re.DOTALL)
+        any_of = rf"{_KEPT}|{_any_of(keys)}"
+        pattern = re.compile(any_of, re.DOTALL)
         return head + pattern.sub(lambda match: keys.get(match[0], match[0]), body + rest)
 
 
