@@ -249,7 +249,7 @@ def test_the_time_of_each_pattern_of_a_file_grows_as_the_text(path):
 @pytest.mark.parametrize(
     ("source", "method"),
     [
-        (r"\A[\s\u200b]+|[\s\u200b]+\Z", "sub"),
+        pytest.param(r"\A[\s\u200b]+|[\s\u200b]+\Z", "sub", marks=pytest.mark.nightly),
         (r"\s+$", "search"),
         (r"(a|aa)+b", "match"),
         (r"UNITS OF[ :]*=?[ :]*x", "search"),

@@ -28,6 +28,7 @@ def pulse():
     return near_fault_pulse()
 
 
+@pytest.mark.nightly
 def test_a_quick_verification_passes_and_fills_every_part(verification):
     assert verification.passed
     assert verification.quick
@@ -41,6 +42,7 @@ def test_a_quick_verification_passes_and_fills_every_part(verification):
     ]
 
 
+@pytest.mark.nightly
 def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_alike(verification):
     rows = verification.checks
     assert {row.section for row in rows} == {
@@ -60,6 +62,7 @@ def test_every_section_has_rows_with_a_source_and_a_tolerance_and_no_two_are_ali
     assert len(set(names)) == len(names)
 
 
+@pytest.mark.nightly
 def test_every_check_that_a_feature_names_ran_and_every_check_belongs_to_one(verification):
     ran = {row.id for row in verification.checks}
     named = {id for feature in FEATURES for id in feature.checks}
@@ -132,6 +135,7 @@ def test_errors_in_percent_have_a_floor_of_a_millimetre():
 # The paper's figures
 
 
+@pytest.mark.nightly
 def test_the_papers_method_converges_at_first_order_under_an_envelope(verification):
     assert len(paper_studies.CONVERGENCE_CASES) == 60
     for found in verification.convergence.values():
@@ -148,6 +152,7 @@ def test_the_papers_method_converges_at_first_order_under_an_envelope(verificati
     assert 0.01 < found.loc[64, "exact_percent"] < 1.0  # of a pulse; 0.48 % in the paper
 
 
+@pytest.mark.nightly
 def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
     for link in verification.links:
         assert len(link.runs_m) == (10 if link.slope_deg == 0.0 else 6)
@@ -158,6 +163,7 @@ def test_the_link_differs_by_about_as_much_as_in_the_paper(verification):
         assert (link.runs_m["PRD, exact"] >= link.runs_m["RRD, exact"] - 1e-15).all()
 
 
+@pytest.mark.nightly
 def test_design_curves_are_the_papers_6960_runs(verification):
     curves = verification.curves[0]
     assert curves.runs == 6960
