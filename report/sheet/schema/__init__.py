@@ -109,8 +109,8 @@ class Options(Frozen):
     )
     """Required with displacement by direction."""
     smaller_events: Annotated[Text, Cell("Smaller events", "0.50, 0.50")] = ""
-    """Up to 20 factors on the motions, above 0.0 and up to 1.0, separated by commas. The package
-    adds these events to the design event, for information."""
+    """Up to 20 factors on the motions, above 0.0 up to 1.0, with commas: events that are added, for
+    information."""
     package_edition: Annotated[PackageEdition, Cell("Edition", "plan check")] = (
         PackageEdition.PLAN_CHECK
     )
@@ -131,7 +131,7 @@ class Confirmation(Frozen):
     """Who compared the provisions with the adopted code, and which."""
 
     by: Annotated[Text, Cell("Confirmed by", "RG, SE")] = ""
-    """Name. With all four below, the package marks no number of the rule set with †."""
+    """Name. With all five, no number of the rule set has †."""
     date: Annotated[dt.date | None, Cell("Confirmed on", dt.date(2026, 3, 1))] = None
     """When they were compared."""
     rule_set: Annotated[RuleSetName | None, Cell("Confirmed rule set", "SEAOC PV1-2012")] = None
