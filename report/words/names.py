@@ -12,7 +12,7 @@ from itertools import chain, count
 
 from markupsafe import escape
 
-from report.words.counts import name_order
+from report.words.counts import capitalized, name_order
 
 LONGEST = 12
 """Characters of a name that is printed as it is."""
@@ -49,12 +49,18 @@ class Names:
         free = (key for number in count(1) if (key := f"[{number}]") not in given)
         return cls(keys=dict(zip(dict.fromkeys(keyed), free, strict=False)))
 
+    @property
+    def _written(self) -> Mapping[str, str]:
+        """The keys of the names, also as they begin a sentence."""
+        return {**{capitalized(name): key for name, key in self.keys.items()}, **self.keys}
+
     def __call__(self, text: str) -> str:
         """Return a text with the keys of the names in it."""
-        if not self.keys:
+        keys = self._written
+        if not keys:
             return text
-        any_of = _any_of(self.keys)
-        return re.compile(any_of).sub(lambda match: self.keys[match[0]], text)
+        any_of = _any_of(keys)
+        return re.compile(any_of).sub(lambda match: keys[match[0]], text)
 
     def in_html(self, html: str) -> str:
         """Return a document with the keys of the names in its texts.
@@ -63,7 +69,7 @@ class Names:
         """
         if not self.keys:
             return html
-        keys = {str(escape(name)): key for name, key in self.keys.items()}
+        keys = {str(escape(name)): key for name, key in self._written.items()}
         head, body, rest = html.partition("<body")
         any_of = rf"{_KEPT}|{_any_of(keys)}"
         pattern = re.compile(any_of, re.DOTALL)

@@ -26,6 +26,12 @@ def test_a_name_within_another_name_or_a_path_is_not_that_name():
         assert NAMES(other) == other
 
 
+def test_a_name_that_begins_a_sentence_has_its_key():
+    names = Names.of(["north penthouse", "Roof of the kitchen", "roof of the kitchen"])
+    assert names.keys["Roof of the kitchen"] == "[1]"
+    assert names("North penthouse: NG. Roof of the kitchen: OK") == "[2]: NG. [1]: OK"
+
+
 @pytest.mark.parametrize("count", [3, 12])
 def test_a_range_of_names_is_the_range_of_their_keys(count):
     # Nine of twelve characters, and others of thirteen.
