@@ -170,5 +170,5 @@ def words(html: str) -> str:
     places = {f"#{element.get('id')}" for element in elements}
     links = {element.get("href", "") for element in elements}
     assert {link for link in links if link.startswith("#")} <= places
-    body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body>") :])
+    body = re.sub(r"<style.*?</style>|<[^>]+>", " ", html[html.index("<body") :])
     return " ".join(unescape(body).split())

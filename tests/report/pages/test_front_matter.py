@@ -12,7 +12,7 @@ import packages
 import scenes
 import stand_in
 from printed import printed
-from report.assessment.verdict import Requirement
+from report.assessment.verdict import STRENGTH_ROW, Requirement
 from report.pages.symbols import SYMBOLS
 from report.typeset.pdf import lay_out
 from solver.rules.limit import Consequence
@@ -20,6 +20,16 @@ from solver.rules.limit import Consequence
 pytestmark = pytest.mark.quick
 
 MOTIONS = scenes.motions(3, seconds=4.0)
+
+
+def with_open(done, rows):
+    """The assessment with these requirements open alone; the strength of every array has one."""
+    strength = (row for row in done.rows if row.id == STRENGTH_ROW)
+    met = (
+        Requirement(**row.model_dump(exclude={"verdict"}) | {"is_satisfied": True})
+        for row in strength
+    )
+    return replace(done, rows=(*met, *rows))
 
 
 def plain(text):
@@ -34,31 +44,37 @@ def html():
         return stand_in.html(stand_in.book(data, MOTIONS))
 
 
-def test_the_cover_says_that_large_records_are_left_out():
+def test_the_records_say_that_large_files_are_left_out():
     done = scenes.package().assessment
     large = tuple(replace(file, size=9_000_000) for file in done.shaking.records)
-    rows = printed(replace(done, shaking=replace(done.shaking, records=large)), "cover").facts
-    assert "not the nine record files, 81.0 MB in all: appendix A" in rows["In this file"]
-    assert "verify-package FILE --records FOLDER" in rows["Verification"]
-    assert rows["Verification"].endswith(scenes.package().fingerprint)
+    given = replace(done, shaking=replace(done.shaking, records=large))
+    line = printed(given, "records").line("In this file")
+    assert "; not the nine record files, 81.0 MB in all; results.json. Issued with it" in line
+    assert "verify-package FILE --records FOLDER" in line
+    assert line.endswith(f"{scenes.package().fingerprint}.")
+    line = printed(done, "records").line("In this file")
+    assert "; nine record files; results.json. Issued with it" in line
+    assert "verify-package FILE computes" in line
 
 
 @pytest.mark.nightly
-def test_the_letter_is_one_page():
+@pytest.mark.parametrize("n_arrays", [1, 12])
+def test_the_letter_is_one_page(n_arrays):
     """Only the letter and the parts around it are laid out."""
-    arrays = [stand_in.array(f"A{k}", 0.5, x=90 * k) for k in range(12)]
+    arrays = [stand_in.array(f"A{k}", 0.5, x=90 * k) for k in range(n_arrays)]
     data = stand_in.project(arrays=arrays, objects=[], clearances=[])
     with packages.undrawn():
         html = stand_in.html(stand_in.book(data, MOTIONS[:1]))
     head, *_ = html.partition("<section")
     _, *parts = re.split(r'(?=<section class="[^"]*\bstarts\b)', html)
     (at,) = (k for k, part in enumerate(parts) if '<h1 id="letter">' in part)
-    near = re.sub(r' href="#[^"]*"', "", "".join((head, *parts[at : at + 2])))
+    near = re.sub(r' href="#[^"]*"', "", head + parts[at])  # and the parts that follow it
     pdf = lay_out(f"{near}</body></html>")
     texts = [page.extract_text() for page in PdfReader(io.BytesIO(pdf)).pages]
     assert "Letter of results" in texts[0]
     assert "License expires" in texts[0]
-    assert "2 Roof plan" in texts[1]
+    assert "2 Comparison with" not in texts[0]
+    assert "2 Comparison with" in texts[1]
 
 
 @pytest.mark.parametrize(
@@ -74,19 +90,19 @@ def test_the_letter_is_one_page():
 )  # fmt: skip
 def test_the_letter_says_where_open_requirements_are_listed(n_conditions, n_severe, text):
     done = scenes.package().assessment
-    row = done.conditions[0]
+    row = next(row for row in done.conditions if row.id != STRENGTH_ROW)
     assert row.consequence is Consequence.CONDITION
     severe = Requirement(**row.model_dump(exclude={"verdict"}) | {"consequence": Consequence.NG})
     every = (row,) * n_conditions + (severe,) * n_severe
     rows = tuple(one.model_copy(update={"title": str(k)}) for k, one in enumerate(every))
-    assert printed(replace(done, rows=rows), "letter").line(text)
+    assert printed(with_open(done, rows), "letter").line(text)
 
 
 def test_what_is_said_of_several_arrays_counts_once_wherever_conditions_are_counted():
     done = scenes.package().assessment
-    (row, *_) = done.conditions
+    row = next(row for row in done.conditions if row.id != STRENGTH_ROW)
     rows = tuple(row.model_copy(update={"subject": item.id}) for item in done.arrays)
-    alike = replace(done, rows=rows, clearances=())
+    alike = replace(with_open(done, rows), clearances=())
     assert len(alike.conditions) > 1
     assert "One requirement is open" in printed(alike, "letter")
     assert "One condition of part 1 is to be met first." in printed(alike, "notes")

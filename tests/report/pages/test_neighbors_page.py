@@ -28,11 +28,12 @@ def page(**changes):
 def test_a_row_has_the_distance_the_reach_and_the_number_of_the_clearance():
     rows = [stand_in.clearance("A1", "RTU-9", FOOT), stand_in.clearance("A2", "A1", 120 * FOOT)]
     made = page(objects=[NEAR, FAR], clearances=rows)
-    assert [[row[part] for part in PARTS] for row in made.table(CAPTION).rows] == [
+    table = made.table(CAPTION)
+    assert [[row[part] for part in PARTS] for row in table.rows] == [
         ["A1", "RTU-9", "fixed object", "12.0", "81.6", "No. 1", "provided as in plan"]
     ]
-    assert made.line("Clearances to neighbors farther away, provided as in plan: No. 2.")
-    assert made.line("The other three pairs of the plan are farther apart") == (
+    assert table.notes[0].endswith(
+        " Clearances to neighbors farther away, provided as in plan: No. 2. "
         "The other three pairs of the plan are farther apart, and no less than is required; the "
         "nearest are A2 and RTU-8, 240.0 in (6096 mm)."
     )
@@ -49,8 +50,8 @@ def test_twice_a_design_displacement_is_rounded_up():
 
 def test_clearances_to_neighbors_farther_away_are_named_and_not_listed():
     made = page(clearances=[stand_in.clearance("A1", "A2", 120 * FOOT)])
-    assert made.line("No array, object or roof edge of the plan is within twice the design")
-    assert made.line("Clearances to neighbors farther away, provided as in plan: all.")
+    line = made.line("No array, object or roof edge of the plan is within twice the design")
+    assert line.endswith(" Clearances to neighbors farther away, provided as in plan: all.")
     assert CAPTION not in made
 
 
@@ -70,8 +71,11 @@ def test_what_has_no_place_in_plan_is_named_and_not_measured():
 
 
 def test_without_a_neighbor_the_nearest_pair_is_named():
-    line = page().line("The other pair of the plan is farther apart, and no less than is required")
-    assert line.endswith(": A1 and A2, 1440.0 in (36576 mm).")
+    line = page().line("No array, object or roof edge of the plan is within twice the design")
+    assert line.endswith(
+        " The other pair of the plan is farther apart, and no less than is required: A1 and A2, "
+        "1440.0 in (36576 mm)."
+    )
     assert "of the plan" not in page(arrays=ARRAYS[:1])
 
 
@@ -83,8 +87,9 @@ def test_edges_are_those_of_the_outline_where_it_is_given(is_given):
 
 def test_no_pair_is_said_to_have_what_is_required_where_that_is_not_known():
     made = printed(scenes.unpermitted(), "clearances")
-    assert "or the prescriptive one where none is permitted. " in made.table(CAPTION).notes[0]
-    assert made.line("The other seven pairs of the plan are farther apart; the nearest are A1 and")
+    (note,) = (note for note in made.table(CAPTION).notes if "Twice displ." in note)
+    assert "or the prescriptive one where none is permitted. " in note
+    assert "The other seven pairs of the plan are farther apart; the nearest are A1 and" in note
 
 
 def drawn(**changes):
@@ -103,8 +108,8 @@ def test_a_distance_from_the_drawing_is_a_condition_of_its_arrays_and_to_be_meas
     assert (row.subject, row.found, row.is_satisfied) == ("A1", "not confirmed", False)
     assert row.verdict is Verdict.CONDITION
     made = printed(package, "clearances")
-    line = made.line("Distances provided")
-    assert line == "Distances provided: drawing, not confirmed No. 1; measured No. 2."
+    words = " Distances provided: drawing, not confirmed No. 1; measured No. 2."
+    assert made.line("Factor").endswith(words)
     assert made.table(CAPTION).rows[0]["Remark"] == "from plan; not confirmed"
     line = printed(package, "notes").line("Gaps to be measured first")
     assert line.endswith("because their distance is from the drawing and not confirmed: No. 1.")
@@ -117,8 +122,8 @@ def test_name_and_date_confirm_every_distance_from_the_drawing():
     assert row.is_satisfied
     assert row.found == "confirmed by MT, 2026-03-05"
     made = printed(package, "clearances")
-    line = made.line("Distances provided")
-    assert line == "Distances provided: drawing, confirmed No. 1; measured No. 2."
+    words = " Distances provided: drawing, confirmed No. 1; measured No. 2."
+    assert made.line("Factor").endswith(words)
     assert made.table(CAPTION).rows[0]["Remark"] == "from plan; confirmed"
     assert "Gaps to be measured first" not in printed(package, "notes")
 

@@ -63,10 +63,12 @@ def test_a_neighbor_without_a_clearance_is_to_be_resolved_first():
 
 
 def test_membrane_supports_and_report_are_those_of_the_workbook_or_by_others():
-    line = notes(friction_tests=scenes.TESTS).line("Roof membrane:")
+    made = package(friction_tests=scenes.TESTS)
+    line = printed(made, "notes").line("Roof membrane:")
     assert line.startswith("Roof membrane: TPO, 60 mil. Supports of the arrays: EPDM pad.")
     assert "Example Laboratories, ASTM G115-10, report FT-118, 2025-06-12" in line
-    assert "All arrays: ASTM G115, Lab 1234, 2025-06-12; entered; no runs of friction tests" in line
+    letter = printed(made, "letter").line("Friction.")
+    assert "All arrays: ASTM G115, Lab 1234, 2025-06-12; entered; no runs of friction tes" in letter
     line = notes().line("Roof membrane:")
     assert line.startswith("Roof membrane: by others. Supports of the arrays: by others. Frict")
 
@@ -85,7 +87,7 @@ def test_the_first_note_says_whether_the_package_is_for_construction(changes, te
 def test_what_is_not_satisfied_as_designed_is_named():
     rows = [*GAPS, stand_in.clearance("A2", "A1", 0.1)]
     (note,) = notes(clearances=rows).table("Schedule of gaps").notes
-    assert note == "Required separations, rounded up. Not satisfied as designed: No. 2."
+    assert note == "Not satisfied as designed: No. 2."
 
 
 def test_without_gaps_no_note_speaks_of_them():
@@ -138,7 +140,10 @@ def test_the_letter_says_what_its_results_rest_on():
     page = printed(package(friction_tests=scenes.TESTS), "letter")
     assert page.line("the roof membrane is TPO, 60 mil and the supports of the arrays are EPDM")
     assert page.line("Friction.").endswith("report FT-118, 2025-06-12.")
-    assert "In its file: workbook " in page.line("Attachments.")
+    attached = page.line("Attachments.")
+    assert "clearances in part 3, " in attached
+    assert "In its file: workbook " in attached
+    assert "and what appendix A lists with it." in attached
     page = printed(package(), "letter")
     assert page.line("Friction.").endswith("No friction test report is entered.")
     assert page.line("the roof membrane and the supports of the arrays give the friction above;")

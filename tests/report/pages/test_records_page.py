@@ -23,16 +23,16 @@ def test_a_record_shows_its_format_and_what_was_noted():
         notes=("uneven times were resampled",),
     )
 
-    def table(page, *files):
-        given = replace(done, shaking=replace(done.shaking, records=files))
-        return printed(given, page).table("Records as read")
+    def given(*files):
+        return replace(done, shaking=replace(done.shaking, records=files))
 
-    made = table("hashes", record)
+    def table(*files):
+        return printed(given(*files), "hashes").table("Records as read")
+
+    made = table(record)
     assert made.cells == (("M1", "vertical", "0.2500", "records/a.V2A | Up", "ab" * 32),)
     assert made.notes == ("Every record: Format GeoNet V2A, Samples 100, Step [s] 0.02.",)
-    made = table("records", record)
-    assert made.cells == (("M1", "abababababab"),)
-    assert made.notes == ("M1 vertical: uneven times were resampled",)
-    made = table("hashes", record, replace(record, motion_id="M2", npts=200, notes=()))
+    assert printed(given(record), "records").line("M1 vertical: uneven times were resampled")
+    made = table(record, replace(record, motion_id="M2", npts=200, notes=()))
     assert made.column("Samples") == ["100", "200"]
     assert made.notes[0] == "Every record: Format GeoNet V2A, Step [s] 0.02."

@@ -41,7 +41,7 @@ def test_the_smallest_margin_is_that_of_a_satisfied_clearance():
         return scenes.package(arrays=arrays, options=REVIEW, clearances=gaps)
 
     low, high = (array.design_m for array in made(9.0).assessment.arrays)
-    page = printed(made((low + high) / 2.0), "how-sure")
+    page = printed(made((low + high) / 2.0), "accuracy")
     assert "satisfied clearance" not in page
     assert page.line("Clearance 1 is not satisfied as given")
 

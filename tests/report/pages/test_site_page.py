@@ -35,14 +35,23 @@ def values(made):
 
 
 def forces(made):
-    return [row["Value"] for row in table(made).rows if row["Symbol"] == "Fp/Wp"]
+    """The component force with its limits."""
+    every = (row for row in table(made).rows if row["Symbol"] == "Fp/Wp")
+    return [(row["Value"], row["Source"]) for row in every]
 
 
-def equations(made):
-    latex = re.findall(r"(?m)^\[(S_\{[MD].*)\]$", printed(made, "method"))
-    return [line.partition("=")[0] for line in latex], latex
+def sources(made):
+    """How each spectral acceleration of the site follows, by its symbol."""
+    return {name: row["Source"] for name, row in rows(made).items() if re.match("S[MD][S1]", name)}
 
 
+def worked_out(source):
+    """The result of the numbers that a source ends with."""
+    numbers = source.rpartition(" = ")[2]
+    return eval(numbers.replace("×", "*").replace(" g", ""))
+
+
+CATEGORY = "Seismic design category of these"
 FULL = {
     "s_s_g": 1.271,
     "f_a": 1.2,
@@ -71,8 +80,8 @@ def test_the_values_are_those_of_a_permit_sheet(full):
     assert [found[name] for name in ("SMS", "SDS", "SM1", "SD1", "Ta", "TS")] == [
         "1.525 g", "1.017 g", "0.839 g", "0.560 g", "0.256 s", "0.550 s",
     ]  # fmt: skip
-    assert found["Controlling SDC of these"] == found["SDC"] == "D"
-    assert found["SDC by S1"] == "none, below 0.75 g"
+    assert found[CATEGORY] == found["SDC"] == "D"
+    assert rows(full)[CATEGORY]["Source"] == "largest of D (0.2 s), D (1 s), S1 below 0.75 g"
     assert "not given" not in found.values()
 
 
@@ -90,7 +99,7 @@ def test_the_component_force_is_that_of_a_permit_sheet():
     """Permit sheet of provisions.md: h 35 ft, S_DS 1.0504, a_p 1, R_p 1.5."""
     height = {"structure_height_m": 35 * FT, "roof_height_m": 35 * FT}
     made = package(s_ds_g=1.0504, force_factor=1.0, force_divisor=1.5, **height)
-    assert forces(made) == ["0.840", "1.681", "0.315"]
+    assert forces(made) == [("0.840", "computed: at most 1.681, at least 0.315")]
     assert values(made)["Ta"] == "0.288 s"
 
 
@@ -99,9 +108,14 @@ def test_the_component_force_is_that_of_a_permit_sheet():
 def test_the_amplification_with_its_numbers_gives_the_result(rule_set, height_m):
     height = {"roof_height_m": height_m, "structure_height_m": 10.0}
     made = package({"spectrum": []}, rule_set=rule_set, s_ds_g=1.566, **height)
-    formula, result = printed(made, "method").equation("A_{RIG}=")[0].split(" = ")
-    value = eval(formula.replace("×", "*").replace(" g", ""))
-    assert value == pytest.approx(float(result.removesuffix(" g")), abs=6e-4)
+    flexible, rigid = (rows(made)[name] for name in ("AFLX", "ARIG"))
+    numbers, limit = flexible["Source"].split(", at most ")
+    assert limit == "1.6 SDS"
+    value = worked_out(numbers)
+    values_g = [float(row["Value"].removesuffix(" g")) for row in (flexible, rigid)]
+    assert values_g == pytest.approx([min(value, 1.6 * 1.566), 0.4 * value], abs=6e-4)
+    formula = numbers.split(" = ")[0].removeprefix("computed: ")
+    assert rigid["Source"] == f"computed: 0.4 {formula}"
 
 
 @pytest.mark.quick
@@ -118,39 +132,48 @@ def test_asce_7_22_has_no_site_coefficients_and_its_own_clauses():
     assert not {"Fa", "Fv", "ap", "Rp"} & found.keys()
     assert (found["CAR"]["Value"], found["Rpo"]["Value"]) == ("1.40", "1.50")
     assert (found["SDS"]["Value"], found["SDS"]["Reference"]) == ("1.600 g", "ASCE 7-22 11.4.4")
-    assert (found["SMS"]["Source"], found["SDS"]["Source"]) == ("input", "computed")
     assert not any("7-16" in row["Reference"] for row in found.values())
-    assert equations(made)[0] == ["S_{DS}", "S_{D1}"]
+    assert sources(made) == {
+        "SMS": "input",
+        "SM1": "input",
+        "SDS": "computed: 2/3 SMS = 2/3 × 2.400 g",
+        "SD1": "computed: 2/3 SM1 = 2/3 × 1.200 g",
+    }
     # 0.4 S_DS H_f / R_mu C_AR / R_po with H_f = 3.5 at the roof and R_mu = 1.3
-    assert float(forces(made)[0]) == pytest.approx(0.4 * 1.6 * 3.5 / 1.3 * 1.4 / 1.5, abs=6e-4)
+    ((force, _),) = forces(made)
+    assert float(force) == pytest.approx(0.4 * 1.6 * 3.5 / 1.3 * 1.4 / 1.5, abs=6e-4)
 
 
 def test_the_equations_follow_what_is_given(full):
-    assert equations(full)[1] == [
-        r"S_{MS}=F_a\,S_S",
-        r"S_{DS}=\frac{2}{3}\,S_{MS}",
-        r"S_{M1}=F_v\,S_1",
-        r"S_{D1}=\frac{2}{3}\,S_{M1}",
-    ]
-    page = printed(full, "method")
-    for symbol, result, clause in (("S_{MS}", "1.525 g", "4"), ("S_{DS}", "1.017 g", "5")):
-        numbers, source = page.equation(f"{symbol}=")
-        assert (numbers.split(" = ")[1], source) == (result, f"ASCE 7-16 11.4.{clause}")
-    assert equations(package(**FULL | {"s_ds_g": 1.017}))[0] == ["S_{MS}", "S_{M1}", "S_{D1}"]
-    assert equations(package(s_ds_g=1.0))[1] == [r"S_{MS}=\frac{3}{2}\,S_{DS}"]
+    computed = {
+        "SMS": "computed: Fa SS = 1.200 × 1.271 g",
+        "SM1": "computed: Fv S1 = 1.845 × 0.455 g",
+        "SDS": "computed: 2/3 SMS = 2/3 × 1.525 g",
+        "SD1": "computed: 2/3 SM1 = 2/3 × 0.839 g",
+    }
+    assert sources(full) == computed
+    for name, clause in (("SMS", "4"), ("SM1", "4"), ("SDS", "5"), ("SD1", "5")):
+        row = rows(full)[name]
+        value_g = float(row["Value"].removesuffix(" g"))
+        assert worked_out(row["Source"]) == pytest.approx(value_g, abs=1.1e-3)
+        assert row["Reference"] == f"ASCE 7-16 11.4.{clause}"
+    assert sources(package(**FULL | {"s_ds_g": 1.017})) == computed | {"SDS": "input"}
+    assert sources(package(s_ds_g=1.0)) == {
+        "SMS": "computed: 1.5 SDS = 1.5 × 1.000 g", "SM1": "—", "SDS": "input", "SD1": "—",
+    }  # fmt: skip
 
 
 def test_i_p_is_a_range_where_arrays_differ():
     arrays = [stand_in.array("A1", 1.0, i_p=1.5), stand_in.array("A2", 1.0, x=120)]
     made = package({"arrays": arrays}, s_ds_g=1.0, force_factor=1.0, force_divisor=1.5)
     assert values(made)["Ip"] == "1.00 to 1.50"
-    assert forces(made)[1] == "2.400"  # 1.6 x S_DS x the larger I_p
+    assert "at most 2.400," in forces(made)[0][1]  # 1.6 x S_DS x the larger I_p
 
 
 @pytest.mark.quick
 def test_a_near_fault_site_is_category_e():
-    found = values(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
-    assert (found["SDC by short period"], found["SDC by S1"]) == ("D", "E")
-    assert found["Controlling SDC of these"] == found["SDC"] == "E (not confirmed)"
+    found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
+    assert found[CATEGORY]["Source"] == "largest of D (0.2 s), not given (1 s), S1 E"
+    assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E (not confirmed)"
     confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
-    assert confirmed["Controlling SDC of these"] == confirmed["SDC"] == "E"
+    assert confirmed[CATEGORY] == confirmed["SDC"] == "E"

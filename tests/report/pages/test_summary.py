@@ -54,4 +54,4 @@ def test_a_condition_that_says_the_same_of_several_arrays_is_said_once():
     assert group == ["A1", "A2", "A3"]
     assert sum(len(ids) for _, ids in done.alike_conditions) == len(done.conditions)
     page = printed(done, "summary")
-    assert "not given" in page.line("Condition: arrays A1 to A3, Interconnection strength")
+    assert "not given" in page.line("Arrays A1 to A3, interconnection strength")

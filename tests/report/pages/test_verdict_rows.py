@@ -45,7 +45,7 @@ def barely():
 def test_what_is_short_by_a_hair_prints_as_less_than_is_required(barely):
     (row,) = printed(barely, "summary").table("Clearances").rows
     assert float(row["Required [in]"].strip("†")) > float(row["Provided [in]"])
-    slack = printed(barely, "summary").line("NG: array A1, Electrical slack")
+    slack = printed(barely, "summary").line("NG: Array A1, electrical slack")
     had, least = re.search(r"provided: ([\d.]+) in .* required: ≥ ([\d.]+) in", slack).groups()
     assert float(had) < float(least)
     (strength,) = printed(barely, "limits").tables[-1].rows
