@@ -41,8 +41,8 @@ def array_section(array: Array, us_first: bool) -> str:
     with style(), mpl.rc_context(_TYPE):
         figure, axes = canvas(_HEIGHT_IN, (0.0, WIDTH_IN), (0.0, _HEIGHT_IN))
         rise = math.tan(drawn)
-        _section(axes, _Roof(0.15, 0.58 + 3.0 * rise, drawn), array, us_first)
-        _free_body(axes, _Roof(_SPLIT_IN + 0.45, 0.72 + 2.0 * rise, drawn))
+        _section(axes, _Roof(0.15, 0.68 + 1.65 * rise, drawn), array, us_first)
+        _free_body(axes, _Roof(_SPLIT_IN + 0.45, 0.76 + 1.3 * rise, drawn))
         for x, text in ((0.1, "Section, not to scale"), (_SPLIT_IN + 0.1, "Free body")):
             axes.text(x, _HEIGHT_IN - 0.08, text, va="top", weight="semibold")
         return svg_text(figure)
@@ -78,7 +78,7 @@ def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     axes.annotate(
         f"μ = {mu_words(array.friction)}",
         roof.at(1.95, 0.0),
-        (x, y - 0.56),
+        (x, y - 0.46),
         ha="center",
         va="top",
         arrowprops={"arrowstyle": "-", "linewidth": 0.6, "color": INK},
