@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from report.assessment.arrays import ArrayAssessment, DesignBasis, by_id
+from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.evidence import Evidence
 from report.assessment.friction import SHIFT, mu_words
 from report.assessment.project import Assessment
@@ -27,15 +27,12 @@ _PERCENT = f"{100.0 * SHIFT:.0f} %"
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return what the page needs beside the package."""
     accuracy = evidence.accuracy
-    arrays = tuple(_by_array(accuracy))
     return {
         "found": accuracy,
         "margins": uncertainty.margins(package, evidence),
         "percent": _PERCENT,
         "two_axes": Model.TWO_AXES,
-        "arrays": arrays,
-        "friction": _friction_table(package, arrays),
-        "change": _change,
+        "friction": _friction_table(package, tuple(_by_array(accuracy))),
         "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)
         - _unfinished(accuracy.given),
     }
@@ -52,12 +49,6 @@ class _Varied:
     given: ArrayAssessment
     at_reduced_friction: ArrayAssessment
     at_increased_friction: ArrayAssessment
-
-    @property
-    def is_on_floor(self) -> bool:
-        """Whether the floor always governs."""
-        arrays = (self.given, self.at_reduced_friction, self.at_increased_friction)
-        return all(array.governs is DesignBasis.FLOOR for array in arrays)
 
 
 def _by_array(accuracy: Accuracy) -> Iterator[_Varied]:

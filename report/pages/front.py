@@ -130,11 +130,10 @@ def plan(package: PackageData) -> Mapping[str, object]:
     }
 
 
-def basis(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
+def basis(package: PackageData) -> Mapping[str, object]:
     """Return what the page on basis and limits needs beside the package."""
     return {
         "motions": [run.motion for run in package.governing.motions],
         "is_tested": bool(tested(package.data)),
-        "certainty": evidence.uncertainty,
         "validation": explained(SHIPPED),
     }

@@ -81,7 +81,7 @@ PAGES = (
     Page("comparison", "Comparison with the prescriptive displacement", comparison.comparison),
     Page("plan", "Roof plan and schedule of clearances", _alone(front.plan)),
     Page("clearances", "Parapets and neighbors", _alone(clearances.clearances)),
-    Page("basis", "Basis and limits of the method", front.basis),
+    Page("basis", "Basis and limits of the method", _alone(front.basis)),
     Page("model", "Model used", _alone(model.page)),
     Page("limits", "Limits and requirements", _alone(limits.limits)),
     Page("provisions", "Provisions and overrides", _alone(provisions.provisions)),
