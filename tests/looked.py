@@ -6,6 +6,7 @@ Reads the tags and the marks on the paper, by a library that the program does no
 from __future__ import annotations
 
 import ctypes
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ DRAWING_PT = 200.0  # a picture that is wider is a drawing, a narrower one an eq
 
 # A line of a cell ends within a number, and the next goes on with it; a clause (13.6.12) does not.
 _BROKEN = re.compile(r"[\d.\-−/]\n(?!\d+\.\d+\.\d)[\d.]")
+SHIFT_PT = 5.0  # of a subscript from its line
 _HASH = re.compile(r"[0-9a-f]{12}")
 _KINDS = ("H1", "H2", "P", "LI", "Caption", "Figure", "Table", "TH", "TD")
 
@@ -179,9 +181,16 @@ def _block(element: Any, kind: str, sheet: int, marks: dict[int, list[Any]], tex
         if kind == "Table"
         else [mark for one, _ in _below(element) for mark in _marks(one, marks)]
     )
-    lines = [_words(mark, text) for mark, *_ in own if mark.type == pdfium.FPDF_PAGEOBJ_TEXT]
+    lines: list[str] = []
+    baseline = math.inf
+    for mark, *_ in own:
+        if mark.type == pdfium.FPDF_PAGEOBJ_TEXT and (words := _words(mark, text)):
+            y = mark.get_matrix().f
+            same = lines and abs(y - baseline) < SHIFT_PT
+            lines[-1:] = [f"{lines[-1]} {words}"] if same else [*lines[-1:], words]
+            baseline = y if not same else baseline
     wide = max((r for _, _, r in own), default=0.0) - min((x for _, x, _ in own), default=0.0)
-    return Block(kind, sheet, tuple(line for line in lines if line), wide)
+    return Block(kind, sheet, tuple(lines), wide)
 
 
 def _marks(element: Any, marks: dict[int, list[Any]]) -> Iterator[Any]:

@@ -19,7 +19,7 @@ _QUANTITY = "[−]?\\d[\\d.,]* (?:{})(?![\\w/])".format(
 )
 _DATE = r"\d{4}-\d\d-\d\d"
 _NAME = rf"(?=[\w-]{{3,{LONGEST}}}(?![\w-]))[A-Z0-9]\w*(?:-\w+)+"
-_PATTERN = re.compile(rf"<[^<>]*>|(?<![\w.-])(?P<whole>{_QUANTITY}|(?:{_DATE}|{_NAME})(?![\w-]))")
+_PATTERN = re.compile(rf"<[^<>]*>|(?<![\w./-])(?P<whole>{_QUANTITY}|(?:{_DATE}|{_NAME})(?![\w-]))")
 
 
 def unbroken(html: str) -> str:

@@ -50,6 +50,7 @@ STATES = {
         "An array without a permitted design displacement is NG",
         "Changes that would do, each by itself",
         "no limit the normal force falls below zero, which no model covers none",
+        "A1, A2 −0.40 0.996 no limit",  # minimum normal force, time of uplift, demand
     ),
     "NG": (of(**NARROW), ". Marked NG: 2 of 2 arrays, 1 of 1 clearance."),
     "plan check": (

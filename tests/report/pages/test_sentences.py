@@ -12,7 +12,7 @@ from printed import printed
 from report.assessment.conditions import project_rows
 from report.assessment.envelopes import keep_clear_m, keep_clear_words
 from report.drawing.plan import plan_drawing
-from scenes import FOOT, REVIEW
+from scenes import DEPARTURE, FOOT, REVIEW
 from stand_in import INCH
 
 
@@ -65,6 +65,15 @@ def test_a_drift_over_its_limit_prints_larger():
     (row,) = [row for row in rows if row.id == "drift"]
     numbers = [float(re.search(r"\((\d+) mm\)", text)[1]) for text in (row.found, row.limit)]
     assert numbers[0] > numbers[1]
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [({}, "times Δ and importance,"), (DEPARTURE, "times the displacement toward it (part 4) and")],
+)
+def test_the_plan_says_which_displacement_a_separation_takes(options, words):
+    assert words in printed(scenes.package(options=REVIEW | options), "plan")
 
 
 @pytest.mark.quick

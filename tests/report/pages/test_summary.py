@@ -55,3 +55,15 @@ def test_a_condition_that_says_the_same_of_several_arrays_is_said_once():
     assert sum(len(ids) for _, ids in done.alike_conditions) == len(done.conditions)
     page = printed(done, "summary")
     assert "not given" in page.line("Arrays A1 to A3, interconnection strength")
+
+
+def test_a_requirement_that_is_found_differently_is_one_row_with_each_array_before_its_own():
+    given = {"A1": 10.0, "A2": 20.0, "A3": 20.0}
+    arrays = [
+        stand_in.array(id, 0.5, x=120 * k, interconnection_n=strength_n)
+        for k, (id, strength_n) in enumerate(given.items())
+    ]
+    done = stand_in.assess_input(stand_in.project(arrays=arrays), stand_in.motions(1, seconds=4.0))
+    line = printed(done, "summary").line("NG: Arrays A1 to A3, interconnection strength provided")
+    # 1 lb = 4.448 N; provided is rounded down
+    assert "provided: A1: 2 lb (0.01 kN); A2, A3: 4 lb (0.02 kN); required: ≥ 4374 lb" in line
