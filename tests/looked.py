@@ -113,8 +113,8 @@ def headings_left_behind(found: Sequence[Sheet]) -> list[tuple[int, str]]:
             heading = block
         elif block.kind == "Table":
             heading = None
-        elif block.kind == "Figure" and block.wide > DRAWING_PT and heading:
-            if block.sheet > heading.sheet:
+        elif block.kind == "Figure" and heading:  # an equation is a figure too, and less wide
+            if block.wide > DRAWING_PT and block.sheet > heading.sheet:
                 left.append((heading.sheet, heading.text))
             heading = None
     return left

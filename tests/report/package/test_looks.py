@@ -72,7 +72,7 @@ h2 {{ break-after: auto }}
 <h1>Part</h1><p style="height: 7.5in">Full.</p>
 <h2>Left behind</h2>{DRAWING}
 <h2>Short</h2>{DRAWING}
-<table style="break-before: page; width: 0.3in"><tr><td>2025-<br/>11-01</td></tr></table>
+<table style="break-before: page; width: 0.3in"><tr><td>2025-<br/>11-<br/>01</td></tr></table>
 <p style="height: 8.3in">Full.</p>
 <table><thead><tr><th>Motion</th><th>PRD</th></tr></thead><tbody>
 {"".join(f"<tr><td>RM{count}</td><td>0.85</td></tr>" for count in range(40))}
