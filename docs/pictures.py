@@ -25,8 +25,8 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 SHEETS = {
     "summary.png": ("1 Summary", 1.0),
-    "comparison.png": ("8 Comparison with the prescriptive displacement", 0.36),
-    "model.png": ("12 Model used", 0.44),
+    "comparison.png": ("2 Comparison with the prescriptive displacement", 0.66),
+    "model.png": ("6 Model used", 0.55),
 }
 """Of the package: the heading of a part, and how much of a sheet is shown from there down."""
 ABOVE_PT = 14.0
