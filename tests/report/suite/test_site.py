@@ -128,6 +128,7 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
 MADE = "Motions/motion-01/Source"
 
 
+@pytest.mark.nightly
 def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
     commands.printed(*suite(made, "--into", path))
@@ -145,6 +146,7 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
         assert path.read_bytes() == before
 
 
+@pytest.mark.nightly
 def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former(tmp_path, quick):
     path, made = make(tmp_path), tmp_path / "records" / "made"
     commands.printed(*suite(made, "--into", path))

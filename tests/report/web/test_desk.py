@@ -144,6 +144,7 @@ def test_a_move_goes_to_the_process_that_is_free(done):
     assert done(script) == (["moving"], False)
 
 
+@pytest.mark.nightly
 def test_a_job_whose_process_ends_is_tried_once_more_and_then_lost(done):
     others = processes()
 

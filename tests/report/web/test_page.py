@@ -201,6 +201,7 @@ def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, 
     assert page.locator("#verdict .tag").inner_text() in ("OK", "NG", "OK with conditions")
 
 
+@pytest.mark.nightly
 def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, address):
     moved(page, "slope", 1.0)
     page.wait_for_url("**/#slope=1")
@@ -214,6 +215,7 @@ def test_a_link_restores_the_values_and_reset_those_of_the_workbook(page, addres
     assert numbers(page, "arrays", 3) != shown
 
 
+@pytest.mark.nightly
 def test_an_address_is_good_once_and_the_page_gives_another_one(page, browser, address):
     moved(page, "slope", 1.0)
     page.wait_for_url("**/#slope=1")
@@ -263,6 +265,7 @@ def test_the_page_works_with_the_keyboard_alone(page):
     assert page.evaluate("document.activeElement.dataset.name") == "A2"
 
 
+@pytest.mark.nightly
 def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
     page.select_option("#choice-together", "no")
     at_rest(page)
@@ -276,6 +279,7 @@ def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
     assert verdicts(page)[0] == "OK with conditions"
 
 
+@pytest.mark.nightly
 def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     project, name = tmp_path / "yours", "Arrays/A2/CG height"
     shutil.copytree(EXAMPLE, project, ignore=shutil.ignore_patterns("out"))
@@ -295,6 +299,7 @@ def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     at_rest(page)
 
 
+@pytest.mark.nightly
 def test_of_a_workbook_that_is_sent_alone_the_page_says_first_that_its_records_are_missing(page):
     page.set_input_files("#files", EXAMPLE / "input.xlsx")
     page.wait_for_selector("#problems tbody tr")
@@ -404,6 +409,7 @@ def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     assert "before the last change" in page.inner_text("#package-status")
 
 
+@pytest.mark.nightly
 def test_a_package_that_is_canceled_leaves_the_page_as_it_was(page):
     page.click("#make-package")
     page.click("text=Cancel")
@@ -435,6 +441,7 @@ def drawn(page, view, selector, wanted):
     return shown.first.inner_text()
 
 
+@pytest.mark.nightly
 def test_the_views_draw_what_is_chosen_with_the_values_of_the_tables(page):
     page.click("#tab-slide")
     page.select_option("#array", "A2")
@@ -462,6 +469,7 @@ def test_the_views_draw_what_is_chosen_with_the_values_of_the_tables(page):
     assert drawn(page, "contour", ".contour-reading strong", f"A2: mean PRD {changed} (")
 
 
+@pytest.mark.nightly
 def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back(browser, address):
     with quiet_page(browser) as page:
         opened(page, address)
@@ -480,6 +488,7 @@ def test_without_the_server_the_page_says_what_to_do_and_goes_on_when_it_is_back
         page.wait_for_selector("#error", state="hidden")
 
 
+@pytest.mark.nightly
 def test_a_tab_whose_project_another_tab_has_replaced_shows_none_of_the_other(
     page, address, tmp_path
 ):
@@ -506,6 +515,7 @@ def test_when_every_process_is_killed_the_page_goes_on(page, server):
     assert verdicts(page)[0] == "NG" != before[0]
 
 
+@pytest.mark.nightly
 def test_clearances_that_the_plan_lacks_are_added_by_a_button(page, tmp_path):
     assert not page.is_visible("#add-clearances")
     make(tmp_path / "roof", clearances=[], objects=SECTIONS["objects"][:1])

@@ -286,6 +286,7 @@ def is_stale(page):
     return "is-stale" in page.locator(".view").get_attribute("class")
 
 
+@pytest.mark.nightly
 def test_it_plays_at_a_speed_pauses_and_stops_when_a_slider_moves(page, run):
     mounted(page, "slide", run)
     press(page, ".watch", ">")

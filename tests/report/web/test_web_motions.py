@@ -96,6 +96,7 @@ def test_a_suite_is_begun_for_what_is_sent_and_is_no_package_of_what_is_open(cli
 
 
 @pytest.mark.quick
+@pytest.mark.nightly
 def test_a_suite_that_is_being_made_ends_where_another_project_is_opened(client, tmp_path):
     files = [("files", ("p/input.xlsx", without_motions(tmp_path).read_bytes()))]
     made = client.post("/api/motions", files=files).json()["id"]
