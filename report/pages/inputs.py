@@ -45,7 +45,7 @@ def inputs(package: PackageData) -> Mapping[str, object]:
         "sizes": _sizes(package),
         "outlined": {"arrays": _outlined(data.arrays), "objects": _outlined(data.objects)},
         "links": _links(package),
-        "objects": _objects(package),
+        "places": _places(package),
         "friction": friction_tests.page(package),
     }
 
@@ -102,17 +102,23 @@ def _links(package: PackageData) -> Table:
     return listed(package.data.links, columns, package.fmt)
 
 
-def _objects(package: PackageData) -> Table:
+def _places(package: PackageData) -> Table:
+    """Return where arrays, objects and roof edges are in plan, and how high the latter."""
+    data = package.data
+    rows = [
+        *((array.id, "array", None, array.placed) for array in data.arrays if array.placed),
+        *((item.id, item.kind.value, item.height_m, item.placed) for item in data.objects),
+    ]
     columns = (
-        (words("Object", 1.2), lambda item: item.id),
-        (words("Kind", 2.5), lambda item: item.kind.value),
-        (length("Height"), lambda item: "—" if item.height_m is None else item.height_m),
-        (_in_plan("x from"), lambda item: _sides(item.placed)[0]),
-        (_in_plan("x to"), lambda item: _sides(item.placed)[1]),
-        (_in_plan("y from"), lambda item: _sides(item.placed)[2]),
-        (_in_plan("y to"), lambda item: _sides(item.placed)[3]),
+        (words("Item", 1.2), lambda row: row[0]),
+        (words("Kind", 2.5), lambda row: row[1]),
+        (length("Height"), lambda row: "—" if row[2] is None else row[2]),
+        (_in_plan("x from"), lambda row: _sides(row[3])[0]),
+        (_in_plan("x to"), lambda row: _sides(row[3])[1]),
+        (_in_plan("y from"), lambda row: _sides(row[3])[2]),
+        (_in_plan("y to"), lambda row: _sides(row[3])[3]),
     )
-    return listed(package.data.objects, columns, package.fmt, kind="compact")
+    return listed(rows, columns, package.fmt, kind="compact")
 
 
 def _sides(shape: Shape | None) -> tuple[Any, ...]:
