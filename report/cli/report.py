@@ -184,7 +184,6 @@ def _document(
 
 def _print_changes(assessment: Assessment, changed: Changes) -> None:
     from report.pages.changes import counted
-    from report.pages.registry import package_data
 
     before = {item.title: plain(item.before) for item in changed.items if item.cell}
     if {"Project name", "Project number"} <= before.keys():
@@ -192,5 +191,7 @@ def _print_changes(assessment: Assessment, changed: Changes) -> None:
             f"--since is of another project: {before['Project number']},"
             f" {before['Project name']}; check that it is the former revision of this one"
         )
-    where = package_data(assessment, changed).part("changes")
-    click.echo(f"since revision {changed.revision}: {counted(changed)}; see {where} of the package")
+    click.echo(
+        f"since revision {changed.revision}: {counted(changed)}; the package lists them after its "
+        "summary"
+    )

@@ -105,8 +105,8 @@ def test_an_empty_signature_field_lies_over_the_seal_box(pdf, elements):
     assert "/V" not in field
     assert field.objgen in {annotation.objgen for annotation in pdf.pages[0].Annots}
     left, bottom, right, top = map(float, field.Rect)
-    # Letter, with margins of 0.9 in: the left one of two boxes with 0.15 in between them.
-    assert left == pytest.approx(0.9 * 72, abs=0.1)
+    # Letter, with margins of 0.75 in: the left one of two boxes with 0.15 in between them.
+    assert left == pytest.approx(0.75 * 72, abs=0.1)
     assert right == pytest.approx((8.5 / 2 - 0.075) * 72, abs=0.1)
     assert top - bottom == pytest.approx(1.1 * 72, abs=10.0)
     (form,) = of_kind(elements, "/Form")
