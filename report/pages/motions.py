@@ -39,8 +39,8 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
         ("motions-list", "Motions"),
         ("motions-limits", "Limits on the motions"),
         ("motions-processing", "Processing and drift"),
-        *ground,
         ("motions-spectra", "Response spectra"),
+        *ground,
     )
 
 
