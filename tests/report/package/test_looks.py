@@ -22,7 +22,7 @@ from report.typeset.pdf import lay_out
 pytestmark = pytest.mark.quick
 
 PROJECTS = tuple(path.parent.name for path in sorted(ROOT.glob("projects/*/input.xlsx")))
-LEAST_FILLED = 0.6
+LEAST_FILLED = 0.5
 
 
 def _made(name, factory):
