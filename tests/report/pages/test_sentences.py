@@ -70,7 +70,10 @@ def test_a_drift_over_its_limit_prints_larger():
 @pytest.mark.quick
 @pytest.mark.parametrize(
     ("options", "words"),
-    [({}, "times Δ and importance,"), (DEPARTURE, "times the displacement toward it (part 4) and")],
+    [
+        ({}, "the factor ×, importance included, times Δ, of two"),
+        (DEPARTURE, "importance included, times the displacement toward it (part 4), of"),
+    ],
 )
 def test_the_plan_says_which_displacement_a_separation_takes(options, words):
     assert words in printed(scenes.package(options=REVIEW | options), "plan")
