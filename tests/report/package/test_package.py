@@ -42,8 +42,8 @@ def texts(pdf):
 
 
 @pytest.mark.nightly
-def test_the_package_has_fifteen_to_thirty_five_pages(texts):
-    assert 15 <= len(texts) <= 35
+def test_the_complete_edition_with_a_letter_has_fifteen_to_thirty_pages(texts):
+    assert 15 <= len(texts) <= 30
 
 
 @pytest.mark.nightly
