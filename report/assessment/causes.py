@@ -50,8 +50,12 @@ class ProjectOutcome:
 
     def words(self, us_first: bool) -> str:
         """Return it in a few words, such as `NG, A3 to RTU-2 60.4 > 60.0 in`."""
-        gap = f", {self.gap.words(us_first)}" if self.gap else ""
-        return "; ".join((self.verdict.value + gap, *self.others))
+        if self.gap is None:
+            return "; ".join((self.verdict.value, *self.others))
+        gap, is_short = self.gap.words(us_first), self.gap.demand_capacity > 1.0
+        # What is NG stands before a clearance that is satisfied.
+        parts = (gap, *self.others) if is_short else (*self.others, gap)
+        return f"{self.verdict.value}, {'; '.join(parts)}"
 
 
 def outcome(done: Assessment) -> ProjectOutcome:

@@ -31,6 +31,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "found": accuracy,
         "margins": uncertainty.margins(package, evidence),
         "percent": _PERCENT,
+        "no_slip": Model.NO_SLIP,
         "two_axes": Model.TWO_AXES,
         "friction": _friction_table(package, tuple(_by_array(accuracy))),
         "n_more_unfinished": _unfinished(accuracy.at_reduced_friction)

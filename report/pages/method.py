@@ -28,7 +28,9 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return what the equations need beside the package."""
+    largest_m = package.governing.design_m
     return {
+        "is_shared": sum(item.design_m == largest_m for item in package.assessment.arrays) > 1,
         **_motion(package),
         **_weights(package),
         **_design(package),
