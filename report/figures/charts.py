@@ -38,7 +38,7 @@ def comparison(
     """
     first, second = UnitFormat(us_first).units()
     with style():
-        height = 1.3 + _row_in(len(groups)) * len(groups)
+        height = 1.18 + _row_in(len(groups)) * len(groups)
         names = [cut(printed(ranged(array.id for array in group)), 32) for group in groups]
         figure, axes = framed(height, _label_in(names), 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
@@ -76,7 +76,7 @@ def _label_in(names: Sequence[str]) -> float:
 
 def _row_in(count: int) -> float:
     """Return the height of a row of a chart with `count` rows [in]."""
-    return min(0.4, 5.4 / count)
+    return min(0.31, 5.4 / count)
 
 
 def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
@@ -92,6 +92,8 @@ def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
 _BAR: Any = {"facecolor": "white", "edgecolor": INK, "linewidth": 0.8}
 _FLOOR: Any = {"color": INK, "linestyle": (0, (3, 2)), "linewidth": 1.2}
 _OTHER: Any = {"marker": "D", "markersize": 6, "color": INK, "fillstyle": "none", "linestyle": ""}
+_ABOVE = 0.33  # of a row: clear of its bar, whose middle has the marks
+_NOTE: Any = {"va": "bottom", "fontsize": 6}
 _PEAK: Any = {"color": ACCENT, "markersize": 4, "fillstyle": "none", "markeredgewidth": 0.8}
 
 
@@ -108,6 +110,7 @@ def _compare(axes: Axes, row: int, array: ArrayAssessment, unit: Unit) -> None:
     design = array.permitted_m / unit.si
     axes.plot([design], [row], "D", markersize=6, color=INK, label="design")
     if math.isnan(design):
-        axes.text(prescriptive / 2, row, "none", ha="center", va="center")
+        axes.text(0.0, row - _ABOVE, "no design displacement", **_NOTE, ha="left")
     if not all(check.ok for check in array.prescriptive_checks):
-        axes.text(prescriptive, row, f"{NOT_PERMITTED} ", ha="right", va="bottom", fontsize=6)
+        words = f"prescriptive displacement {NOT_PERMITTED}"
+        axes.text(prescriptive, row - _ABOVE, words, **_NOTE, ha="right")

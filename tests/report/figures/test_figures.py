@@ -95,7 +95,7 @@ def test_a_run_without_a_value_is_drawn_as_such():
     done = scenes.package((still,) * 3).assessment
     printed = words(histories(done.arrays[0]))
     assert printed.count("none") == 6  # above and within each panel
-    assert "none" in words(figures.comparison(done.alike, True))
+    assert "no design displacement" in words(figures.comparison(done.alike, True))
 
 
 @pytest.mark.parametrize("us_first", [True, False])
@@ -106,5 +106,7 @@ def test_the_wanted_unit_is_on_the_main_axis(assessment, us_first):
 
 
 @pytest.mark.quick
-def test_a_comparison_without_a_permitted_route_says_none():
-    assert "none" in words(figures.comparison(stand_in.unpermitted().alike, True))
+def test_a_comparison_without_a_permitted_route_says_so():
+    printed = words(figures.comparison(stand_in.unpermitted().alike, True))
+    assert "no design displacement" in printed
+    assert "prescriptive displacement not permitted" in printed
