@@ -39,9 +39,9 @@ class RequirementRow(Entity):
 
     subject: Annotated[str, words("Item", 0.95), Column()]
     title: Annotated[str, words("Requirement", 2.7), Column()]
-    found: Annotated[str, words("Found", 3.75), Column()]
-    limit: Annotated[str, words("Required", 2.5), Column()]
-    basis: Annotated[str, words("Basis", 2.05), Column()]
+    found: Annotated[str, words("Found", 3.65), Column()]
+    limit: Annotated[str, words("Required", 2.35), Column()]
+    basis: Annotated[str, words("Basis", 2.3), Column()]
     verdict: Annotated[Verdict, centered("Verdict", 1.3), Column()]
     remedy: Annotated[str, Column("What must be done")]
 

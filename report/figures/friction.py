@@ -44,7 +44,7 @@ _FITS: Mapping[Surface, dict[str, Any]] = {
 }
 _POINTS = 200
 _LEADER_IN = 0.15
-_LABEL_GAP = 0.12  # least distance of two labels, as a share of the height
+_LABEL_GAP = 0.14  # least distance of two labels, as a share of the height
 
 
 def friction_by_velocity(
@@ -69,7 +69,7 @@ def friction_by_velocity(
     with style(), mpl.rc_context(_TYPE):
         laws = _laws(arrays)
         labels_in = max(width_in(_law_words(law, names)) for law, names in laws.items())
-        figure, axes = framed(2.3, 0.62, labels_in + _LEADER_IN + 0.08, 0.3, 0.52)
+        figure, axes = framed(1.75, 0.62, labels_in + _LEADER_IN + 0.08, 0.3, 0.52)
         for surface, look in _MARKS.items():
             those = [run for run in shown if run.surface is surface]
             if those:

@@ -19,9 +19,9 @@ def provisions(package: PackageData) -> Mapping[str, object]:
     rules = package.assessment.rules
     named = [(_sentence_case(OVERRIDABLE[key]), value) for key, value in rules.values.items()]
     columns = (
-        (words("Provision", 4.7), lambda row: row[0]),
-        (text("Value", share=0.85), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
-        (words("Clause", 2.2), lambda row: row[1].clause),
+        (words("Provision", 4.6), lambda row: row[0]),
+        (text("Value", share=0.75), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
+        (words("Clause", 2.4), lambda row: row[1].clause),
     )
     middle = (len(named) + 1) // 2
     halves = named[:middle], named[middle:]

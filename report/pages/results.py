@@ -23,9 +23,6 @@ from report.words.counts import named
 from report.words.units import measured, no_less, number
 from solver.model import Orientation, Status
 
-PEAK_ROWS = 16
-"""The PRDs of usual suites stay on one page, with their mean and the design value."""
-
 _Alike = Sequence[ArrayAssessment]
 _WAYS = (Direction.DOWN, Direction.UP, Direction.ACROSS)
 _SHORT = {
@@ -115,7 +112,6 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
         columns,
         fmt,
         kind="compact",
-        whole_rows=PEAK_ROWS,
         style=lambda run: package.bar(any((item.id, run.motion.id) in changed for item in group)),
     )
     return replace(table, rows=(*table.rows, *_statistics(package, group, len(orientations))))

@@ -65,7 +65,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
 
     columns = (
-        (words("No."), lambda margin: str(margin.number)),
+        (words("No.", 0.8), lambda margin: str(margin.number)),
         (words("Array", 0.8), lambda margin: margin.array.id),
         (text("μ", "given", 2.2), lambda margin: mu_words(margin.array.array.friction)),
         (text("μ", "least", 2.4), least),
@@ -75,7 +75,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
             lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m,
         ),
         (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
-        (words("Limited by", 1.3), lambda margin: lowered(margin.limited_by)),
+        (words("Limited by", 1.6), lambda margin: lowered(margin.limited_by)),
     )
     return listed(margins, columns, package.fmt, kind="compact")
 
