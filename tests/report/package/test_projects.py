@@ -73,8 +73,8 @@ def example(tmp_path_factory):
     return made(packages.reported(tmp_path_factory, "example", by_script=True))
 
 
-def test_the_example_has_at_most_17_sheets(example):
-    assert len(example.pdf.pages) <= 17
+def test_the_example_has_at_most_16_sheets(example):
+    assert len(example.pdf.pages) <= 16
 
 
 def test_the_example_has_the_conditions_that_its_code_and_friction_tests_leave(example):
