@@ -5,10 +5,13 @@ Knows no format. What the files of a package are: `report.results.publish`. Read
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 import shutil
 import stat
+import sys
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -18,6 +21,9 @@ from solver.model import InputError
 LOCK = ".roofslip-lock"
 WAIT_S = 60.0
 """How long a process waits for another that writes to the same folder [s]."""
+
+PAUSES_S = (0.1,) * 10 if sys.platform == "win32" else ()
+"""Between tries to rename a file, which Windows refuses while a scanner or OneDrive has it open."""
 
 
 def write_whole(path: Path, content: bytes) -> None:
@@ -144,13 +150,29 @@ def _remove_empty(folder: Path) -> None:
 def _replace(part: Path, target: Path, sweep: ExitStack, undo: ExitStack) -> None:
     """Put a file in its place; what was there is put back when another one cannot be written."""
     if target.exists():
+        if sys.platform == "win32" and not os.access(target, os.W_OK):
+            raise PermissionError(errno.EACCES, "it is read-only")  # and so would its links be
         former = _hidden(target.parent, sweep)
         try:
             os.link(target, former)
         except OSError:  # a file system without hard links
             shutil.copy2(target, former)
-        undo.callback(os.replace, former, target)
+        undo.callback(_put_back, former, target, part)
         part.chmod(target.stat().st_mode & 0o777)
     else:
         undo.callback(target.unlink, missing_ok=True)
-    os.replace(part, target)
+    _rename(part, target)
+
+
+def _put_back(former: Path, target: Path, part: Path) -> None:
+    if not part.exists():  # else it was not renamed: the target is still the former file
+        _rename(former, target)
+
+
+def _rename(source: Path, target: Path) -> None:
+    for pause_s in PAUSES_S:
+        with suppress(PermissionError):
+            os.replace(source, target)
+            return
+        time.sleep(pause_s)
+    os.replace(source, target)

@@ -117,6 +117,42 @@ def test_of_a_set_that_cannot_be_written_nothing_is(tmp_path, monkeypatch, name,
     assert folder.exists() is not is_new
 
 
+@pytest.fixture
+def refusing(monkeypatch):
+    """A function that has renames to a name refused some times, as Windows does to open files."""
+    rename = os.replace
+
+    def refuse(name, times):
+        left = [name] * times
+
+        def renamed(source, target):
+            if target.name in left:
+                left.remove(target.name)
+                refused()
+            rename(source, target)
+
+        monkeypatch.setattr(os, "replace", renamed)
+
+    return refuse
+
+
+def test_of_a_set_with_a_file_that_stays_open_elsewhere_nothing_is_changed(tmp_path, refusing):
+    before, after = (dict.fromkeys(("a.csv", "b.csv"), text) for text in (b"old", b"new"))
+    write_all(before, tmp_path)
+    refusing("b.csv", 99)
+    told = r"b\.csv: cannot be written .*; close it in other programs. No file was changed"
+    with pytest.raises(InputError, match=told):
+        write_all(after, tmp_path)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_a_file_that_is_open_elsewhere_for_a_moment_is_replaced(path, refusing, monkeypatch):
+    monkeypatch.setattr("solver.files.PAUSES_S", (0.0, 0.0))
+    refusing("a.csv", 2)
+    write_whole(path, b"new")
+    assert path.read_bytes() == b"new"
+
+
 def test_a_second_process_waits_for_the_first_and_then_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr("solver.files.WAIT_S", 0.2)
     with locked(tmp_path):
