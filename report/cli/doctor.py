@@ -2,11 +2,13 @@
 
 import os
 import platform
+import sys
 from collections.abc import Callable, Iterator
-from ctypes.util import find_library
 from importlib.metadata import requires, version
 
 import click
+
+from report.typeset.native import library
 
 NATIVE = {"pango-1.0": "libpango-1.0-0", "pangoft2-1.0": "libpangoft2-1.0-0",
           "harfbuzz-subset": "libharfbuzz-subset0", "fontconfig": "libfontconfig1"}  # fmt: skip
@@ -34,11 +36,15 @@ def _checks() -> Iterator[tuple[str, Callable[[str], str | None], str]]:
     """Yield each check: a name, what finds it, and what to do where it finds nothing or fails."""
     yield "Python", lambda _: f"{platform.python_version()}, {platform.platform()}", ""
     yield "cores", lambda _: str(os.cpu_count()), ""
+    launcher = os.path.join(".", "roofslip")
+    locked = f"install it: {launcher} does so from requirements.lock"
     for name in ("roofslip", *(each for each in requires("roofslip") or () if ";" not in each)):
-        yield name, version, "install it: ./roofslip does so from requirements.lock"
+        yield name, version, locked
     for name, package in NATIVE.items():
-        yield name, find_library, f"install it: sudo apt-get install {package}"
-    yield "test run", _slipped, "remove .venv and run ./roofslip again; if it stays, report it"
+        debian = f"install it: sudo apt-get install {package}"
+        yield name, library, locked if sys.platform == "win32" else debian
+    again = f"remove .venv and run {launcher} again; if it stays, report it"
+    yield "test run", _slipped, again
     yield "test page", _laid_out, "install what is missing above, or the program again"
 
 

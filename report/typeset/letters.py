@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import re
 import subprocess
+import sys
 from functools import cache
 
 from report.sheet.reading.read import Sheet
+from report.typeset.native import has_font_on_windows
 from solver.model import InputError, Problem
 
 _LISTED = 5
@@ -55,6 +57,8 @@ def _shipped() -> frozenset[int]:
 @cache
 def _is_on_machine(letter: str) -> bool:
     """Whether fontconfig, which the renderer asks as well, knows a font with a letter."""
+    if sys.platform == "win32":
+        return has_font_on_windows(letter)
     try:
         found = subprocess.run(
             ["fc-list", f":charset={ord(letter):x}", "family"],

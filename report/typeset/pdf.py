@@ -7,7 +7,9 @@ in the renderer's log is an internal error.
 from __future__ import annotations
 
 import datetime as dt
+import gc
 import logging
+import sys
 import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
@@ -17,6 +19,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from report.typeset.finish import Attached, finish
+from report.typeset.native import load_renderer
 from report.typeset.unbroken import unbroken
 from solver.model import DefectError
 
@@ -42,21 +45,26 @@ def lay_out(html: str, attached: Sequence[Attached] = ()) -> bytes:
     ParseError
         If the markup is not well-formed as XML.
     """
-    from weasyprint import HTML
-
+    load_renderer()
     ElementTree.fromstring(html)  # the renderer mends broken markup without a word
     files = sorted(attached, key=lambda file: file.name)
-    with _clean_log(), _no_fonts_left(), warnings.catch_warnings():
+    with _clean_log(), warnings.catch_warnings(), _no_fonts_left():
         # The renderer leaves the file of its color profile to the garbage collector.
         warnings.simplefilter("ignore", ResourceWarning)
-        pages = HTML(string=unbroken(html), base_url=f"{_SCHEME}/", url_fetcher=_fetcher()).render()
-        created = pages.metadata.created
-        date = dt.datetime.fromisoformat(created) if created else _NO_DATE
-        pdf: bytes = pages.write_pdf(
-            pdf_variant=VARIANT,
-            attachments=[_attachment(file, date) for file in files],
-            finisher=lambda document, objects: finish(document, objects, files),
-        )
+        return _laid_out(unbroken(html), files)
+
+
+def _laid_out(html: str, files: Sequence[Attached]) -> bytes:
+    from weasyprint import HTML
+
+    pages = HTML(string=html, base_url=f"{_SCHEME}/", url_fetcher=_fetcher()).render()
+    created = pages.metadata.created
+    date = dt.datetime.fromisoformat(created) if created else _NO_DATE
+    pdf: bytes = pages.write_pdf(
+        pdf_variant=VARIANT,
+        attachments=[_attachment(file, date) for file in files],
+        finisher=lambda document, objects: finish(document, objects, files),
+    )
     return pdf
 
 
@@ -96,12 +104,15 @@ def _attachment(file: Attached, date: dt.datetime) -> Any:
 def _no_fonts_left() -> Iterator[None]:
     """Have the files of fonts removed, which the renderer leaves to the garbage collector."""
     usual = tempfile.tempdir
-    with tempfile.TemporaryDirectory(prefix="roofslip-") as folder:
+    is_windows = sys.platform == "win32"
+    with tempfile.TemporaryDirectory("", "roofslip-", ignore_cleanup_errors=is_windows) as folder:
         tempfile.tempdir = folder
         try:
             yield
         finally:
             tempfile.tempdir = usual
+            if is_windows:
+                gc.collect()  # which closes them: there, no open file is removed
 
 
 @contextmanager
