@@ -15,7 +15,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from functools import partial
 from multiprocessing import get_context, parent_process
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Thread
@@ -98,6 +98,10 @@ class WorkerProcess(Executor):
         return value
 
     def _message(self) -> Any:
+        # The pipe of a process that ended as it began stays open on Windows.
+        wait([self._pipe, self._process.sentinel])
+        if not self._pipe.poll():
+            raise EOFError
         if self._is_trusted:
             return self._pipe.recv()
         return json.loads(self._pipe.recv_bytes(_MOST_JSON))

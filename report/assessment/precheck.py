@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from shlex import quote
 
 from report.assessment.acceptance import shaking_acceptance
 from report.assessment.arrays import Route, interconnection_n, limits_of, statistic_basis
@@ -28,6 +27,7 @@ from report.sheet.reading.read import Sheet
 from report.sheet.reading.unseen import warnings
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.fields import Finding, Place
+from report.words.command import quoted
 from report.words.counts import lowered, numbered
 from report.words.units import Quantity, number, pair, round_down, round_up
 from solver.rules import provisions
@@ -192,7 +192,7 @@ def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
         f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}."
         f" Reach before any run: twice the prescriptive displacement, {reach}, or what it requires."
         f" {'Add the roof edges as objects, then run' if is_bare else 'Run'} roofslip plan"
-        f" clearances {quote(str(sheet.path))}, or add the rows"
+        f" clearances {quoted(sheet.path)}, or add the rows"
     )
     yield limit(text, Place("clearances"))
 

@@ -35,6 +35,7 @@ from report.cli.terminal import (
     interrupts,
     plain,
     show_warnings,
+    suit_windows,
     unwritten,
 )
 from report.cli.verify import verify
@@ -62,6 +63,7 @@ class _Commands(SectionedGroup):
 
         A closed pipe ends nothing, and Ctrl+C ends with one line and exit code 130.
         """
+        suit_windows()
         for name in ("stdout", "stderr"):
             if stream := getattr(sys, name):  # closed, it is None
                 setattr(sys, name, UntilClosed(stream))

@@ -258,6 +258,18 @@ class UntilClosed:
         os.close(nowhere)
 
 
+def suit_windows() -> None:
+    """On Windows, have pipes take UTF-8 rather than its code page, and terminals their codes."""
+    if sys.platform == "win32":
+        from ctypes import windll
+
+        for stream, handle in ((sys.stdout, -11), (sys.stderr, -12)):
+            if stream is not None and not stream.isatty():
+                stream.reconfigure(encoding="utf-8")
+            elif stream is not None:
+                windll.kernel32.SetConsoleMode(windll.kernel32.GetStdHandle(handle), 7)
+
+
 def show_warnings() -> None:
     """Print warnings to the user as one line; those to developers stay as they are."""
     usual = warnings.showwarning

@@ -9,20 +9,30 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import sys
 from pathlib import Path
 
 # The name in lower case before a word is a command; the product is Roofslip.
 _COMMAND = re.compile(r"(?<![\w./-])roofslip(?= [a-z])")
 
+_PLAIN = re.compile(r"[\w.:\\/+-]+")  # no shell of Windows takes it apart
+
 
 def called() -> str:
     """Return the program as the reader typed it, which the launcher passes on."""
-    return shlex.quote(os.environ.get("ROOFSLIP_COMMAND") or "roofslip")
+    return quoted(os.environ.get("ROOFSLIP_COMMAND") or "roofslip")
+
+
+def quoted(word: object) -> str:
+    """Return a word as the shell takes it; on Windows, as both cmd and PowerShell do."""
+    if sys.platform == "win32":
+        return str(word) if _PLAIN.fullmatch(str(word)) else f'"{word}"'
+    return shlex.quote(str(word))
 
 
 def command(words: str, path: Path) -> str:
     """Return a command on a path, as it can be pasted into a shell."""
-    return f"{called()} {words} {shlex.quote(str(path))}"
+    return f"{called()} {words} {quoted(path)}"
 
 
 def as_typed(text: str) -> str:

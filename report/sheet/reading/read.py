@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from shlex import quote
 from typing import Any, Generic, TypeVar
 
 from openpyxl.utils import coordinate_to_tuple
@@ -44,6 +43,7 @@ from report.sheet.schema.fields import (
     entries,
     sections_of,
 )
+from report.words.command import quoted
 from solver.model import InputError, Problem
 
 
@@ -153,7 +153,7 @@ def read_book(book: OpenBook) -> Sheet:
         `report.motions.prepare` those together with the errors of its records.
     """
     if _STUDY in book.scans and SECTIONS[0].sheet not in book.scans:
-        run = f"roofslip study {quote(str(book.path))}"
+        run = f"roofslip study {quoted(book.path)}"
         raise InputError(f"{_STUDY}: this is the workbook of a study; run {run}")
     sheet = read_as(ProjectInput, book, faults)
     documents, wrong = read_documents(book, sheet.draft)
