@@ -5,14 +5,13 @@ Knows no format. What the files of a package are: `report.results.publish`. Read
 
 from __future__ import annotations
 
-import errno
 import os
 import secrets
 import shutil
 import stat
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
@@ -23,7 +22,7 @@ WAIT_S = 60.0
 """How long a process waits for another that writes to the same folder [s]."""
 
 PAUSES_S = (0.1,) * 10 if sys.platform == "win32" else ()
-"""Between tries to rename a file, which Windows refuses while a scanner or OneDrive has it open."""
+"""Between tries of what Windows refuses while a scanner or OneDrive has a file open [s]."""
 
 
 def write_whole(path: Path, content: bytes) -> None:
@@ -130,7 +129,7 @@ def locked(folder: Path) -> Iterator[None]:
 def _hidden(folder: Path, sweep: ExitStack) -> Path:
     """Return a random name in a folder; what has it at the end is removed."""
     path = folder / f".roofslip-{secrets.token_hex(8)}.part"
-    sweep.callback(path.unlink, missing_ok=True)
+    sweep.callback(_persist, path.unlink, True)
     return path
 
 
@@ -151,28 +150,30 @@ def _replace(part: Path, target: Path, sweep: ExitStack, undo: ExitStack) -> Non
     """Put a file in its place; what was there is put back when another one cannot be written."""
     if target.exists():
         if sys.platform == "win32" and not os.access(target, os.W_OK):
-            raise PermissionError(errno.EACCES, "it is read-only")  # and so would its links be
+            told = "is read-only; allow changes to it, or move it away. No file was changed"
+            raise InputError(f"{target}: {told}")
         former = _hidden(target.parent, sweep)
-        try:
-            os.link(target, former)
-        except OSError:  # a file system without hard links
+        if sys.platform != "win32":  # there, no link to a file that is open can be removed
+            with suppress(OSError):  # a file system without hard links
+                os.link(target, former)
+        if not former.exists():
             shutil.copy2(target, former)
         undo.callback(_put_back, former, target, part)
         part.chmod(target.stat().st_mode & 0o777)
     else:
-        undo.callback(target.unlink, missing_ok=True)
-    _rename(part, target)
+        undo.callback(_persist, target.unlink, True)
+    _persist(os.replace, part, target)
 
 
 def _put_back(former: Path, target: Path, part: Path) -> None:
     if not part.exists():  # else it was not renamed: the target is still the former file
-        _rename(former, target)
+        _persist(os.replace, former, target)
 
 
-def _rename(source: Path, target: Path) -> None:
+def _persist(act: Callable[..., object], *arguments: object) -> None:
     for pause_s in PAUSES_S:
         with suppress(PermissionError):
-            os.replace(source, target)
+            act(*arguments)
             return
         time.sleep(pause_s)
-    os.replace(source, target)
+    act(*arguments)
