@@ -19,6 +19,7 @@ import time
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
+from io import TextIOWrapper
 from pathlib import Path
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO
@@ -264,7 +265,7 @@ def suit_windows() -> None:
         from ctypes import windll
 
         for stream, handle in ((sys.stdout, -11), (sys.stderr, -12)):
-            if stream is not None and not stream.isatty():
+            if isinstance(stream, TextIOWrapper) and not stream.isatty():
                 stream.reconfigure(encoding="utf-8")
             elif stream is not None:
                 windll.kernel32.SetConsoleMode(windll.kernel32.GetStdHandle(handle), 7)
