@@ -23,7 +23,7 @@ TOP_PT, FOOT_PT = 0.9 * 72, 0.95 * 72  # margins, as in templates/package.css
 DRAWING_PT = 200.0  # a picture that is wider is a drawing, a narrower one an equation
 
 # A line of a cell ends within a number, and the next goes on with it; a clause (13.6.12) does not.
-_BROKEN = re.compile(r"[\d.\-−/]\n(?!\d+\.\d+\.\d)[\d.]")
+_BROKEN = re.compile(r"(?:\d[.\-−/]?|[\-−/])\n(?!\d+\.\d+\.\d)[\d.]")
 SHIFT_PT = 5.0  # of a subscript from its line
 _HASH = re.compile(r"[0-9a-f]{12}")
 _KINDS = ("H1", "H2", "P", "LI", "Caption", "Figure", "Table", "TH", "TD")
@@ -120,8 +120,11 @@ def headings_left_behind(found: Sequence[Sheet]) -> list[tuple[int, str]]:
     return left
 
 
-def split_tables(found: Sequence[Sheet], head: str) -> list[int]:
-    """Return the sheets that begin with the rest of a table whose first heading is this."""
+def split_tables(found: Sequence[Sheet], head: str, but: str = "-") -> list[int]:
+    """Return the sheets that begin with the rest of a table whose first heading is this.
+
+    Of those whose second heading does not begin with what may go on overleaf.
+    """
     return [
         after.number
         for sheet, after in pairwise(found)
@@ -129,6 +132,7 @@ def split_tables(found: Sequence[Sheet], head: str) -> list[int]:
         and after.blocks[0].kind == "Table"
         and after.heads(last=False)[:1] == (head,)
         and after.heads(last=False) == sheet.heads(last=True)
+        and not after.heads(last=False)[1].startswith(but)
     ]
 
 

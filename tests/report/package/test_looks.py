@@ -53,7 +53,8 @@ def test_the_sheets_have_no_fault_that_a_program_sees(sheets):
     assert len(sheets) > 10
     assert looked.broken_numbers(sheets) == []
     assert looked.headings_left_behind(sheets) == []
-    assert looked.split_tables(sheets, "Motion") == []
+    # The runs of an array may go on overleaf, by three rows or more.
+    assert looked.split_tables(sheets, "Motion", but="PRD of each run") == []
     assert looked.short_sheets(sheets, LEAST_FILLED) == []
 
 
