@@ -2,7 +2,6 @@
 
 import gc
 import os
-import resource
 import signal
 from contextlib import contextmanager
 
@@ -83,6 +82,7 @@ def noise():
 @pytest.fixture
 def files_up_to():
     """A context in which no file grows beyond some bytes: a write fails as on a full disk."""
+    resource = pytest.importorskip("resource", reason="Windows does not limit the size of files")
 
     @contextmanager
     def limited(size):

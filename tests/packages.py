@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import re
 import shutil
@@ -18,6 +17,7 @@ from xml.etree import ElementTree
 
 import pytest
 from click.testing import CliRunner
+from filelock import FileLock
 from matplotlib.figure import Figure
 
 import report.typeset.pdf
@@ -34,8 +34,7 @@ def once(factory: pytest.TempPathFactory, name: str, fill: Callable[[Path], obje
     if "PYTEST_XDIST_WORKER" in os.environ:
         top = top.parent
     folder, filled = top / name, top / f"{name}-is-filled"
-    with (top / f"{name}-lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with FileLock(top / f"{name}-lock"):
         if not filled.exists():
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()

@@ -20,7 +20,7 @@ TOP_LEVEL = {
     "pyproject.toml", "requirements.lock", "README.md", "roofslip", "solver", "report", "templates",
     "projects", "tests", "docs", "mkdocs.yml", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
     "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml", "Dockerfile",
-    ".dockerignore", "roofslip.py",
+    ".dockerignore", "roofslip.py", "roofslip.cmd", ".gitattributes",
 }  # fmt: skip
 
 
@@ -182,6 +182,18 @@ def test_a_script_of_the_shell_is_posix_sh(name):
     done = subprocess.run(["sh", "-n", str(ROOT / name)], capture_output=True, check=False)
     assert done.returncode == 0
     assert os.access(ROOT / name, os.X_OK)
+
+
+def test_the_launcher_of_windows_is_as_its_shell_reads_it():
+    """It finds no label in a file without its line ends, and reads letters in other code pages."""
+    content = (ROOT / "roofslip.cmd").read_bytes()
+    assert content.isascii()
+    assert content.count(b"\n") == content.count(b"\r\n")
+    text = content.decode()
+    labels = re.findall(r"^:(\w+)", text, re.MULTILINE)
+    jumps = re.findall(r"(?:\bgoto |\bcall :)(\w+)", text)
+    assert set(labels) == set(jumps)
+    assert len(labels) == len(set(labels))
 
 
 def test_every_command_that_makes_a_pdf_has_its_libraries_looked_after():
