@@ -91,7 +91,7 @@ def _ratios(axes: Axes, part: Spectra) -> None:
     if high > _FACTOR:
         axes.set_ylim(0.85 * min(low, 1.0), 1.2 * high)
         axes.set_yscale("log")
-        _label(axes.yaxis, _LEVELS if high < 20.0 else _LEVELS[::3])
+        _label(axes.yaxis, _LEVELS[:: 1 if high < 20.0 else 3 if high < 1e3 else 6])
     else:
         axes.set_ylim(min(low, 1.0) - 0.04, max(high, 1.0) + 0.04)
         axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))

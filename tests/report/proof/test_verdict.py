@@ -35,8 +35,9 @@ def test_a_file_that_was_tampered_with_is_never_the_same(proof, data, few_sheets
     except InputError:
         assert kind in (tampering.cut, tampering.flipped, tampering.byte_in_attachment)
     else:
-        is_hidden = kind is tampering.flipped  # in a drawing
-        assert found.answer == (Agreement.PARTLY if is_hidden else Agreement.DIFFERS)
+        # A bit anywhere may be in a drawing, which is not compared.
+        may_be_hidden = kind is tampering.flipped and found.answer == Agreement.PARTLY
+        assert may_be_hidden or found.answer == Agreement.DIFFERS
         assert found.reasons
 
 
