@@ -14,22 +14,24 @@ from report.assessment.clearances import check_clearance
 from report.assessment.evidence import Evidence
 from report.assessment.friction_velocity import InputCase
 from report.assessment.project import Assessment
+from report.assessment.runs import nan_is_worst
 from report.words.units import number
 
 
 def building_case(given: Assessment, evidence: Evidence) -> InputCase | None:
     """Return the governing array with the period or damping that lets it slide farthest.
 
-    None where no motion goes through the building, where that is no farther than as used, and
-    where the design displacement does not follow from one value of the analysis.
+    A variation without a value is the worst. None where no motion goes through the building, where
+    that is no farther than as used, and where the design displacement does not follow from one
+    value of the analysis.
     """
     array = given.governing
     if not evidence.building or array.route is not Route.ANALYSIS or array.by_direction:
         return None
     (used, _), *others = evidence.building
-    building, value = max(others, key=lambda pair: pair[1].value_m)
-    design_m = max(value.value_m, array.floor_m)
-    if not design_m > array.design_m:
+    building, value = max(others, key=lambda pair: nan_is_worst(pair[1].value_m))
+    design_m = math.nan if math.isnan(value.value_m) else max(value.value_m, array.floor_m)
+    if not nan_is_worst(design_m) > array.design_m:
         return None
     is_damping = building.damping_percent != used.damping_percent
     changed = (
@@ -52,5 +54,5 @@ def cases(given: Assessment, evidence: Evidence) -> Iterator[InputCase]:
         now = next(item for item in given.arrays if item.id == case.array.id)
         most_m = case.array.prescriptive.value_m
         is_short = any(gap.ok for gap in given.gaps_of(now.id)) and case.short
-        if is_short or now.design_m <= most_m < case.array.design_m:
+        if is_short or now.design_m <= most_m < nan_is_worst(case.array.design_m):
             yield case

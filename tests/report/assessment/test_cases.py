@@ -1,5 +1,6 @@
 """Arrays with another input in place of one that is not certain, held against runs with it."""
 
+import math
 from dataclasses import replace
 from functools import partial
 
@@ -89,6 +90,17 @@ def test_the_building_case_is_the_farthest_of_its_variations(grounded):
         assert case.changed == f"{building.period_s:.2f} s as the period of the building"
     else:
         assert case.changed == f"{building.damping_percent:.1f} % damping of the building"
+
+
+def test_a_variation_without_a_displacement_is_the_worst(grounded):
+    done, evidence = grounded
+    used, (building, value), *others = evidence.building
+    lifting = building, replace(value, value_m=math.nan)
+    for order in ((lifting, *others), (*others, lifting)):
+        found = replace(evidence, building=(used, *order))
+        (case,) = cases(done, found)
+        assert math.isnan(case.array.design_m)
+        assert ": no design displacement" in case.words(us_first=True)
 
 
 def test_without_a_building_or_where_it_matters_not_there_is_no_building_case(grounded):
