@@ -31,16 +31,16 @@ def acceptance_table(package: PackageData) -> Table:
     columns = (
         (words("Limit", 4.75), lambda row: f"{row.title} *" if row.is_program_limit else row.title),
         (text("Found", share=0.7), _found),
-        (text("Limit value", share=0.95), lambda row: _limit(row, package)),
+        (text("Limit value", share=0.95), _limit),
         (words("Worst", 1.5), lambda row: row.worst or "—"),
         (words("Verdict", 1.05), lambda row: stamp(package.assessment.limit_verdict(row))),
     )
     return listed(package.assessment.acceptance.rows, columns, package.fmt, kind="compact")
 
 
-def _limit(row: Limit, package: PackageData) -> str:
+def _limit(row: Limit) -> str:
     shown = f"{row.sign} {number(row.limit, _PLACES[row.measure])} {row.measure.unit}".rstrip()
-    return shown + ("" if package.data.confirmed else dagger(row.provision))
+    return shown + dagger(row.provision)
 
 
 def _found(row: Limit) -> str:

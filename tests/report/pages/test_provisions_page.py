@@ -26,7 +26,9 @@ def pages(request):
 def test_confirmed_provisions_have_no_mark_on_any_page(pages):
     shown, is_confirmed = pages
     for page, text in shown.items():
-        if page not in ("provisions", "cover"):
+        if page == "motions":  # limits of AC156, which no confirmation of a rule set covers
+            assert "≥ 3†" in text
+        elif page not in ("provisions", "cover"):
             lines = [line for line in text.splitlines() if "fire lanes" not in line]
             assert ("†" in "".join(lines)) is not is_confirmed, page
     marks = {value[-1] == "†" for value in values(shown["provisions"])}
