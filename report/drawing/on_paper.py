@@ -109,8 +109,8 @@ def printed_plan(assessment: Assessment) -> PrintedPlan:
 
 def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
     """Return the sizes on the paper asked for, or on any, the smallest first."""
-    flat, upright = _small(assessment)
-    small = (flat if is_wide(assessment) else upright,)
+    landscape, portrait = _small(assessment)
+    small = (landscape if is_wide(assessment) else portrait,)
     large = A3 if assessment.project.is_on_a4 else TABLOID
     sizes = {
         PlanPaper.BY_SIZE: (*small, *large),
@@ -121,7 +121,7 @@ def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
 
 
 def _small(assessment: Assessment) -> tuple[PlanSize, PlanSize]:
-    """Return the sizes on the small paper, in landscape and upright."""
+    """Return the sizes on the small paper, in landscape and in portrait."""
     return A4 if assessment.project.is_on_a4 else (LANDSCAPE, PORTRAIT)
 
 

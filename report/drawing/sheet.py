@@ -71,8 +71,8 @@ def _full(sheet: str, wide: float, tall: float, columns: int = 1) -> PlanSize:
     return PlanSize(wide=left, tall=tall, columns=columns, sheet=sheet, is_full=True)
 
 
-LANDSCAPE, PORTRAIT = _full("letter-landscape", 9.8, 5.5), _full("letter-upright", 7.3, 8.0)
-A4 = _full("a4-landscape", 10.49, 5.27), _full("a4-upright", 7.07, 8.69)
+LANDSCAPE, PORTRAIT = _full("letter-landscape", 9.8, 5.5), _full("letter-portrait", 7.3, 8.0)
+A4 = _full("a4-landscape", 10.49, 5.27), _full("a4-portrait", 7.07, 8.69)
 TABLOID = tuple(_full("tabloid", 15.8, 7.5, columns) for columns in (1, 2))
 A3 = tuple(_full("a3", 15.3, 8.2, columns) for columns in (1, 2))
 
