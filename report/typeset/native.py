@@ -5,9 +5,9 @@ Read `library` and `load_renderer`.
 
 from __future__ import annotations
 
+import ctypes.util
 import os
 import sys
-from ctypes.util import find_library
 from pathlib import Path
 
 _FONTCONFIG = """
@@ -22,7 +22,7 @@ def library(name: str) -> str | None:
     """Return the path or name of a library, by its name without prefix, number and ending."""
     if sys.platform == "win32":
         return next((str(path) for path in _shipped().glob(f"bin/{name}*.dll")), None)
-    return find_library(name)
+    return ctypes.util.find_library(name)
 
 
 def load_renderer() -> None:
@@ -33,9 +33,17 @@ def load_renderer() -> None:
         os.environ.setdefault("FONTCONFIG_PATH", str(_shipped() / "etc" / "fonts"))
         os.environ["PATH"] = folder  # where the renderer finds them
         try:
-            import weasyprint  # noqa: F401
+            import weasyprint
         finally:
             os.environ["PATH"] = usual
+    elif sys.platform == "linux":
+        # Of the names that the renderer tries, the loader knows one; for each of the others a
+        # compiler would be started, which takes longer than all other imports of the renderer.
+        asked, ctypes.util.find_library = ctypes.util.find_library, lambda name: None
+        try:
+            import weasyprint  # noqa: F401
+        finally:
+            ctypes.util.find_library = asked
 
 
 def has_font_on_windows(letter: str) -> bool:
