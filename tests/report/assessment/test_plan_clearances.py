@@ -53,7 +53,7 @@ def without_rows(name, folder):
     return folder
 
 
-@pytest.mark.parametrize("name", by_day(["example", "school", "campus"], 1))
+@pytest.mark.parametrize("name", by_day(["school", "example", "campus"], 1))
 def test_a_shipped_project_without_rows_has_none_missing_after_the_command(tmp_path, name):
     folder = without_rows(name, tmp_path / name)
     was = {

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 import scenes
 from cells import address
 from inputs import SITE
+from nightly import by_day
 from places import ROOT
 from report.cli.main import main
 from report.making import make as make_package
@@ -47,7 +48,7 @@ def test_a_shipped_project_has_on_record_what_its_confirmations_cover(name):
     assert outdated(sheet.project, hashes).outdated == {}
 
 
-@pytest.mark.parametrize("units", ["US", "SI"])
+@pytest.mark.parametrize("units", by_day(["US", "SI"], 1))
 def test_the_example_has_on_record_what_its_confirmations_cover(tmp_path, units):
     run("new", tmp_path, "--example", "--units", units)
     sheet = read(tmp_path)

@@ -17,6 +17,7 @@ import pytest
 
 from cells import address
 from commands import hearing, refused
+from nightly import by_day
 from packages import unlaid
 from places import ROOT, TESTS
 from report.cli.terminal import INTERRUPTED, collect
@@ -104,7 +105,7 @@ def test_a_save_in_several_steps_is_one(tmp_path, patient):
     assert record.read_text() == whole[:280]
 
 
-@pytest.mark.parametrize("start", ["half saved", "gone", "empty"])
+@pytest.mark.parametrize("start", by_day(["half saved", "gone", "empty"], 1))
 def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, patient, start):
     path = make(tmp_path)
     whole = path.read_bytes()

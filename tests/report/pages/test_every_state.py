@@ -85,7 +85,7 @@ def package(state):
     return STATES[state][0]()
 
 
-@pytest.mark.parametrize("state", by_day(STATES, 3))
+@pytest.mark.parametrize("state", by_day(STATES, 2))
 def test_every_page_is_whole(state):
     made = package(state)
     with packages.undrawn():

@@ -116,6 +116,7 @@ def test_a_move_ends_what_waits_at_the_values_before_and_not_what_is_asked_at_it
     assert done(script) == ["busy", StaleError, StaleError, "move", "ahead"]
 
 
+@pytest.mark.nightly
 def test_the_full_model_asked_first_waits_on_beside_the_provisional_answer_of_its_values(done):
     async def script(desk):
         first = await busy(desk)
@@ -134,6 +135,7 @@ def test_one_process_stays_free_for_sliders_that_move(done):
     assert done(script) == (["moving"], False)
 
 
+@pytest.mark.nightly
 def test_a_move_goes_to_the_process_that_is_free(done):
     async def script(desk):
         slow = ask(desk, "slow", page="q", moving=True, seconds=20.0)

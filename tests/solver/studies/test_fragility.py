@@ -103,9 +103,8 @@ def test_the_intervals_hold_the_truth_in_88_to_92_percent_of_sets(motions, beta)
     assert ((share >= 0.88) & (share <= 0.92)).all(), share
 
 
-@pytest.mark.parametrize(
-    ("motions", "beyond"), by_day([(7, 0.1), (20, 0.25), (40, 0.25), (40, 0.5)], 1)
-)
+@pytest.mark.nightly
+@pytest.mark.parametrize(("motions", "beyond"), [(7, 0.1), (20, 0.25), (40, 0.25), (40, 0.5)])
 def test_the_intervals_of_censored_capacities_hold_it_about_as_often(motions, beyond):
     """400 sets: 0.90 within three standard errors of 0.015."""
     share = held(motions, 0.2, math.exp(0.2 * norm.isf(beyond)), 400)
