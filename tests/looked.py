@@ -49,16 +49,12 @@ class Block:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A sheet: its blocks in order of reading, and the share of it above its lowest mark."""
+    """A sheet: its blocks in order of reading, its share above its lowest mark, its width [pt]."""
 
     number: int
     blocks: Sequence[Block]
     filled: float
-
-    @property
-    def begins_part(self) -> bool:
-        """Whether it begins with the heading of a part."""
-        return bool(self.blocks) and self.blocks[0].kind == "H1"
+    wide: float
 
     def heads(self, last: bool) -> tuple[str, ...]:
         """Return the headings of its first table, or of its last."""
@@ -137,11 +133,11 @@ def split_tables(found: Sequence[Sheet], head: str, but: str = "-") -> list[int]
 
 
 def short_sheets(found: Sequence[Sheet], least: float) -> list[tuple[int, float]]:
-    """Return the sheets under a share full that are not the last of their part."""
+    """Return the sheets under a share full that are neither the last nor before a larger one."""
     return [
         (sheet.number, round(sheet.filled, 2))
         for sheet, after in pairwise(found)
-        if sheet.filled < least and not after.begins_part
+        if sheet.filled < least and after.wide <= sheet.wide
     ]
 
 
@@ -165,7 +161,8 @@ def _sheet(page: Any, number: int) -> Sheet:
     ]
     pdfium.FPDF_StructTree_Close(tree)
     body = page.get_height() - TOP_PT - FOOT_PT
-    return Sheet(number, blocks, (page.get_height() - TOP_PT - lowest) / body)
+    filled = (page.get_height() - TOP_PT - lowest) / body
+    return Sheet(number, blocks, filled, page.get_width())
 
 
 def _below(element: Any) -> Iterator[tuple[Any, str]]:

@@ -14,6 +14,7 @@ from report.drawing.layers import Layer
 from report.drawing.paper import BASE_IN, LINE_IN, Paper
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import PlanSheet
+from report.drawing.widths import width_in
 from report.sheet.schema.shapes import Point
 from report.words.units import Quantity, round_below
 
@@ -30,35 +31,38 @@ _MEANINGS: dict[Look, str] = {
     Layer.CLEARANCE_NG: "clearance not satisfied",
 }
 _LINES = (Layer.PARAPET, Layer.EDGE, Layer.BARE_EDGE)
-_SAMPLE_IN = 0.34
-_HEAD_IN, _ROW_IN = 0.95, LINE_IN + 0.025  # of north and the scale bar; of a symbol
+_SAMPLE_IN = 0.26
+_HEAD_IN, _ROW_IN = 1.86, LINE_IN + 0.025  # width of north and the scale bar; of a symbol
 
 
-def key_on_paper(plan: PlanSheet, wide: float) -> Paper:
-    """Return the legend of a full plan on a paper of its own, as tall as it is."""
+def key_on_paper(plan: PlanSheet) -> Paper:
+    """Return the legend of a full plan on a paper of its own, as wide as the plan."""
     # What is on the plan; the samples come after it.
     drawn = {item.look for item in plan.paper.items if hasattr(item, "look")}
     symbols = [look for look in _MEANINGS if look in drawn]
-    tall = _HEAD_IN + _ROW_IN * len(symbols)
-    frame = Frame(0.0, 0.0, wide, tall)
-    key = replace(plan.paper, wide=wide, tall=tall, placer=Placer(frame), items=[])
+    rows = max(3, math.ceil(len(symbols) / 3))
+    frame = Frame(0.0, 0.0, plan.size.wide, rows * _ROW_IN)
+    key = replace(plan.paper, tall=frame.tall, placer=Placer(frame), items=[])
     draw_key(plan, frame, key)
-    for count, look in enumerate(symbols):
-        y = tall - _HEAD_IN - count * _ROW_IN - LINE_IN / 2
-        _sample(key, look, centered(0.05 + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
-        key.text(_SAMPLE_IN + 0.13, y - BASE_IN, _MEANINGS[look])
+    x = _HEAD_IN
+    for start in range(0, len(symbols), rows):
+        column = symbols[start : start + rows]
+        for count, look in enumerate(column):
+            y = frame.tall - (count + 0.5) * _ROW_IN
+            _sample(key, look, centered(x + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
+            key.text(x + _SAMPLE_IN + 0.06, y - BASE_IN, _MEANINGS[look])
+        x += max(width_in(_MEANINGS[look]) for look in column) + _SAMPLE_IN + 0.18
     return key
 
 
 def draw_key(plan: PlanSheet, frame: Frame, paper: Paper) -> None:
     """Draw north and the scale bar."""
-    half, below = (0.26, 0.46) if frame.tall > 0.6 else (0.15, 0.27)
-    x, y = frame.x0 + 0.3, frame.y1 - below
+    half, (x, y) = 0.15, (frame.x0 + 0.3, frame.y1 - 0.29)
     north = math.radians(plan.assessment.project.roof.north_deg)
     paper.arrow(Layer.NORTH, (x, y), north, half)
     dx, dy = (1.35 * half * f(north) for f in (math.cos, math.sin))
     paper.text(x + dx, y + dy - 0.042125, "N", is_centered=True, is_bold=True)
-    _scale_bar(plan, (frame.x0 + 0.75, y - 0.06), paper)
+    _scale_bar(plan, (frame.x0 + 0.62, y - 0.04), paper)
 
 
 def _scale_bar(plan: PlanSheet, corner: Point, paper: Paper) -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import NamedTuple
 
 from report.assessment.project import Assessment
@@ -26,29 +25,9 @@ from report.drawing.paper import Paper, Scale, round_scale
 from report.drawing.placer import Frame, Placer
 from report.drawing.schedule import Schedule, alike_arrays, beside, key_tall
 from report.drawing.shapes import draw_coordinates, draw_outlines, take_edges
-from report.drawing.sheet import (
-    A3,
-    A4,
-    BESIDE_IN,
-    COLUMN_IN,
-    LANDSCAPE,
-    PORTRAIT,
-    TABLOID,
-    PlanSheet,
-    PlanSize,
-    unit_format,
-)
+from report.drawing.sheet import A3, A4, LETTER, TABLOID, PlanSheet, PlanSize, unit_format
 from report.sheet.schema.choices import PlanPaper
 from report.sheet.schema.shapes import Rectangle, around
-
-
-def is_wide(assessment: Assessment) -> bool:
-    """Whether the large plan goes on a page in landscape: for a larger scale, or a wide roof."""
-    extent = _extent(assessment)
-    flat, tall = (_scale(assessment, extent, size).m_per_in for size in _small(assessment))
-    if flat == tall:
-        return extent.x_to_m - extent.x_from_m >= extent.y_to_m - extent.y_from_m
-    return flat < tall
 
 
 def plan_on_paper(
@@ -84,7 +63,7 @@ def plan_on_paper(
 
 
 class PrintedPlan(NamedTuple):
-    """The plan for its page, its legend, the tables beside it, and what has no room for a label."""
+    """The plan, its legend, the tables beside it, and what has no room for a label."""
 
     size: PlanSize
     plan: Paper
@@ -95,34 +74,26 @@ class PrintedPlan(NamedTuple):
 
 def printed_plan(assessment: Assessment) -> PrintedPlan:
     """Return the plan on the paper asked for, or on the first that has room for all."""
-    arrays, sizes = alike_arrays(assessment, unit_format(assessment)), _sizes(assessment)
-    room = partial(beside, assessment, arrays)
-    # A plan whose schedule has no room even without a legend need not be drawn.
-    for size in [size for size in sizes if room(size, 0.0).is_all(assessment)] or sizes[-1:]:
+    arrays = alike_arrays(assessment, unit_format(assessment))
+    schedules = {size: beside(assessment, arrays, size) for size in _sizes(assessment)}
+    # A plan whose schedule has no room beside it need not be drawn.
+    roomy = [size for size, rows in schedules.items() if not size.sheet or rows.is_all(assessment)]
+    for size in roomy or list(schedules)[-1:]:
         sheet = plan_on_paper(assessment, size)
-        key = key_on_paper(sheet, COLUMN_IN - BESIDE_IN)
-        found = room(size, key.tall)
-        if found.is_all(assessment) and not sheet.unnamed + sheet.crowded:
+        if not sheet.unnamed + sheet.crowded:
             break
-    return PrintedPlan(size, sheet.paper, key, found, sheet.unnamed)
+    return PrintedPlan(size, sheet.paper, key_on_paper(sheet), schedules[size], sheet.unnamed)
 
 
 def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
     """Return the sizes on the paper asked for, or on any, the smallest first."""
-    landscape, portrait = _small(assessment)
-    small = (landscape if is_wide(assessment) else portrait,)
-    large = A3 if assessment.project.is_on_a4 else TABLOID
-    sizes = {
-        PlanPaper.BY_SIZE: (*small, *large),
-        **dict.fromkeys((PlanPaper.LETTER, PlanPaper.A4), small),
+    small, large = (A4, A3) if assessment.project.is_on_a4 else (LETTER, TABLOID)
+    large = tuple(replace(size, tall=size.tall - key_tall(assessment, size)) for size in large)
+    return {
+        PlanPaper.BY_SIZE: (small, *large),
+        **dict.fromkeys((PlanPaper.LETTER, PlanPaper.A4), (small,)),
         **dict.fromkeys((PlanPaper.TABLOID, PlanPaper.A3), large),
     }[assessment.project.options.plan_paper]
-    return [replace(size, tall=size.tall - key_tall(assessment, size)) for size in sizes]
-
-
-def _small(assessment: Assessment) -> tuple[PlanSize, PlanSize]:
-    """Return the sizes on the small paper, in landscape and in portrait."""
-    return A4 if assessment.project.is_on_a4 else (LANDSCAPE, PORTRAIT)
 
 
 def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Frame]:

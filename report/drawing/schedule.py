@@ -24,7 +24,7 @@ ROW_IN = 0.175  # of a table of the package
 _IDS_IN, _FROM_IN, _TO_IN = 0.48, 0.22, 0.48  # width of words in columns of the tables
 _AROUND_ARRAYS_IN, _AROUND_SCHEDULE_IN = 1.05, 0.62  # captions, headings, notes and margins
 _KEY_ROW_IN, _KEY_COLUMN_IN, _AROUND_KEY_IN = 0.15, 2.7, 0.25  # of the key to names
-_BELOW_IN = 0.35  # by which columns may be taller than the plan
+_BELOW_IN = 0.75  # by which columns may be taller than the plan: the legend and the caption
 
 
 class AlikeArrays(NamedTuple):
@@ -59,7 +59,10 @@ def size_words(shape: Shape, fmt: UnitFormat) -> str:
 
 
 class Schedule(NamedTuple):
-    """What is beside a plan: whether the table of arrays, and rows of the schedule by column."""
+    """What is beside a plan: whether the table of arrays, and rows of the schedule by column.
+
+    On a plan without columns, nothing is: the tables follow it.
+    """
 
     has_arrays: bool
     rows: Sequence[int]
@@ -70,7 +73,7 @@ class Schedule(NamedTuple):
 
 
 def key_tall(assessment: Assessment, size: PlanSize) -> float:
-    """Return the height of the key to the names below a full plan and its tables [in]."""
+    """Return the height of the key to the names below a plan on a large sheet [in]."""
     data = assessment.project
     ids = [*(row.id for row in data.arrays), *(row.id for row in data.objects)]
     keys = data.names.keys.keys() & ids
@@ -78,15 +81,13 @@ def key_tall(assessment: Assessment, size: PlanSize) -> float:
     return _AROUND_KEY_IN + _KEY_ROW_IN * math.ceil(len(keys) / columns) if keys else 0.0
 
 
-def beside(
-    assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize, key_tall: float
-) -> Schedule:
-    """Return what has room beside a plan; the first column has the legend, of a height [in]."""
-    room = size.tall + _BELOW_IN - key_tall
+def beside(assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize) -> Schedule:
+    """Return what has room beside a plan."""
+    room = size.tall + _BELOW_IN
     printed = assessment.project.names
     arrays_tall = _AROUND_ARRAYS_IN
     arrays_tall += ROW_IN * sum(_lines(printed(row.ids), _IDS_IN) for row in arrays)
-    has_arrays = arrays_tall <= room
+    has_arrays = size.columns > 0 and arrays_tall <= room
     if has_arrays:
         room -= arrays_tall
     tall = [

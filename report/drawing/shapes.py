@@ -102,8 +102,8 @@ def draw_coordinates(plan: PlanSheet, extent: Rectangle) -> None:
         paper.lines(Mark.TICK, ((box.x0 - 0.26, y), (box.x0 - 0.31, y)))
         _write(plan, (box.x0 - 0.34 - width_in(words) / 2, y), words)
     names = [f"{axis} [{unit.symbol}]" for axis in "xy"]
-    _write(plan, (box.middle[0], box.y0 - 0.56), names[0])
-    _write(plan, (box.x0 - 0.62 + width_in(names[1]) / 2, box.y1 + 0.17), names[1])
+    for name, y in zip(names, (box.y0 - 0.39, box.y1 + 0.17), strict=True):
+        _write(plan, (box.x0 - 0.62 + width_in(name) / 2, y), name)
 
 
 def _ticks(low: float, high: float) -> list[float]:

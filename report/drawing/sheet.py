@@ -37,7 +37,8 @@ class PlanSize:
         Of the legend, to the right of the plan, or on a screen below it. That of a full plan is on
         a paper of its own.
     sheet : str
-        Which of the sheets of the package a full plan is printed on, by its name there.
+        Which of the large sheets a full plan is printed on, by its name in the package; none on
+        the sheets of the other parts.
     columns : int
         Columns of tables beside a full plan.
     is_full : bool
@@ -58,23 +59,25 @@ class PlanSize:
     @property
     def fringe(self) -> tuple[float, float, float, float]:
         """Margins [in] of the roof: left, right, bottom, top."""
-        return (0.62, 0.26, 0.65, 0.26) if self.is_full else (0.24, 0.24, 0.24, 0.24)
+        return (0.62, 0.26, 0.48, 0.26) if self.is_full else (0.24, 0.24, 0.24, 0.24)
 
 
-COLUMN_IN, BESIDE_IN = 2.8, 0.15
-"""Width of a column of tables beside a full plan, with its distance, and this distance."""
+COLUMN_IN = 2.8
+"""Width of a column of tables beside a full plan, with its distance."""
 
 
-def _full(sheet: str, wide: float, tall: float, columns: int = 1) -> PlanSize:
-    """Return a full plan beside columns of tables on a sheet with this room [in]."""
-    left = wide - columns * COLUMN_IN
-    return PlanSize(wide=left, tall=tall, columns=columns, sheet=sheet, is_full=True)
+def _large(sheet: str, wide: float, tall: float) -> tuple[PlanSize, ...]:
+    """Return full plans beside one and two columns of tables on a sheet with this room [in]."""
+    return tuple(
+        PlanSize(wide=wide - n * COLUMN_IN, tall=tall, columns=n, sheet=sheet, is_full=True)
+        for n in (1, 2)
+    )
 
 
-LANDSCAPE, PORTRAIT = _full("letter-landscape", 9.8, 5.5), _full("letter-portrait", 7.3, 8.0)
-A4 = _full("a4-landscape", 10.49, 5.27), _full("a4-portrait", 7.07, 8.69)
-TABLOID = tuple(_full("tabloid", 15.8, 7.5, columns) for columns in (1, 2))
-A3 = tuple(_full("a3", 15.3, 8.2, columns) for columns in (1, 2))
+# A sheet less what a heading and the legend take, and on a large one notes and the title block.
+LETTER = PlanSize(wide=7.0, tall=7.9, is_full=True)
+A4 = PlanSize(wide=7.0, tall=8.5, is_full=True)
+TABLOID, A3 = _large("tabloid", 15.8, 7.1), _large("a3", 15.3, 7.8)
 
 
 @dataclass(frozen=True, slots=True)

@@ -118,8 +118,8 @@ class Options(Frozen):
     letter: Annotated[bool, Cell("Letter of results", "No")] = False
     """Yes: a letter to the client with the results is in the package."""
     plan_paper: Annotated[PlanPaper, Cell("Paper of the roof plan", "by size")] = PlanPaper.BY_SIZE
-    """By size: Letter with US units first, A4 with SI units first; 11 x 17 in or A3 where labels or
-    the schedule of clearances have no room. The other sheets go with it: Letter or A4."""
+    """By size: Letter with US units first, A4 with SI units first; 11 x 17 in or A3 where labels
+    have no room. The other sheets go with it: Letter or A4."""
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:

@@ -11,7 +11,7 @@ from plans import roof_plan
 from report.assessment.plan_gaps import parapet_note, plan_gaps
 from report.drawing.layers import Layer
 from report.drawing.plan import plan_drawing
-from report.drawing.sheet import LANDSCAPE
+from report.drawing.sheet import LETTER
 from report.entities.columns import UnitFormat
 from report.web.plan import plan
 from report.web.tables import stamp
@@ -52,7 +52,7 @@ def test_it_is_ng_in_the_drawing_the_picture_and_on_the_page(done):
     gap = "no clearance given: 12.0 in (305 mm) in plan, required 40.8 in (1036 mm), NG"
     words = f"A1 to RTU-9: {gap}"
     assert [t.layer for t in plan_drawing(done).texts if t.words == words] == [Layer.CLEARANCE_NG]
-    shown = re.findall(r"<text[^>]*>([^<]*)</text>", roof_plan(done, LANDSCAPE))
+    shown = re.findall(r"<text[^>]*>([^<]*)</text>", roof_plan(done, LETTER))
     label = {"NG", "not given; in plan 12.0 in", "required 40.8 in"}
     assert label <= set(shown)
     designs = {item.id: {"text": ""} for item in done.arrays}
@@ -91,7 +91,7 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     items = plan(done, designs, ((), ()), UnitFormat(us_first=True), stamp)["items"]
     said = " ".join(item.get("text", "") for item in items)
     assert re.search(r"required [\d.]+ in‡", said)
-    assert re.search(r"required [\d.]+ in‡", roof_plan(done, LANDSCAPE))
+    assert re.search(r"required [\d.]+ in‡", roof_plan(done, LETTER))
     words = [t.words for t in plan_drawing(done).texts if t.layer is Layer.CLEARANCE_NG]
     assert any("mm) (overridden), NG" in text for text in words)
     assert not any(gap.mark for gap in plan_gaps(lowered(**near, overrides=[])))

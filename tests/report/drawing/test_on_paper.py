@@ -129,8 +129,7 @@ def test_no_label_is_left_out(done):
     assert len(numbers) == len(done.clearances)
     for item in (*done.arrays, *done.project.objects):
         assert any(words == item.id or words.startswith(f"{item.id}: ") for words in shown)
-    assert printed.beside.has_arrays
-    assert sum(printed.beside.rows) == len(done.clearances)
+    assert bool(printed.size.sheet) == printed.beside.is_all(done)
 
 
 def test_no_label_lies_on_another_or_on_a_dimension_line(done):
@@ -200,8 +199,8 @@ def test_the_small_plan_has_numbers_without_leaders_across_arrays():
         (PlanPaper.BY_SIZE, True, (17.0, 11.0)),
         (PlanPaper.BY_SIZE, False, (420 / 25.4, 297 / 25.4)),
         (PlanPaper.A3, True, (420 / 25.4, 297 / 25.4)),
-        (PlanPaper.LETTER, True, (11.0, 8.5)),
-        (PlanPaper.A4, True, (297 / 25.4, 210 / 25.4)),
+        (PlanPaper.LETTER, True, (8.5, 11.0)),
+        (PlanPaper.A4, True, (210 / 25.4, 297 / 25.4)),
     ],
 )
 @pytest.mark.nightly
@@ -237,6 +236,11 @@ def test_the_large_sheet_has_a_title_block_and_the_schedule_beside():
     assert [row[0] for row in scheduled(page)] == numbers(thirty())
 
 
-def test_what_has_no_room_beside_the_plan_follows_it():
+def test_the_schedule_has_every_clearance_beside_the_plan_or_below_it(done):
+    assert [row[0] for row in scheduled(printed(done, "plan"))] == numbers(done)
+
+
+@pytest.mark.quick
+def test_on_the_small_paper_the_tables_follow_the_plan():
     page = printed(thirty(PlanPaper.LETTER), "plan")
     assert [row[0] for row in scheduled(page)] == numbers(thirty())

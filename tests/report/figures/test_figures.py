@@ -8,7 +8,7 @@ import scenes
 import stand_in
 from plans import SMALL, roof_plan
 from report.assessment.spectra import spectra
-from report.drawing.sheet import LANDSCAPE
+from report.drawing.sheet import LETTER
 from report.figures import charts as figures
 from report.figures import history
 from report.figures.base import FAMILY
@@ -30,7 +30,7 @@ def drawn(assessment):
     parts = spectra(assessment)
     return [
         roof_plan(assessment, SMALL),
-        roof_plan(assessment, LANDSCAPE),
+        roof_plan(assessment, LETTER),
         drawn_spectra(parts),
         histories(assessment.arrays[0]),
         figures.comparison(assessment.alike, True),

@@ -16,18 +16,18 @@ from plans import SMALL, roof_plan
 from printed import printed
 from report.assessment.envelopes import keep_clear_words
 from report.drawing.items import Text
-from report.drawing.on_paper import is_wide, plan_on_paper, printed_plan
+from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.paper import FOOT_M, round_scale
-from report.drawing.sheet import LANDSCAPE, PORTRAIT
+from report.drawing.sheet import LETTER, PlanSize
 from report.drawing.widths import TYPE_PT, width_in
 from report.figures.base import style
 from report.figures.plan import painted, paper_svg
-from report.sheet.schema.scene import Roof
 from sketch import L_FT
 from solver.model import INCH_M
 from stand_in import FOOT
 
-SIZES = [SMALL, LANDSCAPE, PORTRAIT]
+NARROW = PlanSize(wide=4.5, tall=8.0, is_full=True)
+SIZES = [SMALL, LETTER, NARROW]
 
 
 @pytest.fixture(scope="module")
@@ -143,7 +143,7 @@ def test_the_picture_is_at_the_scale_that_it_states(done, size):
     # The legend of a large plan is a picture of its own.
     shown = words(roof_plan(done, SMALL) if size is SMALL else legend(done))
     stated = next(text for text in shown if text.startswith("1 in ="))
-    if size is PORTRAIT:
+    if size is NARROW:
         stated = plan_on_paper(done, size).paper.scale.name
     feet_per_inch = int(re.fullmatch(r"1 in = (\d+) ft", stated).group(1))
     for name, wide, tall in (("A1", 80, 60), ("T-1", 53, 30)):
@@ -156,7 +156,7 @@ def test_the_picture_is_at_the_scale_that_it_states(done, size):
 
 
 def test_every_array_object_and_clearance_is_on_the_large_plan(done):
-    found = words(roof_plan(done, LANDSCAPE))
+    found = words(roof_plan(done, LETTER))
     for name in ("A1", "A2", "A3", "RTU-1", "T-1", "1", "2", "3", "4", "5", "x [ft]"):
         assert name in found
     assert "N edge: parapet 30.0 in (762 mm)" in found
@@ -172,7 +172,7 @@ def test_every_array_object_and_clearance_is_on_the_large_plan(done):
 def test_the_name_of_an_upright_edge_is_at_its_middle():
     west = stand_in.roof_object("W", "edge with parapet", -1, 0, 0, 170, height=30)
     objects = [*stand_in.project().objects, west]
-    drawn = figure(scenes.package(objects=objects).assessment, LANDSCAPE)
+    drawn = figure(scenes.package(objects=objects).assessment, LETTER)
     box = next(box for text, box in extents(drawn) if text.get_text().startswith("W: "))
     (_, low), (_, tall) = place(drawn, "A2")
     middle = low + (85.0 - 15.0) * tall / 60.0
@@ -194,7 +194,7 @@ def test_an_outline_is_drawn_as_it_is(outlined, size):
 
 
 def test_a_gap_is_drawn_between_its_two_nearest_points(outlined):
-    drawn = figure(outlined, LANDSCAPE)
+    drawn = figure(outlined, LETTER)
     ends = [tuple(zip(*line.get_data(), strict=True))[:2] for line in drawn.axes[0].lines]
     found = [on_roof(drawn, pair) for pair in ends if len(pair) == 2]
     # RTU-1 is 5 ft from the lower leg, which it faces from x = 67 ft to 75 ft.
@@ -202,7 +202,7 @@ def test_a_gap_is_drawn_between_its_two_nearest_points(outlined):
 
 
 def test_the_name_of_an_outlined_array_is_within_it(outlined):
-    drawn = figure(outlined, LANDSCAPE)
+    drawn = figure(outlined, LETTER)
     (box,) = (box for text, box in extents(drawn) if text.get_text() == "A1")
     ((x, y),) = on_roof(drawn, [((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2)])
     assert 20.0 < x < 100.0
@@ -220,7 +220,7 @@ def test_a_clearance_that_is_not_satisfied_is_hatched_and_marked(done):
         assert len(heavy) == marked
     assert words(legend(done)).count("NG") == 1
     satisfied = replace(done, clearances=tuple(gap for gap in done.clearances if gap.ok))
-    assert "NG" not in words(roof_plan(satisfied, LANDSCAPE))
+    assert "NG" not in words(roof_plan(satisfied, LETTER))
 
 
 def test_all_is_named_and_neighbors_without_a_clearance_are_in_the_notes(crowded):
@@ -235,7 +235,7 @@ def test_all_is_named_and_neighbors_without_a_clearance_are_in_the_notes(crowded
 
 def test_without_a_design_displacement_the_plan_says_so(done):
     lost = replace(done, arrays=tuple(replace(a, design_m=math.nan) for a in done.arrays))
-    found = words(roof_plan(lost, LANDSCAPE))
+    found = words(roof_plan(lost, LETTER))
     assert found.count("no value") == 3
     assert not any("keep clear 4" in text for text in found)
 
@@ -247,9 +247,7 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
     assert not any("keep clear 0" in text.lower() for text in found)
     assert not {"OK", "NG"} & set(found)
     if size.is_full:
-        assert (
-            "Δ not permitted" in found or size is PORTRAIT
-        )  # where A1 has room for its name alone
+        assert "Δ not permitted" in found or size is NARROW  # where A1 has room for its name alone
         page = printed(stand_in.unpermitted(), "plan")
         assert "no route to a design displacement is permitted: clearance 1, 2." in page
         row = page.tables[0].row("A1")
@@ -272,12 +270,6 @@ def test_the_plan_does_without_objects_drawn():
 def test_a_dollar_sign_in_a_name_is_a_dollar_sign():
     given = scenes.package(arrays=[stand_in.array("$x_1$", 2.0)], objects=[], clearances=[])
     assert "$x_1$" in words(roof_plan(given.assessment, SMALL))
-
-
-def test_a_roof_that_is_wide_lies_on_its_side(done):
-    assert is_wide(done)
-    tall = done.project.model_copy(update={"roof": Roof.model_validate(sides(0, 220, 0, 500))})
-    assert not is_wide(replace(done, project=tall))
 
 
 @pytest.mark.parametrize(
@@ -305,7 +297,7 @@ def test_keep_clear_is_never_rounded_down(inches, us, si):
 
 @pytest.mark.quick
 def test_text_is_as_wide_as_it_is_drawn(done):
-    for text, box in extents(figure(done, LANDSCAPE)):
+    for text, box in extents(figure(done, LETTER)):
         if text.get_rotation() == 0 and text.get_fontsize() == TYPE_PT and text.get_text() != "N":
             is_bold = text.get_weight() == "semibold"
             assert width_in(text.get_text(), is_bold=is_bold) == pytest.approx(box.width, abs=0.02)

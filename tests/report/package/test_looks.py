@@ -65,6 +65,7 @@ SVG = (
 DRAWING = f'<p><img alt="A box" src="data:image/svg+xml;base64,{b64encode(SVG).decode()}"/></p>'
 FAULTS = f"""<html lang="en-US"><head><title>T</title><style>
 @page {{ size: Letter; margin: 0.9in 0.9in 0.95in }}
+@page large {{ size: 17in 11in }}
 table {{ table-layout: fixed; width: 100% }}
 td {{ overflow-wrap: anywhere }}
 p {{ margin: 0 }}
@@ -78,7 +79,8 @@ h2 {{ break-after: auto }}
 <table><thead><tr><th>Motion</th><th>PRD</th></tr></thead><tbody>
 {"".join(f"<tr><td>RM{count}</td><td>0.85</td></tr>" for count in range(40))}
 </tbody></table>
-<h1 style="break-before: page">Last</h1><p>End.</p>
+<h1 style="break-before: page">Before a larger sheet</h1><p>End.</p>
+<h1 style="page: large">Last</h1><p>End.</p>
 </body></html>"""
 
 
@@ -91,7 +93,7 @@ def test_each_fault_is_seen_where_there_is_one(tmp_path):
     assert (sheet, cell.replace(" / ", "")) == (3, "2025-11-01")
     assert looked.split_tables(sheets, "Motion") == [5, 6]
     assert looked.split_tables(sheets, "PRD") == []
-    assert [number for number, _ in looked.short_sheets(sheets, LEAST_FILLED)] == [3]
+    assert [number for number, _ in looked.short_sheets(sheets, LEAST_FILLED)] == [3, 6]
     looked.contact_sheet(made, tmp_path / "faults.png")
     with Image.open(tmp_path / "faults.png") as drawn:
         assert drawn.width > drawn.height

@@ -16,7 +16,7 @@ from report.assessment.spectra import spectra
 from report.assessment.verdict import Verdict
 from report.drawing.on_paper import plan_on_paper
 from report.drawing.plan import plan_drawing
-from report.drawing.sheet import LANDSCAPE
+from report.drawing.sheet import LETTER
 from report.figures.base import style
 from report.figures.plan import painted
 from report.pages.summary import summary
@@ -55,7 +55,7 @@ def test_the_prescriptive_displacement_that_the_override_lowers_is_marked(done):
 
 def test_the_plan_and_its_tables_mark_it(done):
     with style():
-        figure = painted(plan_on_paper(done, LANDSCAPE).paper)
+        figure = painted(plan_on_paper(done, LETTER).paper)
     said = " ".join(text.get_text() for text in figure.findobj(lambda a: hasattr(a, "get_text")))
     assert re.search(rf"Δ {LENGTH}‡", said)
     arrays, schedule = printed(done, "plan").tables[:2]
