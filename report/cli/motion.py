@@ -162,8 +162,10 @@ def suite(
     """
     if more and not records:
         raise click.UsageError(f"unexpected argument '{more[0]}'; write --records before the files")
-    # The compilation, each motion, and the chart.
-    with input_errors(into or folder), Progress(count + 2) as progress:
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the motions are on all cores already
+    # What comes before the first motion takes no share, so that the time left is theirs.
+    shares = (0.0, *[1.0] * count, 1.0)
+    with input_errors(into or folder), Progress(shares) as progress:
         from report.results.motions import add_suite, suite_rows
         from report.results.publish import output_folder, publish
         from report.results.sources import said_near
@@ -179,7 +181,6 @@ def suite(
         targets, taken = _targets(given, target, sheet)
         rows = suite_rows(sheet.book, folder, count, targets.source(seed)) if sheet else []
         seeds = read_seeds((*records, *more), units=units or "", dt_s=dt_s)
-        progress("compiling the solver (first run only)")
         motions, files = generate(targets, count, seed, seeds, progress)
         if into:
             has_formulas = add_suite(into, folder, rows, files).has_formulas

@@ -37,6 +37,54 @@ def _step(p, zeta):
     return h, 1.0 - once - 2.0 * zeta * h, once, twice
 
 
+_LANES = 16
+"""Oscillators that are advanced together, on the vector units of the processor."""
+
+
+@njit(cache=KEPT, error_model="numpy")
+def _top(start, end, first, last):
+    """Largest value, with its sign, of the cubic between two values with these slopes.
+
+    It is start + s (first + s (bend + s twist)), s from 0 to 1; its slope is zero at two places.
+    """
+    rise = end - start
+    bend, twist = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
+    root = math.sqrt(max(bend * bend - 3.0 * twist * first, 0.0))
+    q = -bend - math.copysign(root, bend)
+    one = q / (3.0 * twist) if twist != 0.0 else 1.0
+    other = first / q if q != 0.0 else 1.0
+    top = end
+    for s in (one, other):
+        if 0.0 < s < 1.0:
+            value = start + s * (first + s * (bend + s * twist))
+            top = value if abs(value) > abs(top) else top
+    return top
+
+
+@njit(cache=KEPT, error_model="numpy", nogil=True)
+def _advance(w, before, now):
+    """Advance the oscillators of the buffer w by one step; return how many may have a new peak.
+
+    Its parts: seven coefficients, a third of the step in radians, the largest |y| so far, then y
+    and z now and one step before. One array, because the check whether several overlap takes longer
+    than the step. A cubic lies within its Bezier points: its ends, and a third of the slope beside
+    them.
+    """
+    higher = 0
+    for k in range(_LANES):
+        c0, c1, c2 = w[k], w[_LANES + k], w[2 * _LANES + k]
+        c3, c4 = w[3 * _LANES + k], w[4 * _LANES + k]
+        c5, c6 = w[5 * _LANES + k], w[6 * _LANES + k]
+        third, largest = w[7 * _LANES + k], w[8 * _LANES + k]
+        y, z = w[9 * _LANES + k], w[10 * _LANES + k]
+        moved = (c0 * y + c1 * z) - (c3 * before + c4 * now)
+        turned = (c2 * z - c1 * y) - (c5 * before + c6 * now)
+        w[9 * _LANES + k], w[10 * _LANES + k] = moved, turned
+        w[11 * _LANES + k], w[12 * _LANES + k] = y, z
+        higher += abs(moved) + third * abs(turned) > largest
+    return higher
+
+
 @njit(cache=KEPT, error_model="numpy", nogil=True)
 def peaks(a, dt, omega, zeta, peak, at):
     """Largest pseudo-acceleration of damped oscillators under the linearly interpolated record.
@@ -56,43 +104,102 @@ def peaks(a, dt, omega, zeta, peak, at):
         Filled with the signed omega^2 u at the largest |u| [m/s2], and with the sample where it is,
         at the end of its step.
     """
-    m = omega.size
-    c = np.empty((7, m))
-    radians = omega * dt
-    # Over a longer step the cubic would invent peaks; without slopes it is monotonic.
-    radians[radians > 1.0] = 0.0
-    for k in range(m):
+    w = np.empty(13 * _LANES)
+    parts = w.reshape(13, _LANES)
+    for first in range(0, omega.size, _LANES):
+        count = min(_LANES, omega.size - first)
+        w[:] = 0.0
+        for k in range(count):
+            p = omega[first + k] * dt
+            h, slope, once, twice = _step(p, zeta)
+            over_p = 1.0 / p if p > 0.0 else 0.0
+            parts[0, k], parts[1, k], parts[2, k] = 1.0 - once, h, slope
+            parts[3, k], parts[4, k] = once - twice * over_p, twice * over_p
+            parts[5, k], parts[6, k] = h - once * over_p, once * over_p
+            # Over a longer step the cubic would invent peaks; without slopes it is monotonic.
+            parts[7, k] = p / 3.0 if p <= 1.0 else 0.0
+            peak[first + k], at[first + k] = 0.0, 0
+        higher_before = 0
+        for i in range(1, a.size):
+            higher = _advance(w, a[i - 1], a[i])
+            if higher_before + higher > 0:
+                for k in range(count):
+                    third, largest = parts[7, k], parts[8, k]
+                    y, z, y_before, z_before = parts[9, k], parts[10, k], parts[11, k], parts[12, k]
+                    bound = max(abs(y) + third * abs(z), abs(y_before) + third * abs(z_before))
+                    if bound > largest:
+                        top = _top(y_before, y, 3.0 * third * z_before, 3.0 * third * z)
+                        if abs(top) > largest:
+                            parts[8, k], peak[first + k], at[first + k] = abs(top), top, i
+            higher_before = higher
+
+
+@njit(cache=KEPT, error_model="numpy", nogil=True)
+def crests(a, dt, omega, zeta, above):
+    """Crests of the responses of `peaks` at samples, where they are above a limit.
+
+    Parameters
+    ----------
+    above : array, shape (m,)
+        Limit of each oscillator [m/s2].
+
+    Returns
+    -------
+    tuple of array, shape (q,)
+        Oscillators, samples, and signed pseudo-accelerations [m/s2].
+    """
+    which, where, values = [0][:0], [0][:0], [0.0][:0]
+    for k in range(omega.size):
         p = omega[k] * dt
         h, slope, once, twice = _step(p, zeta)
-        over_p = 1.0 / p if p > 0.0 else 0.0
-        c[0, k], c[1, k], c[2, k] = 1.0 - once, h, slope
-        c[3, k], c[4, k] = once - twice * over_p, twice * over_p
-        c[5, k], c[6, k] = h - once * over_p, once * over_p
-        peak[k], at[k] = 0.0, 0
-    y, z = np.zeros(m), np.zeros(m)
-    # The inner loop is over oscillators, which are independent, so the processor vectorizes it.
-    for i in range(1, a.size):
-        before, now = a[i - 1], a[i]
-        for k in range(m):
-            moved = c[0, k] * y[k] + c[1, k] * z[k] - c[3, k] * before - c[4, k] * now
-            turned = c[2, k] * z[k] - c[1, k] * y[k] - c[5, k] * before - c[6, k] * now
-            # The cubic start + s (first + s (bend + s twist)); its slope is zero at two places s.
-            start, rise, first, last = y[k], moved - y[k], radians[k] * z[k], radians[k] * turned
-            bend, twist = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
-            root = math.sqrt(max(bend * bend - 3.0 * twist * first, 0.0))
-            q = -bend - math.copysign(root, bend)
-            one = q / (3.0 * twist) if twist != 0.0 else 1.0
-            other = first / q if q != 0.0 else 1.0
-            one = one if 0.0 < one < 1.0 else 1.0
-            other = other if 0.0 < other < 1.0 else 1.0
-            top = start + one * (first + one * (bend + one * twist))
-            second = start + other * (first + other * (bend + other * twist))
-            top = second if abs(second) > abs(top) else top
-            top = moved if abs(moved) > abs(top) else top
-            y[k], z[k] = moved, turned
-            higher = abs(top) > abs(peak[k])
-            peak[k] = top if higher else peak[k]
-            at[k] = i if higher else at[k]
+        y_before = y = z = 0.0
+        for i in range(1, a.size):
+            by_before, by_now = once - twice / p, twice / p
+            moved = (1.0 - once) * y + h * z - by_before * a[i - 1] - by_now * a[i]
+            z = slope * z - h * y - (h - once / p) * a[i - 1] - once / p * a[i]
+            if abs(y) > above[k] and abs(y_before) <= abs(y) > abs(moved):
+                which.append(k)
+                where.append(i - 1)
+                values.append(y)
+            y_before, y = y, moved
+    return np.array(which), np.array(where), np.array(values)
+
+
+@njit(cache=KEPT, error_model="numpy", nogil=True)
+def reversed_pulses(radians, zeta, at, least, out):
+    """Responses to a unit triangular pulse at each sample, of oscillators at one sample each.
+
+    The triangle is the second difference of a ramp, whose response has a closed form; from the
+    second sample on it is a decaying exponential, which the response to a pulse is too.
+
+    Parameters
+    ----------
+    radians, at : array, shape (m,)
+        omega dt, and the sample of each oscillator.
+    least : float
+        Decay at which a response ends.
+    out : array, shape (m, n)
+        Zeros; filled with pseudo-accelerations in units of the pulse.
+
+    Returns
+    -------
+    array, shape (m,)
+        First sample that is filled.
+    """
+    kappa = math.sqrt(1.0 - zeta * zeta)
+    begin = np.empty_like(at)
+    for j in range(radians.size):
+        p, k = radians[j], at[j]
+        rate = p * complex(-zeta, kappa)
+        turn = np.exp(rate)
+        value = complex(2.0 * zeta, (1.0 - 2.0 * zeta * zeta) / kappa) / p
+        value *= (2.0 - turn - 1.0 / turn) * turn
+        begin[j] = max(0, k - int(-math.log(least) / (zeta * p)) - 1)
+        out[j, k] = -_step(p, zeta)[3] / p
+        for i in range(k - 1, begin[j] - 1, -1):
+            out[j, i] = value.real
+            value *= turn
+    return begin
 
 
 @njit(cache=KEPT)

@@ -15,27 +15,33 @@ from numpy.typing import NDArray
 
 from solver.kernels import oscillator
 from solver.model import Floats, InputError
-from solver.records.record import DECIMALS, UNITS, Record, read_only
+from solver.records.record import DECIMALS, UNITS, read_only
 from solver.records.spectrum_acceptance import POINTS_HZ
 from solver.rules.spectra import Target, target_sa_g
-from solver.synthesis.target import BAND_HZ, DAMPING, band, spectrum_fit, target_problems
+from solver.synthesis.target import BAND_HZ, DAMPING, band, target_problems
 
 # Accepted ratios to the target, and the one at which a low peak is aimed. An interval instead of
 # one value, because corrections at neighboring frequencies conflict, most of all at long periods.
 _LEAST, _AIM, _MOST = 1.0, 1.02, 1.05
 # Mean ratio / smallest ratio at which matching stops: the mean excess of the motion when scaled so
-# that no peak is below the target; at the matched frequencies, and between them.
-_CLOSE, _CLOSE_BETWEEN = 1.04, 1.05
+# that no peak is below the target, wherever it is.
+_CLOSE = 1.049
 _SHAPINGS = 6
-_MATCHINGS = 20
 _PER_OCTAVE = 24
-# Spectra have sharp minima between the matched frequencies: they are looked for at so many points
-# of an octave, and matched as well, so many times.
-_LOOKED_AT, _ROUNDS = 96, 6
+# Spectra have sharp minima between the matched frequencies: from the fourth correction on they are
+# looked for after every second, at so many points of an octave, and matched as well.
+_LOOKED_AT, _FIRST, _EVERY, _CORRECTIONS = 96, 4, 2, 60
 # Regularization of the equations: small for peaks outside the interval, larger for those inside,
-# which may move. With 0.001 outside, less is left of a record's phases (mean cosine, 1 to 10 Hz,
-# four records: 0.65 for 0.88).
-_RIDGE_OUTSIDE, _RIDGE_INSIDE = 0.01, 0.2
+# which may move. With 0.001 outside at all frequencies, less is left of a record's phases (mean
+# cosine, 1 to 10 Hz, four records: 0.65 for 0.88); with 0.01 at all, slow peaks rise too slowly.
+_RIDGE_OUTSIDE, _RIDGE_INSIDE = 0.01, 0.1
+_RIDGE_SLOW, _SLOW_HZ = 0.002, 2.0
+# A pulse response ends where it has decayed to this; the equations are summed over so many samples
+# at a time, of the responses that are not zero there.
+_DECAYED, _BLOCK = 1e-3, 500
+# Of every third oscillator, so many more crests beyond the interval are lowered at once: one at a
+# time, the next would come up as the peak.
+_CRESTS_OF_EVERY, _CRESTS = 3, 60
 
 _Samples = NDArray[np.int64]
 
@@ -67,7 +73,6 @@ class MatchingFrame:
     envelope: Floats
     quiet: Floats
     freq_hz: Floats
-    pulses: Floats
 
 
 def make_frame(target: Target, dt_s: float, duration_s: float) -> MatchingFrame:
@@ -99,7 +104,6 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> MatchingFrame:
         envelope=envelope,
         quiet=_quiet(from_start, low_hz * duration_s),
         freq_hz=freq_hz,
-        pulses=_pulses(freq_hz * dt_s, n),
     )
 
 
@@ -135,21 +139,6 @@ def _quiet(from_start: Floats, lowest_cycles: float) -> Floats:
     shapes = [np.ones_like(from_start), 2.0 * from_start - 1.0]
     shapes += [shape for turn in turns for shape in (np.cos(turn), np.sin(turn))]
     return np.array(shapes) / math.sqrt(len(from_start))
-
-
-def _pulses(cycles: Floats, n: int) -> Floats:
-    """Responses to a triangular pulse, unit height at one sample, over n samples.
-
-    The triangle is the second difference of a ramp, whose response has a closed form.
-    """
-    p = 2.0 * math.pi * cycles[:, None]
-    kappa = math.sqrt(1.0 - DAMPING**2)
-    w = p * np.arange(n + 1)
-    decay = np.exp(-DAMPING * w)
-    h = decay * np.sin(kappa * w) / kappa
-    once = 1.0 - decay * np.cos(kappa * w) - DAMPING * h
-    ramp = np.hstack([np.zeros_like(p), w - h - 2.0 * DAMPING * once])
-    return (2.0 * ramp[:, 1:-1] - ramp[:, 2:] - ramp[:, :-2]) / p
 
 
 def _goal_mps2(frame: MatchingFrame) -> Floats:
@@ -189,20 +178,21 @@ def _peaks(frame: MatchingFrame, a: Floats) -> tuple[Floats, _Samples]:
 def matched(frame: MatchingFrame, a: Floats) -> Floats:
     """Corrected motion with a small mean ratio / smallest ratio to the target, wherever it is.
 
-    Minima of the spectrum between the matched frequencies are matched in turn.
+    The spectrum is looked at between the matched frequencies as well, and its minima join them.
     """
-    looked_at = band(_LOOKED_AT, float(frame.freq_hz[0]))
+    between = replace(frame, freq_hz=band(_LOOKED_AT, float(frame.freq_hz[0])))
+    goal = _goal_mps2(between)
     best, least = a, math.inf
-    for _ in range(_ROUNDS):
-        a = _matched(frame, a, _goal_mps2(frame))
-        record = Record(name="", dt_s=frame.dt_s, a_mps2=a)
-        ratio = spectrum_fit(record, frame.target, looked_at).ratio
-        excess = float(ratio.mean() / ratio.min())
-        if excess < least:
-            best, least = a, excess
-        if excess <= _CLOSE_BETWEEN:
-            break
-        frame = _joined_by(frame, looked_at[_minima(ratio)])
+    for count in range(1, _CORRECTIONS + 1):
+        a = _corrected(frame, a)
+        if count >= _FIRST and count % _EVERY == 0:
+            ratio = np.abs(_peaks(between, a)[0]) / goal
+            excess = float(ratio.mean() / ratio.min())
+            if excess < least:
+                best, least = a, excess
+            if excess <= _CLOSE:
+                break
+            frame = _joined_by(frame, between.freq_hz[_minima(ratio)])
     return best
 
 
@@ -216,56 +206,84 @@ def _minima(ratio: Floats) -> _Samples:
 def _joined_by(frame: MatchingFrame, more_hz: Floats) -> MatchingFrame:
     """Return a frame that matches more frequencies as well; the rigid one stays last."""
     freq_hz = np.append(np.union1d(frame.freq_hz[:-1], more_hz), frame.freq_hz[-1])
-    pulses = _pulses(freq_hz * frame.dt_s, len(frame.envelope))
-    return replace(frame, freq_hz=freq_hz, pulses=pulses)
+    return replace(frame, freq_hz=freq_hz)
 
 
-def _matched(frame: MatchingFrame, a: Floats, goal: Floats) -> Floats:
-    """Iteratively corrected motion with the smallest mean ratio / smallest ratio to the goal."""
-    best, least = a, math.inf
-    for _ in range(_MATCHINGS):
-        peak, at = _peaks(frame, a)
-        ratio = np.abs(peak) / goal
-        outside = np.maximum(_LEAST - ratio, ratio - _MOST)
-        excess = float(ratio.mean() / ratio.min())
-        if excess < least:
-            best, least = a, excess
-        if excess <= _CLOSE:
-            break
-        moves = np.where(ratio < _LEAST, _AIM - ratio, np.minimum(_MOST - ratio, 0.0))
-        a = a + _correction(frame, a, _Moves(np.sign(peak) * moves, at, outside > 0.0), goal)
-    return best
-
-
-class _Moves(NamedTuple):
-    """Changes of the peaks, as fractions of the goal, at samples; and which are outside."""
-
-    of_goal: Floats
-    at: _Samples
-    outside: NDArray[np.bool_]
-
-
-def _correction(frame: MatchingFrame, a: Floats, moves: _Moves, goal: Floats) -> Floats:
-    """Smallest change under the envelope's square that makes the moves of the peaks.
+def _corrected(frame: MatchingFrame, a: Floats) -> Floats:
+    """Make the smallest change under the envelope's square that moves the peaks into the interval.
 
     The square leaves the ends weak, where late peaks of long periods would add.
+    """
+    rows = _asked(frame, a)
+    blocks = _blocks(frame, rows)
+    m, q = len(rows.radians), len(frame.quiet)
+    products = np.zeros((m + q, m + q))
+    for of_rows, block in blocks:
+        products[np.ix_(of_rows, of_rows)] += block @ block.T
+    products[np.diag_indices(m)] *= 1.0 + rows.ridge
+    factors = np.linalg.solve(products, np.append(rows.moves, -frame.quiet @ a))
+    change = [factors[of_rows] @ block for of_rows, block in blocks]
+    return a + frame.envelope**2 * np.concatenate(change)
+
+
+class _Rows(NamedTuple):
+    """Changes of oscillators at samples, as fractions of their goals, and their regularization."""
+
+    radians: Floats
+    goal: Floats
+    at: _Samples
+    moves: Floats
+    ridge: Floats
+
+
+def _asked(frame: MatchingFrame, a: Floats) -> _Rows:
+    """Return the peaks of all oscillators, and the highest other crests beyond the interval."""
+    goal, omega = _goal_mps2(frame), 2.0 * math.pi * frame.freq_hz
+    peak, at = _peaks(frame, a)
+    ratio = np.abs(peak) / goal
+    moves = np.where(ratio < _LEAST, _AIM - ratio, np.minimum(_MOST - ratio, 0.0))
+    ridge = np.where(frame.freq_hz < _SLOW_HZ, _RIDGE_SLOW, _RIDGE_OUTSIDE)
+    ridge[(ratio >= _LEAST) & (ratio <= _MOST)] = _RIDGE_INSIDE
+    some = slice(None, None, -_CRESTS_OF_EVERY)
+    which, where, values = oscillator.crests(
+        read_only(a), frame.dt_s, omega[some], DAMPING, _MOST * goal[some]
+    )
+    which = np.arange(len(goal))[some][which]
+    beyond = np.abs(values) / goal[which] - _MOST
+    # A peak is at the end of its step.
+    beyond[np.abs(where - at[which]) <= 1] = 0.0
+    most = np.argsort(-beyond, kind="stable")[:_CRESTS]
+    most = most[beyond[most] > 0.0]
+    which = which[most]
+    every = np.append(np.arange(len(goal)), which)
+    return _Rows(
+        radians=omega[every] * frame.dt_s,
+        goal=goal[every],
+        at=np.append(at, where[most]),
+        moves=np.append(np.sign(peak) * moves, -np.sign(values[most]) * beyond[most]),
+        ridge=np.append(ridge, np.full(len(most), _RIDGE_OUTSIDE)),
+    )
+
+
+def _blocks(frame: MatchingFrame, asked: _Rows) -> list[tuple[_Samples, Floats]]:
+    """Rows of the equations under the envelope's square, by block of samples: which, and values.
 
     A peak is the sum of the samples before it, each multiplied by the pulse response after the
-    time between them, which is the pulse response reversed in time. The quiet shapes stay exactly
-    zero.
+    time between them, which is the pulse response reversed in time. The quiet shapes are the last
+    rows; they stay exactly zero.
     """
-    m = len(goal)
-    rows = np.zeros((m + len(frame.quiet), len(a)))
-    for row, pulse, k, unit in zip(rows, frame.pulses, moves.at, goal, strict=False):
-        row[: k + 1] = pulse[k::-1] / unit
+    m, n, q = len(asked.radians), len(frame.envelope), len(frame.quiet)
+    rows, begin = np.zeros((m + q, n)), np.zeros(m + q)
+    begin[:m] = oscillator.reversed_pulses(asked.radians, DAMPING, asked.at, _DECAYED, rows[:m])
     rows[m:] = frame.quiet
-    wanted = np.append(moves.of_goal, -frame.quiet @ a)
-    allowed = frame.envelope**2
-    rows *= allowed
-    products = rows @ rows.T
-    ridge = np.where(moves.outside, _RIDGE_OUTSIDE, _RIDGE_INSIDE)
-    products[np.diag_indices(m)] *= 1.0 + ridge
-    return allowed * (rows.T @ np.linalg.solve(products, wanted))
+    end = np.append(asked.at, np.full(q, n))
+    unit, allowed = np.append(asked.goal, np.ones(q)), frame.envelope**2
+    blocks = []
+    for first in range(0, n, _BLOCK):
+        part = slice(first, first + _BLOCK)
+        of_rows = np.flatnonzero((begin < first + _BLOCK) & (end >= first))
+        blocks.append((of_rows, rows[of_rows, part] * (allowed[part] / unit[of_rows, None])))
+    return blocks
 
 
 def rounded(a: Floats) -> Floats:

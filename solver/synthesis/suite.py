@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import NDArray
 
+from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
@@ -30,6 +33,8 @@ HOLD_SHARE = 4.0 / 6.0
 # Ratio to the target to which the lowest point is scaled: above 1 by more than rounding changes it,
 # and by more than a spectrum falls between the points.
 _ABOVE = 1.002
+# The lowest point is looked for at every so many points, then around those this close to it.
+_COARSE, _NEAR_LOWEST = 6, 1.02
 
 # Minimum length of a seed record / duration: a shorter one says little about a motion.
 _SHORTEST_SHARE = 1.0 / 6.0
@@ -113,7 +118,8 @@ def make_suite(
         Sampling interval and time of the last sample [s]. The envelope rises over one sixth of the
         duration and decays over one sixth: 5, 20 and 5 s of 30 s, as in AC156.
     progress : callable
-        Called with a description of the motion in progress.
+        Called with how many motions are made, before the first and after each; they are made on all
+        cores.
 
     Returns
     -------
@@ -140,17 +146,28 @@ def make_suite(
         make_frame(target, dt_s, duration_s) for target in (horizontal_target, vertical_target)
     )
     _check_records(records, dt_s, duration_s)
-    suite, hold_s = [], HOLD_SHARE * duration_s
-    for k, sequence in enumerate(np.random.SeedSequence(seed).spawn(count), start=1):
-        progress(f"motion {k} of {count}")
+
+    def made(k: int, sequence: np.random.SeedSequence) -> SuiteMotion:
         rng = np.random.Generator(np.random.PCG64(sequence))
         # y is drawn last, so that x and z are the same as in a pair without y.
         seed_x, seed_y, seed_z = seeds_of(records, k - 1, dt_s, len(horizontal.envelope))
         x, from_x = synthesize(horizontal, seed_x, rng, f"motion-{k:02d}-x")
         z, from_z = synthesize(vertical, seed_z, rng, f"motion-{k:02d}-z", (x,))
         y, from_y = synthesize(horizontal, seed_y, rng, f"motion-{k:02d}-y", (x, z))
-        suite.append(SuiteMotion(x=x, y=y, z=z, seeds=(from_x, from_y, from_z), hold_s=hold_s))
-    return suite
+        seeds, hold_s = (from_x, from_y, from_z), HOLD_SHARE * duration_s
+        return SuiteMotion(x=x, y=y, z=z, seeds=seeds, hold_s=hold_s)
+
+    progress(f"0 of {count} motions made")
+    sequences = enumerate(np.random.SeedSequence(seed).spawn(count), start=1)
+    with ThreadPoolExecutor(THREADS) as pool:
+        motions = [pool.submit(made, k, sequence) for k, sequence in sequences]
+        try:
+            for done, motion in enumerate(as_completed(motions), start=1):
+                motion.result()
+                progress(f"{done} of {count} motions made")
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+    return [motion.result() for motion in motions]
 
 
 def synthesize(
@@ -191,7 +208,7 @@ def synthesize(
     for draw in range(DRAWS):
         start = grown(seed, rng, len(frame.envelope), draw)
         a = matched(frame, shaped(frame, start))
-        a = rounded(a * _ABOVE / _fit(frame, a).minimum)
+        a = rounded(a * _ABOVE / _lowest(frame, a))
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
         alike = any(abs(correlation(record, other)) > MOST_CORRELATION for other in unlike)
         is_strong = strength(record).d5_95_s >= HOLD_SHARE * duration_s
@@ -206,10 +223,21 @@ def synthesize(
     )
 
 
-def _fit(frame: MatchingFrame, a: Floats) -> SpectrumFit:
+def _fit(
+    frame: MatchingFrame, a: Floats, some: slice | NDArray[np.int64] = slice(None)
+) -> SpectrumFit:
     """Compare a component with its target on grids of 1/6 octave that begin anywhere."""
     record = Record(name="", dt_s=frame.dt_s, a_mps2=a)
-    return spectrum_fit(record, frame.target, shifted_grids(float(frame.freq_hz[0])))
+    return spectrum_fit(record, frame.target, shifted_grids(float(frame.freq_hz[0]))[some])
+
+
+def _lowest(frame: MatchingFrame, a: Floats) -> float:
+    """Smallest ratio on those grids: of some points, and of all around the lowest of them."""
+    count = len(shifted_grids(float(frame.freq_hz[0])))
+    ratio = _fit(frame, a, slice(None, None, _COARSE)).ratio
+    low = _COARSE * np.flatnonzero(ratio <= _NEAR_LOWEST * ratio.min())
+    around = np.unique(low[:, None] + np.arange(-_COARSE, _COARSE + 1))
+    return _fit(frame, a, around[(around >= 0) & (around < count)]).minimum
 
 
 def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s: float) -> None:

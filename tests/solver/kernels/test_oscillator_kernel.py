@@ -21,3 +21,57 @@ def test_a_sudden_load_overshoots_by_the_textbook_factor(zeta):
     # A. K. Chopra, Dynamics of Structures: step force, u_max = u_st (1 + exp(-pi zeta / kappa)).
     assert -peak[0] == pytest.approx(load * (1.0 + math.exp(-math.pi * zeta / kappa)), rel=1e-6)
     assert at[0] * dt == pytest.approx(0.5 / kappa, abs=dt)
+
+
+def test_peaks_are_the_largest_of_all_cubics_between_the_samples():
+    n, dt, zeta = 120, 0.01, 0.05
+    a = np.random.default_rng(4).standard_normal(n)
+    omega = np.concatenate([np.geomspace(0.5, 99.0, 18), [150.0]])
+    peak, at = np.zeros(len(omega)), np.zeros(len(omega), dtype=np.int64)
+    oscillator.peaks(readonly(a), dt, omega, zeta, peak, at)
+    for k in range(len(omega)):
+        value, sample = largest(a, dt, omega[k], zeta)
+        assert peak[k] == pytest.approx(value, rel=1e-6)
+        assert at[k] == sample
+
+
+def largest(a, dt, omega, zeta):
+    """Peak and step by the matrix exponential, and each cubic at 2,000 points."""
+    p = omega * dt
+    # y' = z, z' = -y - 2 zeta z - a - r tau, and r are constants, in the time omega t.
+    rates = np.array([[0, 1, 0, 0], [-1, -2 * zeta, -1, 0], [0, 0, 0, 1], [0, 0, 0, 0.0]])
+    vectors = np.linalg.matrix_power(np.eye(4) + rates * p / 2**24, 2**24)
+    s = np.linspace(0.0, 1.0, 2001) if p <= 1.0 else np.array([1.0])
+    y = z = 0.0
+    best, where = 0.0, 0
+    for i in range(1, len(a)):
+        moved, turned = (vectors @ [y, z, a[i - 1], (a[i] - a[i - 1]) / p])[:2]
+        first, last = p * z, p * turned
+        cubic = y + s * (first + s * (3 * (moved - y) - 2 * first - last
+                                      + s * (first + last - 2 * (moved - y))))  # fmt: skip
+        top = cubic[np.abs(cubic).argmax()]
+        if abs(top) > abs(best) * (1.0 + 1e-9):
+            best, where = top, i
+        y, z = moved, turned
+    return best, where
+
+
+def test_reversed_pulses_are_second_differences_of_the_response_to_a_ramp():
+    n, zeta, radians, at = 400, 0.05, np.array([0.05, 0.4, 2.0]), np.array([399, 150, 0])
+    out = np.zeros((3, n))
+    begin = oscillator.reversed_pulses(radians, zeta, at, 1e-3, out)
+    kappa = math.sqrt(1.0 - zeta**2)
+    for k in range(3):
+        w = radians[k] * np.arange(n + 1)
+        h = np.exp(-zeta * w) * np.sin(kappa * w) / kappa
+        once = 1.0 - np.exp(-zeta * w) * np.cos(kappa * w) - zeta * h
+        ramp = np.append(0.0, w - h - 2.0 * zeta * once)
+        pulse = np.diff(ramp, n=2) / -radians[k]
+        filled = slice(begin[k], at[k] + 1)
+        assert out[k, filled][::-1] == pytest.approx(pulse[: at[k] + 1 - begin[k]], abs=1e-12)
+        assert not out[k, : begin[k]].any()
+        assert not out[k, at[k] + 1 :].any()
+    # exp(-0.05 * 0.4 * 346) = 1e-3
+    assert list(begin) == [0, 0, 0]
+    begin = oscillator.reversed_pulses(np.array([0.4]), zeta, np.array([399]), 1e-3, out[:1])
+    assert begin[0] == 399 - 346

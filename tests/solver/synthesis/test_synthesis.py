@@ -2,6 +2,7 @@
 
 import math
 from functools import partial
+from threading import Event
 
 import numba
 import numpy as np
@@ -13,7 +14,7 @@ from nightly import by_day
 from solver.formats import read_motion_file, read_record
 from solver.model import InputError, Motion
 from solver.records.acceptance import acceptance
-from solver.records.record import write_record
+from solver.records.record import Record, write_record
 from solver.rules.spectra import target_sa_g
 from solver.synthesis import suite, target
 from solver.synthesis.matching import make_frame
@@ -171,6 +172,38 @@ class TestSuite:
     def test_impossible_counts_and_seeds_are_refused(self, count, seed):
         with pytest.raises(InputError, match="give at least 1 and at least 0"):
             make_suite(HORIZONTAL, VERTICAL, count=count, seed=seed)
+
+
+class TestMaking:
+    def test_motions_are_told_as_they_end_and_returned_by_number(self, monkeypatch):
+        def late_first(frame, seed, rng, name, unlike=()):
+            if name == "motion-01-x":
+                assert others_made.wait(20.0)
+            return Record(name=name, dt_s=0.01, a_mps2=np.zeros(3)), "noise"
+
+        def tell(words):
+            told.append(words)
+            if words.startswith("1 of"):
+                others_made.set()
+
+        told, others_made = [], Event()
+        monkeypatch.setattr(suite, "THREADS", 2)
+        monkeypatch.setattr(suite, "synthesize", late_first)
+        made = make_suite(HORIZONTAL, VERTICAL, count=3, seed=1, progress=tell)
+        assert told == [f"{done} of 3 motions made" for done in range(4)]
+        assert [motion.x.name for motion in made] == [f"motion-0{k}-x" for k in (1, 2, 3)]
+
+    def test_a_motion_that_cannot_be_made_ends_the_suite(self, monkeypatch):
+        def missed(frame, seed, rng, name, unlike=()):
+            begun.append(name)
+            raise InputError("20 motions all miss the target")
+
+        begun = []
+        monkeypatch.setattr(suite, "THREADS", 1)
+        monkeypatch.setattr(suite, "synthesize", missed)
+        with pytest.raises(InputError, match="all miss the target"):
+            make_suite(HORIZONTAL, VERTICAL, count=50, seed=1)
+        assert len(begun) < 50
 
 
 class TestSynthesis:
