@@ -7,8 +7,9 @@ no code rule itself (`solver.rules.provisions`). Read `report.assessment.arrays`
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -44,7 +45,14 @@ from report.assessment.overrides import rule_set_of, under_code
 from report.assessment.pending_runs import PendingRuns, RunMotion, begin_runs
 from report.assessment.precheck import building_limits
 from report.assessment.project import THREADS, Assessment
-from report.assessment.runs import MotionRun, run_along, run_motion, scene_key
+from report.assessment.runs import (
+    CONTINUED,
+    MotionRun,
+    reference,
+    run_along,
+    run_motion,
+    scene_key,
+)
 from report.motions.prepare import Shaking
 from report.motions.targets import targets
 from report.sheet.checking.checks import faults
@@ -56,6 +64,9 @@ from report.sheet.schema.scene import Array
 from solver.model import Motion
 from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet
+
+Reference = Mapping[str, Mapping[str, Mapping[str, Any]]]
+"""By array and motion, what `runs.reference` gives: data for JSON."""
 
 
 def assess(
@@ -115,46 +126,55 @@ def _beside(other: Assessment, given: Assessment) -> Assessment:
     return replace(given, rows=tuple(rows))
 
 
-def reassess(
-    given: Assessment,
-    project: ProjectInput,
-    run: RunMotion = run_motion,
-    key: Callable[[Array], Hashable] = scene_key,
-) -> Assessment:
-    """Assess another input under the same motions, with its own models only.
-
-    Parameters
-    ----------
-    run, key : callable, optional
-        As in `begin_runs`.
-    """
-    motions = given.shaking.motions
-    with ThreadPoolExecutor(THREADS) as pool:
-        begun = begin_runs(pool, run, project, motions, check_models=False, key=key)
-        return _assess(given.sheet, given.shaking, project, acceptance=given.acceptance,
-                       pool=pool, begun=begun)  # fmt: skip
+def reassess(given: Assessment, project: ProjectInput) -> Assessment:
+    """Assess another input under the same motions, with its own models only."""
+    return _by_own_models(given.sheet, given.shaking, project, given.acceptance, run_motion)
 
 
-def anticipate(given: Assessment, project: ProjectInput) -> Assessment:
-    """Assess another input in one axis, for provisional values (`runs.run_along`).
-
-    Each motion runs in the orientation that governs in the given assessment, where it still has it.
-    """
-    governing = {
-        array.id: {run.motion.id: run.governing.orientation for run in array.motions}
-        for array in given.arrays
-    }
+def anticipate(sheet: Sheet, shaking: Shaking, known: Reference) -> Assessment:
+    """Assess a workbook in one axis, continued from the last full assessment (`run_along`)."""
 
     def along(array: Array, motion: Motion) -> MotionRun:
-        orientation = governing.get(array.id, {}).get(motion.id)
-        orientations = [orientation] if orientation in motion.orientations else motion.orientations
-        return run_along(array, motion, orientations)
+        return run_along(array, motion, known.get(array.id, {}).get(motion.id))
 
     def key(array: Array) -> Hashable:
-        # Arrays that are alike now may have had other orientations that govern.
-        return scene_key(array), tuple(governing.get(array.id, {}).items())
+        # Arrays that are alike now may have had other runs at the reference.
+        return scene_key(array), json.dumps(known.get(array.id))
 
-    return reassess(given, project, along, key)
+    data = outdated(sheet.project, shaking.hashes)
+    acceptance = shaking_acceptance(shaking, targets(data))
+    return _by_own_models(sheet, shaking, data, acceptance, along, key)
+
+
+def reference_of(done: Assessment) -> Reference:
+    """Return what `anticipate` continues."""
+    each: dict[Hashable, Mapping[str, Any]] = {}
+    for item in done.arrays:
+        if (alike := scene_key(item.array)) not in each:
+            each[alike] = {run.motion.id: reference(item.array, run) for run in item.motions}
+    return {item.id: each[scene_key(item.array)] for item in done.arrays}
+
+
+def not_continued(provisional: Assessment) -> Sequence[str]:
+    """Return the arrays of what `anticipate` gave whose values continue no full ones."""
+    return [
+        item.id
+        for item in provisional.arrays
+        if any(run.governing.solution.reason != CONTINUED for run in item.motions)
+    ]
+
+
+def _by_own_models(
+    sheet: Sheet,
+    shaking: Shaking,
+    data: ProjectInput,
+    acceptance: Acceptance,
+    run: RunMotion,
+    key: Callable[[Array], Hashable] = scene_key,
+) -> Assessment:
+    with ThreadPoolExecutor(THREADS) as pool:
+        begun = begin_runs(pool, run, data, shaking.motions, check_models=False, key=key)
+        return _assess(sheet, shaking, data, acceptance=acceptance, pool=pool, begun=begun)
 
 
 def _assess(

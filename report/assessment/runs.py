@@ -10,9 +10,11 @@ import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from operator import attrgetter
+from typing import Any
 
 from report.sheet.schema.choices import Direction, ModelChoice
 from report.sheet.schema.scene import Array
+from solver.forces import friction_demand
 from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.rivals.methods import NO_RECORD
 from solver.sliding import least_model
@@ -25,6 +27,11 @@ REQUESTED_MODELS: Mapping[ModelChoice, Model] = {
     ModelChoice.TWO_AXES: Model.TWO_AXES,
 }
 """The models that a workbook can request."""
+
+CONTINUED = "continued from the last full run"
+"""Reason of a run in one axis whose excursions are multiplied by those of a full run."""
+
+_ANY = Direction.ANY.value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,17 +134,68 @@ def run_motion(
     return motion_run(motion, [run_oriented(array, motion, h, model) for h in motion.orientations])
 
 
-def run_along(array: Array, motion: Motion, orientations: Sequence[Orientation]) -> MotionRun:
-    """Run one array under one motion in one axis, in some of its runs: quick, and not for design.
+def reference(array: Array, done: MotionRun) -> Mapping[str, Any]:
+    """Return a finished motion beside its governing run in one axis, as data for JSON.
 
-    A component acts along the slope together with the vertical one; what acts cross-slope is
-    neglected, and no model is compared.
+    What `run_along` continues: excursions [m] by direction, None where there is none.
     """
-    return motion_run(motion, [_oriented_along(array, motion, h) for h in orientations])
+    along = _oriented_along(array, done.motion, done.governing.orientation)
+    return {
+        "orientation": done.governing.orientation.name,
+        "model": int(done.governing.solution.model),
+        "full_m": {d.value: _finite(done.peak_m(d)) for d in Direction},
+        "along_m": {d.value: _finite(along.excursion_m(d)) for d in Direction},
+    }
+
+
+def run_along(array: Array, motion: Motion, known: Mapping[str, Any] | None) -> MotionRun:
+    """Run one array under one motion in one axis: quick, and not for design.
+
+    The horizontal component that governs in a reference acts along the slope together with the
+    vertical one, and its excursions are multiplied by full / one axis of the reference: at the
+    values of the reference they are the full ones. Without such a factor they are those of one
+    axis, and the reason of the run is not `CONTINUED`.
+
+    Parameters
+    ----------
+    known : mapping, optional
+        What `reference` gave for the array and the motion.
+    """
+    names = {each.name: each for each in motion.orientations}
+    if known is None or known["orientation"] not in names:
+        return motion_run(motion, [_oriented_along(array, motion, h) for h in names.values()])
+    run = _oriented_along(array, motion, names[known["orientation"]])
+    return motion_run(motion, [_continued(run, known)])
+
+
+def _continued(run: OrientedRun, known: Mapping[str, Any]) -> OrientedRun:
+    full, along, result = known["full_m"], known["along_m"], run.result
+    if run.solution.model is Model.NO_SLIP:  # of all components: exact
+        return replace(run, solution=replace(run.solution, reason=CONTINUED))
+    if not (full[_ANY] and along[_ANY]) or result.status is not Status.OK:
+        return run
+
+    def length_m(direction: Direction) -> float:
+        start = direction if along[direction.value] else Direction.ANY
+        change = run.excursion_m(start) / float(along[start.value])  # 1 exactly, at rest
+        return float(full[direction.value]) * change
+
+    result = replace(
+        result,
+        prd_m=length_m(Direction.ANY),
+        down_m=length_m(Direction.DOWN),
+        up_m=length_m(Direction.UP),
+        across_m=length_m(Direction.ACROSS),
+    )
+    model = Model(known["model"])
+    solution = replace(run.solution, model=model, reason=CONTINUED, result=result)
+    return replace(run, solution=solution)
 
 
 def _oriented_along(array: Array, motion: Motion, orientation: Orientation) -> OrientedRun:
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
+    if friction_demand(scene) <= scene.friction.mu_static:
+        return OrientedRun(orientation=orientation, scene=scene, solution=least_model.solve(scene))
     scene = replace(scene, ay_mps2=NO_RECORD)
     # Nothing else models velocity-dependent friction than the choice of a model.
     forced = Model.ONE_AXIS_VERTICAL if scene.friction.is_constant else None
@@ -162,6 +220,10 @@ def run_oriented(
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)
     solution = least_model.solve(scene, Settings(forced=forced))
     return OrientedRun(orientation=orientation, scene=scene, solution=solution)
+
+
+def _finite(value_m: float) -> float | None:
+    return None if math.isnan(value_m) else value_m
 
 
 def nan_is_worst(value: float) -> float:

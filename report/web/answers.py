@@ -6,11 +6,12 @@ Computes nothing: every number and verdict is that of `report.assessment`. Read 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
 from report.assessment.arrays import NOT_PERMITTED
+from report.assessment.assess import not_continued
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
@@ -33,9 +34,8 @@ _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
 _CLEARANCE = "count array provided_m required_m demand_capacity verdict"
 
 _PROVISIONAL = (
-    "Provisional: each motion in one axis with vertical, in the orientation that governs at the "
-    "values of the workbook; cross-slope motion neglected. The full model follows when the slider "
-    "rests."
+    "Provisional: each motion in one axis with vertical, in the orientation that governed at rest, "
+    "times full / one axis there. The full model follows when the slider rests."
 )
 
 
@@ -55,6 +55,7 @@ def answer(
     gaps = list(clearance_results(marked, dict(enumerate(assessment.clearances, start=1))))
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(item, fmt, is_provisional) for item in arrays}
+    dim = set(not_continued(assessment)) if is_provisional else set()
 
     def verdict(found: Verdict, text: str = "") -> Cell | None:
         return None if is_provisional else stamp(found, text)
@@ -79,7 +80,7 @@ def answer(
         "clearances": {
             "caption": "Clearances",
             "heads": heads(ClearanceResult, _CLEARANCE, array="From, to"),
-            "rows": _rows(gaps, missing, fmt, verdict),
+            "rows": _rows(gaps, missing, fmt, verdict, dim),
         },
         "bars": {
             "heads": ["Motion", "Bar", "PRD"],
@@ -89,6 +90,7 @@ def answer(
                 for item, assessed in zip(arrays, assessment.arrays, strict=True)
             },
         },
+        "dim": sorted(dim),  # arrays whose values are those of one axis alone
         "plan": plan(assessment, designs, (gaps, missing), fmt, verdict, room_px),
     }
 
@@ -113,12 +115,18 @@ def _rows(
     missing: Sequence[PlanNeighbor],
     fmt: UnitFormat,
     verdict: ShowVerdict,
+    dim: Collection[str],
 ) -> list[list[Cell | None]]:
     """Return the clearances and the pairs of the plan without one; what is NG first."""
     rows = []
     for gap in gaps:
-        names = _between(gap.array, gap.object, gap.direction.value)
-        rows.append(cells(gap, _CLEARANCE, fmt, array=names, verdict=verdict(gap.verdict)))
+        others: dict[str, Cell | None] = {
+            "array": _between(gap.array, gap.object, gap.direction.value),
+            "verdict": verdict(gap.verdict),
+        }
+        if not {gap.array, gap.object}.isdisjoint(dim):
+            others["demand_capacity"] = {"text": fmt.none}
+        rows.append(cells(gap, _CLEARANCE, fmt, **others))
     rows += [_missing(near, fmt, verdict) for near in missing]
     return sorted(rows, key=lambda row: not row[-1] or row[-1]["look"] in ("ok", "condition"))
 

@@ -132,6 +132,7 @@ async def _state(request: Request) -> Response:
 
 async def _example(request: Request) -> Response:
     desk_of(request).open(EXAMPLE)
+    desk_of(request).prepare(EXAMPLE)
     return JSONResponse(await _whole_state(request, EXAMPLE))
 
 
@@ -158,6 +159,7 @@ async def _open_new(
     folder = desk.new_folder()
     try:
         workbook = await store(request, folder)
+        desk.prepare(workbook)
         found = await _whole_state(request, workbook)
         if not desk.is_newest(folder):
             raise InputError("Another project was opened meanwhile; open this one again.")

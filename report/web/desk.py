@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import os
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Coroutine, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import suppress
 from pathlib import Path
@@ -89,7 +89,8 @@ class Desk:
         self._busy: set[bool] = set()
         self._turns = asyncio.Condition()
         self._newest: dict[tuple[object, ...], Asked] = {}
-        self._warming: asyncio.Task[None] | None = None
+        self._preparing: set[asyncio.Task[None]] = set()
+        self._references: dict[str, Any] = {}  # of the last complete answer, by workbook
 
     @property
     def opened(self) -> str:
@@ -119,20 +120,38 @@ class Desk:
     def start(self) -> None:
         """Start the processes, each with the example, as the page will ask first."""
         self._busy = {True, False}
-        self._warming = asyncio.create_task(self._warm())
+        self._begin(self._warm())
 
     async def _warm(self) -> None:
-        job = {"do": "state", "workbook": str(EXAMPLE)}
-        for is_quick in (False, True):  # the first answer comes sooner from one that starts alone
+        # The first answer comes sooner from one that starts alone.
+        for is_quick, do in ((False, "state"), (True, "prepare")):
+            job = {"do": do, "workbook": str(EXAMPLE)}
             with suppress(LostError):
                 await self._answer(job, is_quick, longest_s=None)  # it may compile the solver
             await self._end_turn(is_quick)
 
+    def prepare(self, workbook: Path) -> None:
+        """Have the quick process read a workbook, while the other one computes its state."""
+        self._begin(self._prepare(workbook))
+
+    async def _prepare(self, workbook: Path) -> None:
+        async with self._turns:
+            await self._turns.wait_for(lambda: True not in self._busy)
+            self._busy.add(True)
+        with suppress(LostError):
+            await self._answer({"do": "prepare", "workbook": str(workbook)}, True, LONGEST_S)
+        await self._end_turn(True)
+
+    def _begin(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work)
+        self._preparing.add(task)
+        task.add_done_callback(self._preparing.discard)
+
     async def stop(self) -> None:
         """End every process, in the middle of a job if need be."""
-        if self._warming is not None:
-            self._warming.cancel()
-            await asyncio.gather(self._warming, return_exceptions=True)
+        for task in self._preparing:
+            task.cancel()
+        await asyncio.gather(*self._preparing, return_exceptions=True)
         await self.packages.stop()
         for is_quick in list(self._processes):
             self._end(is_quick)
@@ -156,9 +175,15 @@ class Desk:
             self._note(job["do"], asked)
         is_quick = await self._turn(job["do"], asked)
         try:
+            if asked and asked.moving:
+                job["reference"] = self._references.get(job["workbook"], {})
             found = await self._answer(job, is_quick, LONGEST_S)
         finally:
             await self._end_turn(is_quick)
+        if "reference" in found:
+            now, own = job["workbook"], str(self.workbook)
+            kept = {own: self._references[own]} if own in self._references else {}
+            self._references = kept | {now: found["reference"]}
         if "answer" in found:
             answer: Mapping[str, Any] = found["answer"]
             return answer

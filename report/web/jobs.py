@@ -7,16 +7,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from report.assessment.assess import anticipate, assess
+from report.assessment.assess import Reference, anticipate, assess, reference_of
 from report.assessment.neighbors import NearbyKind
 from report.assessment.plan_clearances import missing_rows
 from report.assessment.project import Assessment
-from report.sheet.checking.covered import outdated
 from report.sheet.reading.archive import open_book
 from report.sheet.reading.parts import changed
 from report.sheet.reading.read import read
@@ -43,12 +42,19 @@ Json = Mapping[str, Any]
 def perform(job: Json) -> Json:
     """Do a job named by its key `do`, and return its answer, or its problems.
 
+    Beside a complete answer is its `reference`, which the jobs of sliders that move get.
+
     Workbooks that are wrong, and values that no workbook can have, are problems; anything else is
     an internal error and is raised.
     """
     workbook = Path(job["workbook"])
     try:
-        return {"answer": _JOBS[job["do"]](workbook, job)}
+        found = {"answer": _JOBS[job["do"]](workbook, job)}
+        is_complete = job["do"] in ("state", "assess") and not job.get("moving")
+        if is_complete and not found["answer"].get("problems"):
+            key = _key(workbook, job.get("values", {}))
+            found["reference"] = _reference(workbook, _wider(json.loads(key)))
+        return found
     except InputError as error:
         return {"problems": problems(workbook, error)}
 
@@ -94,13 +100,18 @@ def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: of runs in one axis while a slider moves, else complete."""
     given = _given(workbook, _key(workbook, job["values"]))
     if job["moving"]:
-        start = replace(_at_rest(workbook, {}), sheet=given.sheet, shaking=given.shaking)
-        data = outdated(given.sheet.project, given.shaking.hashes)
-        found = anticipate(start, data)
+        found = anticipate(given.sheet, given.shaking, job.get("reference", {}))
     else:
         found = _at_rest(workbook, job["values"])
     shows = answer(found, is_provisional=job["moving"], room_px=job["room"])
     return {**shows, "shown": shown(given)}
+
+
+def prepare(workbook: Path, _: Json) -> Json:
+    """Read a workbook and move its sliders once, before anyone does."""
+    with suppress(InputError):  # which the state tells
+        answer_at(workbook, {"values": {}, "moving": True, "room": USUAL_PX})
+    return {}
 
 
 def write(workbook: Path, job: Json) -> Json:
@@ -130,6 +141,7 @@ def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Js
 _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "state": state,
     "assess": answer_at,
+    "prepare": prepare,
     "write": write,
     "add_clearances": add_clearances,
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
@@ -187,6 +199,12 @@ def _assessment(workbook: Path, key: str) -> Assessment:
     elif given.shaking is _open(workbook).shaking:  # friction and slope: no motion
         former = _as_typed(workbook)
     return assess(given.sheet, given.shaking, former)
+
+
+@lru_cache(KEPT_ANSWERS)
+def _reference(workbook: Path, key: str) -> Reference:
+    """Return the reference of values without that of the clearances, which changes no run."""
+    return reference_of(_complete(workbook, key))
 
 
 def _wider(values: Values) -> str:

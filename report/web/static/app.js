@@ -185,7 +185,7 @@ function showAnswer(next, values) {
   answer = next;
   controls.follow(answer.shown);
   plan.show(answer.plan);
-  showTable(part("clearances"), answer.clearances, { named: 1 });
+  showTable(part("clearances"), answer.clearances, { named: 1, dim: answer.dim });
   showPicked();
 }
 
@@ -198,7 +198,7 @@ function keepFormer() {
 }
 
 function showPicked() {
-  showTable(part("arrays"), answer.arrays, { picked: chosen.array, pick: (array) => choose({ array }) });
+  showTable(part("arrays"), answer.arrays, { picked: chosen.array, pick: (array) => choose({ array }), dim: answer.dim });
   if (chosen.array in answer.bars.arrays) showBars(part("bars"), answer.bars, chosen.array); // not of a project that was open before
 }
 

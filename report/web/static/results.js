@@ -46,13 +46,14 @@ function reasonItem({ level, text }) {
  * Show a table as the server words it: `named` is the column that names its rows. Where rows can be
  * picked, `pick` gets the name of one.
  */
-export function showTable(element, { caption, heads, rows }, { named = 0, picked = null, pick = null } = {}) {
+export function showTable(element, { caption, heads, rows }, { named = 0, picked = null, pick = null, dim = [] } = {}) {
   // A new body keeps no focus: the button that had it gets it back.
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
   const name = (cell) =>
     html("th", { scope: "row", title: cell.text }, pick ? pickButton(cell.text, cell.text === picked, pick) : between(cell), cell.note ? html("small", {}, cell.note) : null);
+  const look = ({ text, from, to }) => [text === picked && "is-picked", [text, from, to].some((id) => dim.includes(id)) && "is-dim"];
   const row = (cells) =>
-    html("tr", { class: cells[named].text === picked ? "is-picked" : null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
+    html("tr", { class: look(cells[named]).filter(Boolean).join(" ") || null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
   update(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
   if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();
 }

@@ -22,6 +22,7 @@ def serving(keys, tmp_path_factory):
     app = made(keys, tmp_path_factory.mktemp("served"), [HOST], Strangers())
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Desk, "start", lambda _: None)  # one process less
+        patch.setattr(Desk, "prepare", lambda *_: None)
         with TestClient(app, base_url=f"http://{HOST}", follow_redirects=False) as client:
             yield client
 

@@ -21,7 +21,8 @@ def echo(job):
     time.sleep(job.get("seconds", 2.5 if job["do"] == "state" else 0))
     if job.get("ends"):
         os._exit(1)
-    return {"answer": job}
+    given = {"reference": job["gives"]} if "gives" in job else {}
+    return {"answer": job, **given}
 
 
 class Echoing(WorkerProcess):
@@ -96,6 +97,20 @@ def test_what_a_newer_request_replaces_ends_before_its_turn(done):
         return await became(stale), slow.done(), newer.done()
 
     assert done(script) == ([StaleError], False, False)
+
+
+def test_a_move_gets_the_reference_of_the_last_complete_answer_about_what_is_open(done):
+    async def script(desk):
+        desk.workbook = desk.folder / "input.xlsx"
+        before = await ask(desk, "move", moving=True)
+        for reference in ("first", "last"):
+            await ask(desk, "full", page="", gives=reference)
+        after = await ask(desk, "move", page="q", moving=True)
+        desk.workbook = desk.folder / "other.xlsx"
+        other = await ask(desk, "move", page="r", moving=True)
+        return [each["reference"] for each in (before, after, other)]
+
+    assert done(script) == [{}, "last", {}]
 
 
 def test_a_script_that_numbers_nothing_gets_every_answer(done):
