@@ -50,12 +50,15 @@ class ProjectOutcome:
 
     def words(self, us_first: bool) -> str:
         """Return it in a few words, such as `NG, A3 to RTU-2 60.4 > 60.0 in`."""
+        mark = "; " if self.gap is None else ", "
+        return mark.join(filter(None, (self.verdict.value, self.causes(us_first))))
+
+    def causes(self, us_first: bool) -> str:
+        """Return the same without the verdict; what is NG before a clearance that is satisfied."""
         if self.gap is None:
-            return "; ".join((self.verdict.value, *self.others))
+            return "; ".join(self.others)
         gap, is_short = self.gap.words(us_first), self.gap.demand_capacity > 1.0
-        # What is NG stands before a clearance that is satisfied.
-        parts = (gap, *self.others) if is_short else (*self.others, gap)
-        return f"{self.verdict.value}, {'; '.join(parts)}"
+        return "; ".join((gap, *self.others) if is_short else (*self.others, gap))
 
 
 def outcome(done: Assessment) -> ProjectOutcome:
@@ -123,12 +126,17 @@ def reasons(assessment: Assessment) -> Iterator[str]:
     for run in assessment.warnings:
         yield f"{lowered(run.text.rstrip('.'))}; {run.would_do}"
     yield from _models(assessment)
-    short = [gap for gap in assessment.clearances if not gap.verdict.is_permitted]
-    for gap in sorted(short, key=lambda gap: -nan_is_worst(gap.demand_capacity)):
-        yield _short(gap, us_first)
+    for gap in short_clearances(assessment):
+        yield short_words(gap, us_first)
     for row, ids in assessment.alike_conditions:
         if not row.verdict.is_permitted:
             yield row_words(row, ids)
+
+
+def short_clearances(assessment: Assessment) -> Sequence[ClearanceCheck]:
+    """Return the clearances that are not satisfied, that with the largest D/C first."""
+    short = (gap for gap in assessment.clearances if not gap.verdict.is_permitted)
+    return sorted(short, key=lambda gap: -nan_is_worst(gap.demand_capacity))
 
 
 def _way_out(assessment: Assessment, item: ArrayAssessment, check: Limit) -> str:
@@ -166,7 +174,7 @@ def _models(assessment: Assessment) -> Iterator[str]:
         yield f"one rigid block has not been shown to be adequate for array {name}"
 
 
-def _short(gap: ClearanceCheck, us_first: bool) -> str:
+def short_words(gap: ClearanceCheck, us_first: bool) -> str:
     """Return a clearance that is too small, with what would do."""
     row = gap.clearance
     required, provided = compared_pairs(gap.required_m, row.provided_m, Quantity.SIZE, us_first)

@@ -90,9 +90,9 @@ def _steps(start: float, end: float) -> Iterator[float]:
 def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
     """Draw a gap with its number, and NG beside it; return the lane with their frame."""
     gap, is_ng = lane.gap, plan.is_ng(lane.gap)
-    number = 2 * RADIUS_IN if gap.of.is_given else 0.0
+    circle = 2 * RADIUS_IN if gap.of.is_given else 0.0
     ng = (NG_TALL_IN if lane.is_upright else ng_wide()) if is_ng else 0.0
-    size = number + ng, (ng_wide() if is_ng and lane.is_upright else 2 * RADIUS_IN)
+    size = circle + ng, (ng_wide() if is_ng and lane.is_upright else 2 * RADIUS_IN)
     shifts = list(_steps(0.0, lane.half))
     # With its dimension line, or else where labels leave no place for that, without.
     for across in (max(size[1], lane.narrow), size[1]):
@@ -103,7 +103,7 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
     if taken is None:
         draw_gap(plan, gap)
         frame = plan.paper.placer.place(
-            number + (ng_wide() if is_ng else 0.0),
+            circle + (ng_wide() if is_ng else 0.0),
             2 * RADIUS_IN,
             gap.middle,
             maximum=plan.leader_in,
@@ -120,8 +120,9 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
     (x, y), is_row = frame.middle, frame.wide >= frame.tall
     if gap.of.is_given:
         at = (frame.x0 + RADIUS_IN, y) if is_row else (x, frame.y1 - RADIUS_IN)
-        plan.paper.circle(Mark.NUMBER, at, RADIUS_IN - 0.01)
-        plan.paper.text(at[0], at[1] - BASE_IN, str(gap.of.number), is_centered=True)
+        number = str(gap.of.number)
+        plan.paper.circle(Mark.NUMBER, at, RADIUS_IN - 0.01, number)
+        plan.paper.text(at[0], at[1] - BASE_IN, number, is_centered=True)
     if is_ng:
         at = (frame.x1 - ng_wide() / 2, y) if is_row else (x, frame.y0 + NG_TALL_IN / 2)
         draw_ng(plan.paper, at)

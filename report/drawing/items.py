@@ -63,11 +63,12 @@ class Arrow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Circle:
-    """A circle."""
+    """A circle, and what it is of."""
 
     look: Look
     center: Point
     radius: float
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

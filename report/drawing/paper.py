@@ -102,9 +102,9 @@ class Paper:
         """Draw lines as one thing."""
         self.items.append(Lines(look=look, lines=tuple(map(tuple, lines)), name=name))
 
-    def circle(self, look: Look, center: Point, radius: float) -> None:
+    def circle(self, look: Look, center: Point, radius: float, name: str = "") -> None:
         """Draw a circle."""
-        self.items.append(Circle(look=look, center=center, radius=radius))
+        self.items.append(Circle(look=look, center=center, radius=radius, name=name))
 
     def arrow(self, look: Look, middle: Point, turn_rad: float, half: float) -> None:
         """Draw an arrow about a point."""

@@ -12,6 +12,7 @@ from typing import Any
 
 from report.assessment.arrays import NOT_PERMITTED
 from report.assessment.assess import not_continued
+from report.assessment.causes import outcome, short_clearances, short_words
 from report.assessment.neighbors import PlanNeighbor
 from report.assessment.overrides import MEANING
 from report.assessment.project import Assessment
@@ -29,9 +30,13 @@ from report.typeset.pdf import TEMPLATES
 from report.web.plan import USUAL_PX, plan
 from report.web.tables import Cell, ShowVerdict, cells, heads, stamp
 from report.words.units import beside, no_less
+from solver.rules.limit import Consequence
 
 _ARRAY = "id mean_prd_m design_m prescriptive_m verdict"
 _CLEARANCE = "count array provided_m required_m demand_capacity verdict"
+
+MOST_SHORT = 3
+"""Clearances that are NG, up to which each is a cause of its own."""
 
 _PROVISIONAL = (
     "Provisional: each motion in one axis with vertical, in the orientation that governed at rest, "
@@ -64,11 +69,12 @@ def answer(
         "model_text": (_PROVISIONAL if is_provisional else _whole(assessment))
         + (f" {MEANING}." if assessment.is_overridden else ""),
         "verdict": verdict(assessment.verdict, assessment.verdict.value),
-        # What it rests on; the reasons are listed beside it.
+        "line": "" if is_provisional else _line(assessment),
+        # What it rests on; the reasons are listed below it.
         "verdict_text": None
         if is_provisional
         else sentence(TEMPLATES, "verdict", package_data(assessment), "here"),
-        "reasons": [] if is_provisional else _reasons(assessment),
+        "reasons": [] if is_provisional else _reasons(assessment, fmt),
         "arrays": {
             "caption": "Arrays: displacement",
             "heads": heads(ArrayResult, _ARRAY, mean_prd_m="Mean PRD"),
@@ -91,13 +97,35 @@ def answer(
             },
         },
         "dim": sorted(dim),  # arrays whose values are those of one axis alone
+        "tips": _tips(assessment, arrays, designs, gaps, dim),
         "plan": plan(assessment, designs, (gaps, missing), fmt, verdict, room_px),
     }
 
 
-def _reasons(assessment: Assessment) -> list[dict[str, str]]:
-    """Return what needs attention, the causes of NG first."""
-    return list(map(asdict, attention(assessment, may_run=False)))
+def _line(assessment: Assessment) -> str:
+    """Return the worst clearance and the other causes, for one line."""
+    short, causes = short_clearances(assessment), outcome(assessment)
+    words = causes.causes(assessment.project.us_first)
+    return f"{words}; {len(short)} clearances NG" if len(short) > 1 else words
+
+
+def _reasons(assessment: Assessment, fmt: UnitFormat) -> list[dict[str, Any]]:
+    """Return what needs attention, the causes of NG first; many short clearances as one."""
+    found = list(map(asdict, attention(assessment, may_run=False)))
+    short = [gap for gap in short_clearances(assessment) if not math.isnan(gap.required_m)]
+    if len(short) <= MOST_SHORT:
+        return found
+    parts = [short_words(gap, assessment.project.us_first) for gap in short]
+    worst, most_m = short[0].clearance, max(gap.required_m for gap in short)
+    first = found.index({"level": Consequence.NG.value, "text": parts[0]})
+    grouped = {
+        "level": Consequence.NG.value,
+        "text": f"{len(short)} clearances under {fmt.short(most_m, show=no_less)}; worst "
+        f"{worst.array} to {worst.object}, {fmt.short(worst.provided_m)}",
+        "parts": parts,
+    }
+    others = [reason for reason in found if reason["text"] not in parts]
+    return [*others[:first], grouped, *others[first:]]
 
 
 def _design(item: ArrayResult, fmt: UnitFormat, is_provisional: bool) -> Cell:
@@ -144,6 +172,37 @@ def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[
 
 def _between(one: str, other: str, note: str) -> Cell:
     return {"text": f"{one} to {other}", "from": one, "to": other, "note": note}
+
+
+def _tips(
+    assessment: Assessment,
+    arrays: Sequence[ArrayResult],
+    designs: Mapping[str, Cell],
+    gaps: Sequence[ClearanceResult],
+    dim: Collection[str],
+) -> dict[str, str]:
+    """Return what the plan tells of each array, object and clearance, by name and by number."""
+
+    def with_ratio(text: str, gap: ClearanceResult, of: str = "") -> str:
+        is_known = {gap.array, gap.object}.isdisjoint(dim)
+        return f"{text}, D/C {gap.short('demand_capacity', fmt)}{of}" if is_known else text
+
+    fmt = unit_format(assessment)
+    tips = {item.id: f"{item.id}: Δ {designs[item.id].get('title', fmt.none)}" for item in arrays}
+    tips |= {row.id: f"{row.id}: {row.kind.value}" for row in assessment.project.objects}
+    worst: dict[str, ClearanceResult] = {}
+    for gap in gaps:
+        provided, required = (gap.both(name, fmt) for name in ("provided_m", "required_m"))
+        text = f"{gap.count}, {gap.array} to {gap.object}: {provided}, required {required}"
+        tips[f"#{gap.count}"] = with_ratio(text, gap)
+        for name in (gap.array, gap.object):
+            known = worst.get(name)
+            if known is None or not gap.demand_capacity <= known.demand_capacity:
+                worst[name] = gap
+    for name, gap in worst.items():
+        other = gap.object if name == gap.array else gap.array
+        tips[name] = with_ratio(tips.get(name, name), gap, f" to {other}")
+    return tips
 
 
 def _bars(

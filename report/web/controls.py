@@ -14,11 +14,11 @@ from report.assessment.friction import mu_words
 from report.sheet.reading.read import Sheet
 from report.sheet.reading.what_if import retyped
 from report.sheet.schema import ProjectInput
-from report.sheet.schema.choices import Polarity, RuleSetName
+from report.sheet.schema.choices import Polarity, RuleSetName, UnitsFirst
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import Array
 from report.web.opened import Opened
-from report.web.values import MUS, Values, typed
+from report.web.values import MUS, UNITS_FIRST, Values, typed
 from report.words.counts import ids_by, ranged
 from report.words.letters import cut
 from report.words.units import Quantity, number, pair
@@ -48,6 +48,7 @@ def shown(given: Opened) -> Mapping[str, str]:
         "clearance": _clearances(data),
         "polarity": ", ".join(dict.fromkeys(row.polarity.value for row in data.motions)),
         "rule_set": data.site.rule_set.value,
+        "units": data.project.units_first.value,
     }
 
 
@@ -159,6 +160,10 @@ def _choices(given: Opened) -> Sequence[Mapping[str, Any]]:
                    | {p.value: p.value for p in Polarity},
                    "Runs of each horizontal component.")] if has_cells else []),
         _rule_sets(given),
+        *([_choice("units", "Primary units", sheet.draft["project"][0]["units_first"],
+                   {UnitsFirst.US.value: "in", UnitsFirst.SI.value: "mm"},
+                   "Of the page, the package and the workbook.")]
+          if UNITS_FIRST in sheet.addresses else []),
     ]  # fmt: skip
 
 

@@ -85,9 +85,9 @@ def with_values(given: Opened, values: Values) -> Opened:
 
 
 def _has_motions_of(before: Sheet, after: Sheet) -> bool:
-    """Whether two sheets have the same motions and targets: only arrays and clearances differ."""
+    """Whether two sheets have the same motions: only units, arrays and clearances differ."""
     return all(
         rows == after.draft[key]
         for key, rows in before.draft.items()
-        if key not in ("arrays", "clearances", "links")
+        if key not in ("project", "arrays", "clearances", "links")
     )

@@ -6,7 +6,6 @@ numbers; the package paints the same in `report.figures.plan`.
 
 from __future__ import annotations
 
-from bisect import bisect
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -26,10 +25,11 @@ from report.words.units import beside, no_less
 
 _TYPE_PX = 13.0  # of the page
 _PX = _TYPE_PX / (TYPE_PT / 72.0)  # in an inch
-_WIDE_PX, _TALL_PX, _KEY_PX = (344, 560, 780), 450.0, 52.0
-USUAL_PX = _WIDE_PX[-1]
+_LEAST_PX, _STEP_PX, _KEY_PX = 340, 40, 52.0
+_TALLER = 0.72  # than wide; the least and the most fit the first screen of a phone and of a desk
+_TALL_PX = (380.0, 540.0)
+USUAL_PX = 740
 """Width of the plan on a page that has not said how wide it is."""
-_MOST_PX = 1_000_000
 _CLASSES: Mapping[Look, str] = {
     Layer.OUTLINE: "roof",
     Layer.BARE_EDGE: "edge is-bare",
@@ -66,7 +66,8 @@ def plan(
     given, missing = gaps
     has_verdicts = verdict(Verdict.OK) is not None
     wide_px, more_px = _sheet_px(room_px)
-    wide, tall, key = wide_px / _PX, _TALL_PX / _PX, _KEY_PX / _PX
+    tall_px = min(max(_TALLER * wide_px, _TALL_PX[0]), _TALL_PX[1])
+    wide, tall, key = wide_px / _PX, tall_px / _PX, _KEY_PX / _PX
     size = PlanSize(wide=wide, tall=tall, key_wide=wide, key_tall=key, is_screen=True)
     paper = plan_on_paper(assessment, size, words, has_verdicts=has_verdicts).paper
     return {
@@ -84,15 +85,15 @@ def plan(
             ),
         ],
         "size_px": [round(paper.wide * _PX), round(paper.tall * _PX)],
-        "rooms_px": [0 if wide_px == _WIDE_PX[0] else wide_px, more_px],
+        "rooms_px": [0 if wide_px == _LEAST_PX else wide_px, more_px],
         "items": [_element(paper, item) for item in paper.items],
     }
 
 
 def _sheet_px(room_px: int) -> tuple[int, int]:
     """Return the width of the widest sheet that there is room for, and from where on none is."""
-    more = bisect(_WIDE_PX[1:], room_px)
-    return _WIDE_PX[more], (*_WIDE_PX[1:], _MOST_PX)[more]
+    steps = max(room_px - _LEAST_PX, 0) // _STEP_PX
+    return _LEAST_PX + steps * _STEP_PX, _LEAST_PX + (steps + 1) * _STEP_PX
 
 
 def _sentence(row: ClearanceResult, fmt: UnitFormat) -> str:
@@ -102,7 +103,7 @@ def _sentence(row: ClearanceResult, fmt: UnitFormat) -> str:
 
 
 def _element(paper: Paper, item: Item) -> Mapping[str, Any]:
-    """Return an element: its kind, its attributes, its text, and its title as `name`."""
+    """Return an element: its kind, its attributes and its text; its key is that of a tip."""
 
     def at(point: Point) -> tuple[float, float]:
         return round(point[0] * _PX, 1), round((paper.tall - point[1]) * _PX, 1)
@@ -124,8 +125,16 @@ def _element(paper: Paper, item: Item) -> Mapping[str, Any]:
     if isinstance(item, Circle):
         x, y = at(item.center)
         radius = round(item.radius * _PX, 1)
-        return {"kind": "circle", "class": _CLASSES[item.look], "cx": x, "cy": y, "r": radius}
+        return {
+            "kind": "circle",
+            "class": _CLASSES[item.look],
+            "data-key": f"#{item.name}" if item.name else None,
+            "cx": x,
+            "cy": y,
+            "r": radius,
+        }
     if isinstance(item, Arrow):
         return {"kind": "path", "class": "arrow", "d": path((item.tail, item.tip))}
     d = f"{path(item.points)}Z" if isinstance(item, Outline) else "".join(map(path, item.lines))
-    return {"kind": "path", "class": _CLASSES[item.look], "d": d, "name": item.name}
+    key = item.name or None
+    return {"kind": "path", "class": _CLASSES[item.look], "data-key": key, "d": d}

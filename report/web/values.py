@@ -26,6 +26,8 @@ MUS = ("mu", "mu_fast", "mu_static")
 SHORT_PERIOD = ("s_s_g", "s_ms_g", "s_ds_g")
 """From mapped to design values: each follows from the one before."""
 
+UNITS_FIRST = Place("project", 0, "units_first")
+
 _MU_DIGITS, _SLOPE_DIGITS, _PLAN_DIGITS = 4, 4, 6
 
 
@@ -52,6 +54,9 @@ def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Pla
     trim_unit_m = INCH_M if sheet.project.us_first else 0.001
     if trim_m := float(values.get("clearance", 0.0)) * trim_unit_m:
         changed |= dict(_trim(sheet, trim_m))
+    first = sheet.draft["project"][0]["units_first"]
+    if (units := values.get("units", first)) != first:
+        changed[UNITS_FIRST] = units
     return changed | dict(_polarity(sheet, values)) | dict(_rule_set(sheet, values))
 
 

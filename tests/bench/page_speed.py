@@ -15,11 +15,15 @@ import argparse
 import os
 import statistics
 from contextlib import ExitStack
+from typing import TYPE_CHECKING
 
 import numpy as np
 from measure import ROOT, SMOKE, figure
 
 from browsing import chromium, opened, quiet_page, served
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 MOVES = 2 if SMOKE else 30
 COMPILED_S = 600.0  # a version that has not run before compiles the solver first
@@ -76,6 +80,44 @@ def in_the_browser() -> None:
             if not is_let_go:
                 provisional = sum(values == "provisional" for _, values in every)
                 figure("moves whose first answer was in one axis", provisional / len(every))
+        by_pointer(page)
+
+
+ARMED = """
+() => {
+  window.drawn = new Promise((done) => {
+    let start = null;
+    addEventListener("input", () => { start = performance.now(); }, { once: true, capture: true });
+    const observer = new MutationObserver(() => {
+      const isNew = ["provisional", "final"].includes(document.body.dataset.values);
+      if (start === null || !isNew) return;
+      observer.disconnect();
+      requestAnimationFrame(() => done(performance.now() - start));
+    });
+    observer.observe(document.body, { attributes: true, attributeFilter: ["data-values"] });
+  });
+}
+"""
+
+
+def by_pointer(page: Page) -> None:
+    """Drag the friction of the example under a pointer that stays down, a step at a time."""
+    box = page.locator("#slider-friction").bounding_box()
+    assert box is not None
+    at = [box["x"] + box["width"] * (0.8 - 0.4 * k / MOVES) for k in range(1 + MOVES)]
+    page.mouse.move(at[0], box["y"] + box["height"] / 2)
+    page.mouse.down()
+    times = []
+    for x in at[1:]:
+        page.wait_for_timeout(500)
+        page.evaluate(ARMED)
+        page.mouse.move(x, box["y"] + box["height"] / 2)
+        times.append(page.evaluate("window.drawn"))
+    page.mouse.up()
+    page.wait_for_selector("body[data-phase=rest]")
+    half, most = np.percentile(times, [50, 95])
+    figure("a move of the pointer, first value drawn, median", float(half), "ms")
+    figure("a move of the pointer, first value drawn, 95th percentile", float(most), "ms")
 
 
 RESTED = """
@@ -94,7 +136,7 @@ async ([slider, value]) => {
       requestAnimationFrame(() => setTimeout(finish));
     });
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-phase"] });
-    observer.observe(verdict, { childList: true });
+    observer.observe(verdict, { childList: true, subtree: true });
     input.value = value;
     input.dispatchEvent(new InputEvent("input", { bubbles: true }));
   });

@@ -8,7 +8,8 @@ import { button, html, replace } from "./make.js";
 import { mountMotions } from "./motions.js";
 import { mountPlan } from "./plan.js";
 import { showProblems } from "./problems.js";
-import { showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
+import { mountCauses, showNoVerdict, showProvisional, showTable, showVerdict } from "./results.js";
+import { saveDrawing } from "./saving.js";
 import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
@@ -27,7 +28,12 @@ const announce = (sentence) => {
   part("live").textContent = sentence;
 };
 
-const plan = mountPlan(part("plan-drawing"), () => session.again());
+const plan = mountPlan(part("plan-drawing"), {
+  ask: () => session.again(),
+  picked: pickOnPlan,
+  said: part("plan-said"),
+  zooms: ["zoom-in", "zoom-out", "zoom-fit"].map(part),
+});
 const api = createApi(announce, plan.room);
 const session = createSession(api.assess, show, failAnswer);
 const views = createViews(api);
@@ -49,7 +55,9 @@ let state = null; // of the project that is open
 let answer = null; // the last that was shown
 let controls = null;
 const chosen = { array: null, motion: null };
+let onPlan = null; // the key of what is picked: an array, an object, or # and the number of a clearance
 
+mountCauses(part("verdict"));
 mountTabs(part("tabs"), (panel) => views.open(panel));
 mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, { begin: showBusy, take, fail });
 part("back").addEventListener("click", showDesk);
@@ -59,7 +67,30 @@ part("example").addEventListener("click", () => {
 });
 part("add-clearances").addEventListener("click", () => opening(api.addClearances, true));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => choose({ [key]: target.value }));
-addEventListener("hashchange", () => state?.project && restore());
+part("undo").addEventListener("click", () => history.back());
+part("reset-all").addEventListener("click", () => setAll({}));
+for (const kind of ["png", "svg"]) part(`save-${kind}`).addEventListener("click", () => saveDrawing(document.querySelector("[role=tabpanel]:not([hidden])"), kind, state.project.name).catch(fail));
+addEventListener("keydown", (event) => {
+  if (event.key !== "z" || !(event.ctrlKey || event.metaKey) || part("undo").disabled) return;
+  event.preventDefault();
+  history.back();
+});
+// Each values at rest are an entry of the history; before the first of the project Back stays in it.
+addEventListener("popstate", ({ state: entry }) => {
+  if (!state?.project) return;
+  if (entry && (entry.depth < 0 || entry.opened !== state.opened)) history.forward();
+  else setAll(fromFragment(location.hash, state.sliders, state.choices));
+});
+history.replaceState({ depth: -1 }, "");
+history.pushState({ depth: 0 }, "");
+const tabs = new BroadcastChannel("roofslip");
+tabs.addEventListener("message", ({ data: { opened, name } }) => {
+  if (!state?.project) return;
+  hideError();
+  if (opened === state.opened) return;
+  replace(part("error"), html("p", {}, `Another tab has opened ${name}. This page still shows ${state.project.name}, which no longer answers.`), button("Reload", reload));
+  part("error").hidden = false;
+});
 opening(() => api.enter().then(api.state), true);
 
 // Fetch a state and show it: the example, an upload, or what is open. Only what the
@@ -100,8 +131,9 @@ function open(next, isRestored) {
   showDesk();
   replace(part("warnings"), warnings(state.warnings));
   fillSelects();
-  if (!isRestored) history.replaceState(null, "", location.pathname);
-  restore();
+  history.replaceState({ depth: 0, opened: state.opened }, "", isRestored ? location.href : location.pathname);
+  tabs.postMessage({ opened: state.opened, name: state.project.name });
+  setAll(fromFragment(location.hash, state.sliders, state.choices));
   takeaway.open(state.package);
 }
 
@@ -117,6 +149,7 @@ function showErrors({ problems, is_alone: isAlone, lacks_motions: lacksMotions }
 }
 
 function showDesk() {
+  onPlan = null;
   const { name, file, sha256, is_example: isExample, lacks_clearances: lacksClearances } = state.project;
   part("problems").hidden = true;
   part("desk").hidden = false;
@@ -137,14 +170,14 @@ function warnings(all) {
   return html("details", {}, html("summary", {}, `Warnings and notes: ${all.length}`), html("ul", {}, lines));
 }
 
-// The values of the address upon those of the workbook.
-function restore() {
-  const { sliders, choices } = state;
-  const all = [...sliders, ...choices];
-  const values = Object.fromEntries(all.map(({ id, typed }) => [id, typed]));
-  Object.assign(values, fromFragment(location.hash, sliders, choices));
+// Take values upon those of the workbook; what had the focus keeps it.
+function setAll(others) {
+  const all = [...state.sliders, ...state.choices];
+  const values = { ...Object.fromEntries(all.map(({ id, typed }) => [id, typed])), ...others };
+  const focused = document.activeElement.id;
   session.load(values);
   controls = mountSliders(part("controls"), state, values, session);
+  if (focused) part(focused)?.focus();
   const isAnswered = state.answer && all.every(({ id, typed }) => values[id] === typed);
   if (isAnswered) show({ phase: "rest", answer: state.answer });
   else session.rest();
@@ -159,8 +192,9 @@ function fillSelects() {
 
 // The session reports: a slider moves, the full model runs, or an answer came.
 function show({ phase, answer: next }) {
-  keepHeight(phase === "rest");
   document.body.dataset.phase = phase;
+  part("changed").textContent = `Values: ${changes(session.values(), state)}`;
+  part("changed").title = part("changed").textContent;
   if (next) {
     hideError();
     showAnswer(next, phase === "rest" ? "final" : "provisional");
@@ -172,20 +206,12 @@ function show({ phase, answer: next }) {
   else showMoving(phase, next);
 }
 
-// Until the next verdict its box keeps its height: no slider moves from under the pointer.
-function keepHeight(isFinal) {
-  const box = part("verdict");
-  if (isFinal) box.style.minHeight = "";
-  else box.style.minHeight ||= `${box.offsetHeight}px`;
-}
-
 // What the values shown are: final, provisional, or former, which are not of what is asked now.
 function showAnswer(next, values) {
   document.body.dataset.values = values;
   answer = next;
   controls.follow(answer.shown);
-  plan.show(answer.plan);
-  showTable(part("clearances"), answer.clearances, { named: 1, dim: answer.dim });
+  plan.show(answer.plan, answer.tips);
   showPicked();
 }
 
@@ -198,7 +224,9 @@ function keepFormer() {
 }
 
 function showPicked() {
-  showTable(part("arrays"), answer.arrays, { picked: chosen.array, pick: (array) => choose({ array }), dim: answer.dim });
+  const picks = { dim: answer.dim, pick: pickOnPlan };
+  showTable(part("arrays"), answer.arrays, { ...picks, picked: chosen.array, key: ([name]) => name.text });
+  showTable(part("clearances"), answer.clearances, { ...picks, picked: onPlan, key: ([count]) => count?.text && `#${count.text}`, named: 1 });
   if (chosen.array in answer.bars.arrays) showBars(part("bars"), answer.bars, chosen.array); // not of a project that was open before
 }
 
@@ -213,11 +241,19 @@ function showMoving(phase, next) {
 
 function showRest() {
   showVerdict(part("verdict"), answer);
-  announce(`${answer.verdict.text}. ${answer.verdict_text} ${answer.model_text}`);
+  announce(`${answer.verdict.text}. ${answer.line}. ${answer.verdict_text} ${answer.model_text}`);
   const fragment = toFragment(session.values(), [...state.sliders, ...state.choices]);
-  history.replaceState(null, "", fragment ? `#${fragment}` : location.pathname);
+  if (`#${fragment}` !== (location.hash || "#")) history.pushState({ depth: history.state.depth + 1, opened: state.opened }, "", fragment ? `#${fragment}` : location.pathname);
+  part("undo").disabled = history.state.depth < 1;
+  part("reset-all").disabled = fragment === "";
   takeaway.compare();
   views.update(scene());
+}
+
+function pickOnPlan(key) {
+  onPlan = key;
+  plan.pick(key);
+  choose(state.views.arrays.includes(key) ? { array: key } : {});
 }
 
 function scene() {

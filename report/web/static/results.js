@@ -7,29 +7,40 @@ function tag(verdict) {
   return verdict ? html("strong", { class: `tag is-${verdict.look}` }, verdict.text) : html("span", { class: "note" }, "–");
 }
 
-/** Show the verdict of a full answer: the causes of NG whole, and what else needs attention. */
-export function showVerdict(element, { verdict, verdict_text: text, reasons, model_text: model }) {
-  const causes = reasons.filter(({ level }) => ["NG", "remedy"].includes(level));
-  const others = reasons.filter((reason) => !causes.includes(reason));
-  const more = causes.length > 0 && others.length > 0;
-  const summary = html("summary", {}, `Conditions and warnings: ${others.length}`);
-  const listed = html("div", { class: "reasons" }, list(causes), more ? html("details", {}, summary, list(others)) : list(others));
-  replace(element, line(tag(verdict), " ", text), note(model), reasons.length > 0 ? listed : null);
+/** Show the verdict of a full answer on one line; its causes, and what else needs attention, fold open. */
+export function showVerdict(element, { verdict, line, verdict_text: text, reasons, model_text: model }) {
+  const count = reasons.filter(({ level }) => level !== "remedy").length;
+  showLine(element, [tag(verdict), " ", line], `Causes and conditions: ${count}`, [html("p", {}, text), list(reasons), note(model)]);
 }
 
 /** Show what a provisional answer is; it has no verdict. */
 export function showProvisional(element, what, model) {
-  replace(element, line(tag({ look: "provisional", text: "Provisional" }), " ", what), note(model));
+  showLine(element, [tag({ look: "provisional", text: "Provisional" }), " ", what], "What it is", note(model));
 }
 
 /** Show that there is no verdict, and why, with the reasons of the server where it gave any. */
 export function showNoVerdict(element, why, reasons) {
-  const listed = list(reasons.map((text) => ({ text })));
-  replace(element, line(`No verdict: ${why}.`), listed ? html("div", { class: "reasons" }, listed) : null);
+  showLine(element, `No verdict: ${[why, ...reasons].join(": ")}`, "Reasons", list(reasons.map((text) => ({ text }))));
 }
 
-function line(...parts) {
-  return html("p", { class: "verdict-line" }, parts);
+/** Let the button of a verdict fold its causes open; Escape closes them. */
+export function mountCauses(element) {
+  const [more] = parts(element);
+  const open = (isOpen) => more.setAttribute("aria-expanded", String(isOpen));
+  more.addEventListener("click", () => open(more.ariaExpanded !== "true"));
+  element.addEventListener("keydown", ({ key }) => key === "Escape" && open(false));
+}
+
+function showLine(element, words, label, folded) {
+  const [more, listed, line] = parts(element);
+  replace(line, words);
+  line.title = line.textContent.trim();
+  more.textContent = label;
+  replace(listed, folded);
+}
+
+function parts(element) {
+  return [".button", ".reasons", ".verdict-line"].map((one) => element.querySelector(one));
 }
 
 function list(reasons) {
@@ -37,23 +48,28 @@ function list(reasons) {
   return html("ul", { "aria-label": "Reasons" }, reasons.map(reasonItem));
 }
 
-function reasonItem({ level, text }) {
+function reasonItem({ level, text, parts: grouped }) {
   const named = level ? [html("strong", { class: `level is-${level.toLowerCase()}` }, level), " "] : null;
-  return html("li", {}, named, words(text));
+  const said = [named, words(text)];
+  return html("li", {}, grouped ? html("details", {}, html("summary", {}, said), list(grouped.map((one) => ({ text: one })))) : said);
 }
 
 /**
- * Show a table as the server words it: `named` is the column that names its rows. Where rows can be
- * picked, `pick` gets the name of one.
+ * Show a table as the server words it: `named` is the column that names its rows. `pick` gets the key
+ * of a row that has one, by its cells; rows of arrays in `dim` are pale.
  */
-export function showTable(element, { caption, heads, rows }, { named = 0, picked = null, pick = null, dim = [] } = {}) {
+export function showTable(element, { caption, heads, rows }, { named = 0, picked, pick, key, dim }) {
   // A new body keeps no focus: the button that had it gets it back.
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.name : null;
-  const name = (cell) =>
-    html("th", { scope: "row", title: cell.text }, pick ? pickButton(cell.text, cell.text === picked, pick) : between(cell), cell.note ? html("small", {}, cell.note) : null);
-  const look = ({ text, from, to }) => [text === picked && "is-picked", [text, from, to].some((id) => dim.includes(id)) && "is-dim"];
-  const row = (cells) =>
-    html("tr", { class: look(cells[named]).filter(Boolean).join(" ") || null }, cells.map((cell, k) => (k === named ? name(cell) : value(cell))));
+  const name = (cell, id) => {
+    const said = cell.from ? between(cell) : html("span", { class: "cut" }, cell.text);
+    return html("th", { scope: "row", title: cell.text }, id ? pickButton(said, id, id === picked, pick) : said, cell.note ? html("small", {}, cell.note) : null);
+  };
+  const row = (cells) => {
+    const [id, { text, from, to }] = [key(cells), cells[named]];
+    const look = [id && id === picked && "is-picked", [text, from, to].some((one) => dim.includes(one)) && "is-dim"];
+    return html("tr", { class: look.filter(Boolean).join(" ") || null }, cells.map((cell, k) => (k === named ? name(cell, id) : value(cell))));
+  };
   update(element, html("caption", {}, caption), headings(heads), html("tbody", {}, rows.map(row)));
   if (focused) element.querySelector(`[data-name="${CSS.escape(focused)}"]`)?.focus();
 }
@@ -68,6 +84,6 @@ function value(cell) {
   return html("td", { title: cell?.title }, cell && !cell.look ? cell.text : tag(cell));
 }
 
-function pickButton(name, isPicked, pick) {
-  return button(name, () => pick(name), { class: "pick cut", "data-name": name, "aria-pressed": String(isPicked) });
+function pickButton(said, key, isPicked, pick) {
+  return button(said, () => pick(key), { class: "pick", "data-name": key, "aria-pressed": String(isPicked) });
 }

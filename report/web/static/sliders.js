@@ -19,7 +19,6 @@ function slider(item, values, session) {
   const id = `slider-${item.id}`;
   const output = html("output", { for: id, class: "numbers" });
   const amount = html("span", { class: "numbers amount" });
-  const stop = html("p", { class: "stop", hidden: true });
   const input = html("input", {
     id,
     type: "range",
@@ -51,22 +50,25 @@ function slider(item, values, session) {
     const value = session.values()[item.id];
     back.classList.toggle("is-idle", value === item.typed);
     amount.textContent = own(item, value);
-    stop.textContent = stopOf(item, value);
-    stop.hidden = stop.textContent === "";
+    say(said);
+  };
+  // One line, whatever it says: no control below it moves.
+  let said = "";
+  const say = (text) => {
+    said = text;
+    const value = session.values()[item.id];
+    output.textContent = stopOf(item, value) || (Number(text.replace("× ", "")) === value ? "" : text); // said once
+    output.title = output.textContent;
+    input.setAttribute("aria-valuetext", text);
   };
   input.value = values[item.id];
   mark();
-  const say = (text) => {
-    output.textContent = text;
-    input.setAttribute("aria-valuetext", text);
-  };
   const field = html(
     "div",
     { class: "slider" },
     html("div", { class: "slider-head" }, html("label", { for: id, title: item.help }, words(item.label)), amount, back),
     output,
     html("div", { class: "range" }, input, typedMark(item)),
-    stop,
     item.help ? html("p", { class: "visually-hidden", id: `${id}-help` }, item.help) : null,
   );
   return { id: item.id, field, say };
@@ -105,6 +107,6 @@ function depend(sliders, parts, values) {
   for (const { id, with_choice: needed } of sliders) {
     if (!needed) continue;
     const acts = Object.entries(needed).every(([key, value]) => values[key] === value);
-    parts.find((part) => part.id === id).field.hidden = !acts;
+    for (const control of parts.find((part) => part.id === id).field.querySelectorAll("input, button")) control.disabled = !acts;
   }
 }

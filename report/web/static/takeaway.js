@@ -2,6 +2,7 @@
 
 import { html, note, replace } from "./make.js";
 import { mountPackage, say } from "./package.js";
+import { save } from "./saving.js";
 
 const COPIED = "The link is copied. It opens these values once, in another tab, as long as roofslip serve runs.";
 
@@ -17,7 +18,7 @@ export function mountTakeaway({ make, workbook, copy, status }, api, { values, w
 
   async function saveWorkbook() {
     const { name, blob } = await api.workbook(values());
-    save(name, blob);
+    save(blob, name);
     say(status, api, `${name} is saved with the values of the page.`);
   }
 
@@ -41,10 +42,4 @@ function showLink(status, link) {
   const field = html("input", { type: "text", readonly: true, value: link, "aria-label": "Link that opens these values" });
   replace(status, field, note("Copy this link; it is good once."));
   field.select();
-}
-
-function save(name, blob) {
-  const url = URL.createObjectURL(blob);
-  html("a", { href: url, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }

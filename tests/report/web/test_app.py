@@ -102,14 +102,15 @@ def test_values_of_a_slider_that_moves_are_provisional_and_carry_no_verdict(clie
 
 
 @pytest.mark.parametrize(
-    ("room", "wide"), [(0, 344), (559, 344), (560, 560), (779, 560), (9999, 780)]
+    ("room", "size"),
+    [(0, [340, 380]), (379, [340, 380]), (380, [380, 380]), (779, [740, 533]), (9999, [9980, 540])],
 )
-def test_the_plan_is_placed_on_the_widest_sheet_that_the_page_has_room_for(client, room, wide):
+def test_the_plan_is_placed_on_the_widest_sheet_that_the_page_has_room_for(client, room, size):
     body = {"page": "p", "n": 1, "values": {}, "room": room}
     found = client.post("/api/assess", content=json.dumps(body), headers=JSON).json()["plan"]
     least, most = found["rooms_px"]
     assert least <= room < most
-    assert found["size_px"] == [wide, 450]
+    assert found["size_px"] == size
     words = [item["text"] for item in found["items"] if item["kind"] == "text"]
     assert {"A1", "A2", "A3", "1", "6"} <= set(words)
 

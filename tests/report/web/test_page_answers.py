@@ -5,6 +5,7 @@ import pytest
 from places import ROOT
 from report.assessment.assess import assess, reassess
 from report.assessment.friction import with_friction
+from report.web import answers
 from report.web.answers import answer
 from report.web.opened import opened
 
@@ -62,3 +63,24 @@ def test_the_causes_of_ng_are_listed_first(assessed):
     count = levels.count("NG")
     assert 0 < count < len(levels)
     assert set(levels[:count]) == {"NG"}
+
+
+def test_many_short_clearances_are_one_cause_with_its_parts(assessed, monkeypatch):
+    single = answer(assessed, is_provisional=False)
+    monkeypatch.setattr(answers, "MOST_SHORT", 0)
+    grouped = answer(assessed, is_provisional=False)["reasons"]
+    (cause,) = (reason for reason in grouped if "parts" in reason)
+    assert cause["text"].endswith("; worst A1 to A2, 0.4 in")
+    assert cause["text"].startswith("1 clearances under ")
+    assert [reason["text"] for reason in single["reasons"]] == [
+        text for reason in grouped for text in reason.get("parts", [reason["text"]])
+    ]
+    assert single["line"].startswith("A1 to A2 ")
+
+
+def test_the_plan_tells_of_arrays_objects_and_clearances(assessed):
+    found = answer(assessed, is_provisional=False)
+    assert found["tips"].keys() >= {"A1", "A2", "A3", "RTU-1", "NORTH", "#1", "#2"}
+    assert "D/C" in found["tips"]["A1"]
+    keys = {item.get("data-key") for item in found["plan"]["items"]} - {None}
+    assert keys <= found["tips"].keys()

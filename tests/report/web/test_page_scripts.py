@@ -222,7 +222,7 @@ MOUNT = """
 def test_a_slider_shows_the_value_that_is_computed_and_why_it_goes_no_further(page, value, shown):
     body = f"""{MOUNT}
         const isIdle = document.querySelector(".back").classList.contains("is-idle");
-        return [shown(".amount"), shown(".stop"), isIdle];"""
+        return [shown(".amount"), shown("output"), isIdle];"""
     assert called(page, "sliders", body, {"slider": SLIDER, "value": value}) == shown
 
 

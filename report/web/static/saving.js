@@ -1,0 +1,87 @@
+// Saves a drawing of the page as SVG or PNG, as it looks: with its words, in the colors of the page.
+
+import { html, set, svg } from "./make.js";
+
+const LOOK = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "paint-order", "opacity", "font-size", "font-weight", "font-style", "text-anchor", "marker-end", "visibility"];
+const SHARPER = 2; // pixels of a PNG in one of the page
+const NOT_DRAWN = "button, select, input, label, .toolbar, .player, .plan-head, .visually-hidden, [id$=-keys]";
+
+/** Save what a panel shows, as the kind says: `svg` or `png`. */
+export async function saveDrawing(panel, kind, name) {
+  const drawn = drawing(panel);
+  const text = new XMLSerializer().serializeToString(drawn);
+  const vector = new Blob([text], { type: "image/svg+xml" });
+  save(kind === "svg" ? vector : await painted(vector, drawn), `${name}, ${panel.id}.${kind}`);
+}
+
+// Every drawing in the panel where it stands, and every word between them.
+function drawing(panel) {
+  const { x, y, width, height } = panel.getBoundingClientRect();
+  const all = svg("svg", { xmlns: "http://www.w3.org/2000/svg", width, height, "font-family": "Source Sans 3, sans-serif" });
+  all.append(svg("rect", { width, height, fill: getComputedStyle(document.documentElement).backgroundColor }));
+  for (const one of panel.querySelectorAll("svg")) {
+    const box = one.getBoundingClientRect();
+    const copy = one.cloneNode(true);
+    const [from, to] = [one, copy].map((each) => [each, ...each.querySelectorAll("*")]);
+    from.forEach((each, k) => look(each, to[k]));
+    set(copy, { x: box.x - x, y: box.y - y, width: box.width, height: box.height });
+    all.append(copy);
+  }
+  const words = document.createTreeWalker(panel, NodeFilter.SHOW_TEXT);
+  while (words.nextNode()) {
+    const { currentNode: node } = words;
+    const { parentElement: element } = node;
+    if (!node.data.trim() || element.closest(`svg, ${NOT_DRAWN}`) || !element.checkVisibility()) continue;
+    const { color, fontSize, fontWeight } = getComputedStyle(element);
+    for (const { text, box } of lines(node)) {
+      all.append(svg("text", { x: box.x - x, y: box.bottom - y - 4, fill: color, "font-size": fontSize, "font-weight": fontWeight, ...fitted(box.width) }, text));
+    }
+  }
+  return all;
+}
+
+// The words of a node, line by line as the page breaks them.
+function lines(node) {
+  const found = [];
+  for (const { index, 0: word } of node.data.matchAll(/\S+/g)) {
+    const range = document.createRange();
+    const last = found.at(-1);
+    range.setStart(node, index);
+    range.setEnd(node, index + word.length);
+    if (last && Math.abs(last.box.bottom - range.getBoundingClientRect().bottom) < 2) range.setStart(node, last.start);
+    else found.push({ start: index });
+    Object.assign(found.at(-1), { box: range.getBoundingClientRect(), text: range.toString() });
+  }
+  return found;
+}
+
+// As wide as on the page, whatever fonts a reader has.
+function fitted(width) {
+  return { textLength: width, lengthAdjust: "spacingAndGlyphs" };
+}
+
+function look(from, to) {
+  const style = getComputedStyle(from);
+  if (from instanceof SVGTextElement) set(to, fitted(from.getComputedTextLength()));
+  set(to, Object.fromEntries(LOOK.map((name) => [name, style.getPropertyValue(name)]).filter(([, value]) => value)));
+}
+
+async function painted(vector, drawn) {
+  const image = new Image();
+  image.src = URL.createObjectURL(vector);
+  await image.decode();
+  const size = (name) => SHARPER * Number(drawn.getAttribute(name));
+  const canvas = html("canvas", { width: size("width"), height: size("height") });
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  URL.revokeObjectURL(image.src);
+  return new Promise((done) => {
+    canvas.toBlob(done);
+  });
+}
+
+/** Save bytes as a file. */
+export function save(blob, name) {
+  const url = URL.createObjectURL(blob);
+  html("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 60_000);
+}
