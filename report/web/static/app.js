@@ -78,6 +78,7 @@ addEventListener("keydown", (event) => {
 // Each values at rest are an entry of the history; before the first of the project Back stays in it.
 addEventListener("popstate", ({ state: entry }) => {
   if (!state?.project) return;
+  if (!entry) history.replaceState({ depth: 0, opened: state.opened }, ""); // the address was edited
   if (entry && (entry.depth < 0 || entry.opened !== state.opened)) history.forward();
   else setAll(fromFragment(location.hash, state.sliders, state.choices));
 });

@@ -20,7 +20,7 @@ export function showProvisional(element, what, model) {
 
 /** Show that there is no verdict, and why, with the reasons of the server where it gave any. */
 export function showNoVerdict(element, why, reasons) {
-  showLine(element, `No verdict: ${[why, ...reasons].join(": ")}`, "Reasons", list(reasons.map((text) => ({ text }))));
+  showLine(element, `No verdict: ${[why, ...reasons].join(": ")}.`, "Reasons", list(reasons.map((text) => ({ text }))));
 }
 
 /** Let the button of a verdict fold its causes open; Escape closes them. */
