@@ -5,8 +5,8 @@ rem installed, and its Python go into the user's own folders. Nothing needs an a
 setlocal
 set "here=%~dp0"
 set "here=%here:~0,-1%"
-set "venv=%here%\.venv"
-set "python=%venv%\Scripts\python.exe"
+set "VIRTUAL_ENV=%here%\.venv"
+set "python=%VIRTUAL_ENV%\Scripts\python.exe"
 
 rem Python would read the name of a folder with accents from .venv in another code page.
 set "PYTHONPATH=%here%"
@@ -23,8 +23,13 @@ if "%~1"=="test" goto test
 call :is_set_up test
 if errorlevel 1 call :is_set_up commands
 if errorlevel 1 call :set_up commands
-if errorlevel 1 exit /b 1
+if not errorlevel 1 goto run
+rem Of a double click, the window would close with what it says.
+if "%~1"=="" pause
+exit /b 1
+
 rem A double click gives no arguments, and opens the page in the browser.
+:run
 if "%~1"=="" "%python%" -P -m report.cli serve
 if not "%~1"=="" "%python%" -P -m report.cli %*
 exit /b %errorlevel%
@@ -42,11 +47,8 @@ exit /b %errorlevel%
 
 rem A set is kept with the files that it was installed from.
 :is_set_up
-fc /b "%here%\requirements.lock" "%venv%\set-up-%1\requirements.lock" >nul 2>nul
-if errorlevel 1 exit /b 1
-fc /b "%here%\pyproject.toml" "%venv%\set-up-%1\pyproject.toml" >nul 2>nul
-if errorlevel 1 exit /b 1
-"%python%" -c "" >nul 2>nul
+set "same=all(cmp(f'{here}/{name}', f'{here}/.venv/set-up-%1/{name}', False) for name in names)"
+"%python%" -c "import sys; from filecmp import cmp; here, *names = sys.argv[1:]; sys.exit(not %same%)" "%here%" requirements.lock pyproject.toml 2>nul
 exit /b %errorlevel%
 
 :set_up
@@ -55,33 +57,34 @@ if errorlevel 1 exit /b 1
 if "%1"=="test" set "megabytes=500"
 if not "%1"=="test" set "megabytes=300"
 echo roofslip: setting up .venv from requirements.lock (once, for %1; downloads about %megabytes% MB) 1>&2
-set "VIRTUAL_ENV=%venv%"
-"%uv%" venv --quiet --clear --python 3.11 "%venv%"
+rem There: uv takes a path with a space for two.
+pushd "%here%"
+"%uv%" venv --quiet --clear --python 3.11 .venv
 if errorlevel 1 goto ask
-if "%1"=="test" "%uv%" pip sync --require-hashes "%here%\requirements.lock"
-if not "%1"=="test" "%uv%" pip install --require-hashes --all-extras -r "%here%\pyproject.toml" --group "%here%\pyproject.toml:build" -c "%here%\requirements.lock"
+if "%1"=="test" "%uv%" pip sync --require-hashes requirements.lock
+if not "%1"=="test" "%uv%" pip install --require-hashes --all-extras -r pyproject.toml --group build -c requirements.lock
 if errorlevel 1 goto ask
-"%uv%" pip install --quiet --no-deps --no-build-isolation -e "%here%"
+"%uv%" pip install --quiet --no-deps --no-build-isolation -e .
 if errorlevel 1 exit /b 1
 echo roofslip: compiling the solver (once) 1>&2
 set "NUMBA_OPT=2"
-"%python%" -P -m solver.sliding.compiled constant
-if errorlevel 1 exit /b 1
-"%python%" -P -m solver.sliding.compiled rest
+"%python%" -P -m solver.sliding.compiled constant && "%python%" -P -m solver.sliding.compiled rest
 if errorlevel 1 exit /b 1
 set "NUMBA_OPT="
-mkdir "%venv%\set-up-%1"
-copy /y "%here%\requirements.lock" "%venv%\set-up-%1" >nul
-copy /y "%here%\pyproject.toml" "%venv%\set-up-%1" >nul
+mkdir .venv\set-up-%1
+for %%f in (requirements.lock pyproject.toml) do copy /y %%f .venv\set-up-%1 >nul
+popd
 exit /b 0
 
 rem uv from the PATH, else one version from its makers, else the same by pip; both have their SHA-256 checked.
 :find_uv
 set "uv=uv"
-where uv >nul 2>nul
+uv --version >nul 2>nul
 if not errorlevel 1 exit /b 0
 set "version=0.11.19"
 set "folder=%LOCALAPPDATA%\roofslip\uv-%version%"
+set "uv=%folder%\bin\uv.exe"
+if exist "%uv%" exit /b 0
 set "uv=%folder%\uv.exe"
 if exist "%uv%" exit /b 0
 echo roofslip: installing uv into %folder% 1>&2
@@ -98,11 +101,11 @@ if exist "%uv%" exit /b 0
 set "uv=%folder%\bin\uv.exe"
 if exist "%uv%" exit /b 0
 if not exist "%folder%" mkdir "%folder%"
-set "hash=480fc34a8d0967af6a90b3f99a6e5687cd5c6e29528de96bec04d6e305a59363"
->"%folder%\uv.txt" echo uv==%version% --hash=sha256:%hash%
-py -3 -m pip install --quiet --require-hashes --no-deps --only-binary :all: --target "%folder%" -r "%folder%\uv.txt"
+>"%folder%\uv.txt" echo uv==%version% --hash=sha256:480fc34a8d0967af6a90b3f99a6e5687cd5c6e29528de96bec04d6e305a59363
+py -m pip install --quiet --require-hashes --no-deps --only-binary :all: --target "%folder%" -r "%folder%\uv.txt"
 if exist "%uv%" exit /b 0
 :ask
-echo roofslip: nothing could be downloaded. Ask your IT to allow GitHub and the Python package index, or to 1>&2
-echo install uv (winget install --id astral-sh.uv) with access to both; then run this command again. 1>&2
+if not "%here:~130,1%"=="" echo roofslip: the path of this folder is long; a shorter one than 130 letters may be needed 1>&2
+echo roofslip: the set-up is not complete. If a download was refused, ask your IT to allow GitHub and the Python 1>&2
+echo package index, or to install uv (winget install --id astral-sh.uv) with access to both; then run this again. 1>&2
 exit /b 1
