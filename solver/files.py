@@ -21,6 +21,9 @@ LOCK = ".roofslip-lock"
 WAIT_S = 60.0
 """How long a process waits for another that writes to the same folder [s]."""
 
+LONGEST = 259
+"""Letters of the longest path on Windows, where its long paths are not enabled."""
+
 PAUSES_S = (0.1,) * 10 if sys.platform == "win32" else ()
 """Between tries of what Windows refuses while a scanner or OneDrive has a file open [s]."""
 
@@ -51,8 +54,10 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
             for name, content in files.items():
                 target = folder / name
                 check_plain(target, folder)
+                part = _hidden(target.parent, sweep)
+                check_length(part)
                 add_folder(target.parent, added)
-                parts.append(_hidden(target.parent, sweep))
+                parts.append(part)
                 with parts[-1].open("xb") as file:
                     file.write(content)
                     file.flush()
@@ -101,6 +106,27 @@ def check_plain(
         raise InputError(f"{place}: {what}, and is not written to; move it away")
 
 
+def check_length(path: Path) -> None:
+    """Refuse a path that is too long for Windows, which says no more than that it is not there.
+
+    Raises
+    ------
+    InputError
+        With the folder, and by how much its path is too long.
+    """
+    if sys.platform == "win32":
+        from ctypes import windll
+
+        too_long = len(os.path.abspath(path)) - LONGEST
+        # Where it is not known, there are none; it returns a byte.
+        are_enabled = getattr(windll.ntdll, "RtlAreLongPathsEnabled", int)
+        if too_long > 0 and not are_enabled() & 0xFF:
+            raise InputError(
+                f"{path.parent}: the path is too long for Windows by {too_long} letters; use a"
+                " folder with a shorter one, or have long paths enabled"
+            )
+
+
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
     """Hold the lock of a folder, which ends with its process.
@@ -112,6 +138,7 @@ def locked(folder: Path) -> Iterator[None]:
     """
     from filelock import FileLock, Timeout
 
+    check_length(folder / LOCK)
     check_plain(folder / LOCK, folder, in_place=True)
     lock = FileLock(folder / LOCK, timeout=WAIT_S)
     try:

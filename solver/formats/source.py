@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from solver.files import check_length
 from solver.meant import meant
 from solver.model import InputError
 from solver.records.record import is_finite_number, raise_any, shown
@@ -152,6 +153,7 @@ def _bytes(path: Path) -> bytes:
     name = _name(path)
     try:
         if not path.exists():
+            check_length(path)
             raise InputError(f"{name}: no such file; {meant(path) or 'give the path of a record'}")
         if not path.is_file():
             raise InputError(f"{name}: not a file; give the path of a record")

@@ -22,6 +22,14 @@ pytestmark = pytest.mark.nightly
 FOLDER = "Dach été μ 太陽"
 """No code page of Windows has all of its letters."""
 
+GERMAN = """
+import locale
+from report.cli.main import main
+locale.setlocale(locale.LC_ALL, "de-DE")
+assert locale.str(0.5) == "0,5"
+main()
+"""
+
 
 @pytest.fixture(scope="module")
 def windows(tmp_path_factory):
@@ -68,6 +76,14 @@ def test_a_package_of_windows_is_that_of_linux(windows, project, tmp_path_factor
     assert "system Windows" in done.output
 
 
+def test_a_folder_whose_path_is_too_long_is_named(windows, tmp_path):
+    folder = tmp_path / "/".join(["d" * 80] * 3)
+    code, told = roofslip(windows, "new", on_windows(folder), "--example")
+    assert code == 2, told
+    assert re.search(r"records: the path is too long for Windows by \d+ letters; use a", told)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_held_file_is_read_and_is_not_written(windows, project):
     words = command(windows, "-P", on_windows(TESTS / "windows" / "held.py"), on_windows(project))
     told = subprocess.run(**words, timeout=200, check=True).stdout
@@ -88,8 +104,12 @@ def test_a_held_file_is_read_and_is_not_written(windows, project):
     assert left == set()
 
 
-def test_a_save_is_followed_by_a_report(windows, project):
-    words = command(windows, "-P", "-m", "report.cli", "watch", on_windows(project))
+def test_a_save_is_followed_by_a_report(windows, project, tmp_path_factory):
+    """With the decimal comma, a time zone of half hours, and the line ends of Windows."""
+    for record in project.glob("records/*.csv"):
+        record.write_bytes(record.read_bytes().replace(b"\n", b"\r\n"))
+    words = command(windows, "-P", "-c", GERMAN, "watch", on_windows(project))
+    words["env"] |= {"TZ": "Asia/Kolkata"}
     with subprocess.Popen(**words) as watching:
         too_late = Timer(1000.0, watching.kill)
         too_late.start()
@@ -98,6 +118,9 @@ def test_a_save_is_followed_by_a_report(windows, project):
         assert _until(watching, "changes since the round before: 0")
         too_late.cancel()
         watching.kill()
+    outs = (project / "out", reported(tmp_path_factory, "example").out)
+    one, two = (json.loads((out / "results.json").read_text()) for out in outs)
+    assert list(differences(one, two, shared=True)) == []
 
 
 def _until(process, beginning):

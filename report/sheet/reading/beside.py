@@ -16,6 +16,7 @@ from report.sheet.reading.archive import OpenBook
 from report.sheet.schema import SECTION
 from report.sheet.schema.fields import Draft, Entry, Finding, Place
 from report.words.counts import grouped_by
+from solver.files import check_length
 from solver.meant import nearest
 from solver.model import InputError
 
@@ -64,6 +65,7 @@ def path_beside(
         if not path.is_relative_to(folder.resolve()):
             raise InputError(f"'{name}' is a link to a file outside the workbook's folder; {where}")
         if not path.exists():
+            check_length(path)
             raise InputError(f"'{name}' does not exist; {_meant(folder, name, taken) or where}")
         if not path.is_file():
             raise InputError(f"'{name}' is not a file; {where}")
