@@ -13,6 +13,7 @@ from hypothesis import settings
 
 import report.web.worker  # takes WorkerProcess as it is, before a fixture replaces it
 import report.workers  # before any test loads openpyxl: the package decides what that reads with
+import solver.kernels  # noqa: F401 - on Windows it adds a library that numba needs
 from browsing import chromium
 from places import RECORDS, SAMPLES
 from processes import SameProcess

@@ -5,7 +5,6 @@ Nor does a numba that is not among the versions tried.
 
 import os
 import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -95,7 +94,10 @@ def test_without_any_folder_for_its_cache_a_run_goes_on_and_says_how_to_keep_it(
     assert run() == 1.0
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows limits no file of a process")
 def test_on_a_full_disk_a_run_goes_on_and_says_how_to_keep_its_cache(copied):
+    import resource
+
     _, run = copied
     full = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))}
     # -B: bytecode that Python itself keeps on a full disk may be cut short (CPython gh-126606).
