@@ -8,7 +8,7 @@ import tempfile
 import time
 from dataclasses import is_dataclass
 from importlib import import_module
-from multiprocessing.connection import Connection
+from multiprocessing import connection
 from operator import truediv
 from pkgutil import iter_modules
 
@@ -130,7 +130,8 @@ class MakesFolder:
 
 def send_pickle(folder):
     """Answer as a process that a hostile file has taken over may."""
-    pipes = (each for each in gc.get_objects() if isinstance(each, Connection))
+    kind = getattr(connection, "PipeConnection", connection.Connection)  # that of Windows
+    pipes = (each for each in gc.get_objects() if isinstance(each, kind))
     next(each for each in pipes if each.writable).send(MakesFolder(folder))
 
 
