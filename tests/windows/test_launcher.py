@@ -47,7 +47,7 @@ def launching(windows, checkout, line, path=r"C:\none"):
 
 def launched(*about, **more):
     """Type a line; return its exit code, and what is printed."""
-    done = subprocess.run(**launching(*about, **more), timeout=1500, check=False)
+    done = subprocess.run(**launching(*about, **more), timeout=3600, check=False)
     return done.returncode, done.stdout
 
 
