@@ -41,7 +41,7 @@ def launching(windows, checkout, line, path=r"C:\none"):
     """Return what `subprocess` takes to type a line into cmd in the folder of the checkout."""
     words = command(windows)
     # The folders that Windows looks for programs in; one of another system leads to no package.
-    words["env"] |= {"WINEPATH": path, "PIP_FIND_LINKS": ""}
+    words["env"] |= {"WINEPATH": path, "PIP_FIND_LINKS": "", "PYTEST_ADDOPTS": "-m 'not nightly'"}
     return words | {"args": [WINE, "cmd", "/c", line], "cwd": checkout}
 
 
@@ -76,7 +76,7 @@ def test_the_launcher_says_what_to_ask_for_then_installs_and_runs(windows, check
     page_is_opened_by_a_double_click(windows, checkout)
 
     line = r".\roofslip test tests\solver tests\report\test_worker_process.py"
-    code, told = launched(windows, checkout, f'{line} -m "not nightly"', path=path)
+    code, told = launched(windows, checkout, line, path=path)
     assert code == 0, told
     assert "roofslip: setting up .venv from requirements.lock (once, for test;" in told
 
