@@ -74,9 +74,16 @@ def parts_of(source: Source, heading: re.Pattern[str]) -> list[range]:
 
 
 def motion_file(
-    source: Source, form: str, channels: Sequence[Channel], notes: Sequence[str] = ()
+    source: Source,
+    form: str,
+    channels: Sequence[Channel],
+    notes: Sequence[str] = (),
+    start: dt.datetime | None = None,
 ) -> MotionFile:
-    """Build the result of a reader, with distinct names, and notes that name their channel."""
+    """Build the result of a reader, with distinct names, and notes that name their channel.
+
+    `start` is when the record begins, where its heading says so in a way of its format.
+    """
     if not channels:
         raise InputError(
             f"{source.name}: found no acceleration in this {form} file; give a file of acceleration"
@@ -99,7 +106,7 @@ def motion_file(
         format=form,
         channels=tuple(records),
         notes=tuple(dict.fromkeys(all_notes)),
-        start=_start(source),
+        start=start or _start(source),
     )
 
 

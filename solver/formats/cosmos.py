@@ -2,7 +2,8 @@
 
 Handles this format only. A channel has lines of text, then blocks that state how many integers,
 real numbers, comments and values follow, and in which format. Accelerations are read; velocities
-and displacements after them are ignored; raw counts are refused. Read `read` first.
+and displacements after them are ignored; raw counts are refused. Read `read` first. Files of the
+California Geological Survey lack the comma between the unit and the format.
 
 Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
 tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the series
@@ -47,8 +48,9 @@ _REALS = re.compile(
     re.ASCII | re.IGNORECASE,
 )
 _DATA = re.compile(
-    r"\s*(\d+)\s+([A-Z]+)\s+PTS,\s*APPROX\s+([\d.]+)\s*SECS?\s*,\s*UNITS?\s*=\s*+([^,(]*+)"
-    r"(?:\(\s*(\d+)\s*\)\s*)?,\s*FORMAT\s*=\s*\(([^)]*)\)",
+    r"\s*(\d+)\s+((?:[A-Z]++\.?\s++){1,2})PTS,\s*APPROX\s+([\d.]+)\s*SECS?\s*,\s*UNITS?\s*="
+    r"\s*+([^,(\s]*+(?:\s++(?!FORMAT\b)[^,(\s]++)*+)\s*+(?:\(\s*+(\d++)\s*+\)\s*+)?,?\s*+"
+    r"FORMAT\s*=\s*\(([^)]*)\)",
     re.ASCII | re.IGNORECASE,
 )
 _TEXT, _REAL_NUMBERS = "text", "real numbers"
@@ -87,9 +89,10 @@ def recognizes(lines: Sequence[str]) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all channels of a file."""
+    _check_not_raw(source)
     series = _parts(source)
     raise_any(_heading_problems(source, series))
-    parts = [part for part in series if part.line[2].lower().startswith("accel")]
+    parts = [part for part in series if "ACCEL" in part.line[2].upper()]
     channels = each(lambda part: _channel(source, part), parts)
     notes = recorder_notes(source, len({part.first for part in series}))
     return motion_file(source, "COSMOS V1.20", channels, notes)
@@ -146,7 +149,7 @@ def _block_problems(source: Source, part: _Part) -> Iterator[str]:
 
 
 def _channel(source: Source, part: _Part) -> Channel:
-    line, layout, stage = part.line, layout_of(part.line[6]), _stage(source, part)
+    line, layout = part.line, layout_of(part.line[6])
     if not layout:
         raise InputError(f"{source.at(part.at)}: found format ({line[6]}); give one as (8F10.3)")
     scale = _scale(source, part)
@@ -164,25 +167,28 @@ def _channel(source: Source, part: _Part) -> Channel:
         name=next((text for text in heading if _NAME.match(text)), ""),
         dt_s=dt_s,
         a_mps2=values,
-        notes=(*notes, *offset_notes(values)) if stage == "UNCORRECTED" else notes,
+        notes=(*notes, *offset_notes(values)) if _stage(source, part) == "UNCORRECTED" else notes,
     )
 
 
 def _stage(source: Source, part: _Part) -> str:
     """Whether the values are UNCORRECTED or CORRECTED."""
     match = _FIRST.match(source.lines[part.first])
-    stage = match[1].upper() if match else ""
-    if stage == "RAW":
-        raise InputError(
-            f"{source.at(part.first)}: found raw counts; give a file of uncorrected or corrected"
-            " acceleration"
-        )
-    return stage
+    return match[1].upper() if match else ""
+
+
+def _check_not_raw(source: Source) -> None:
+    for index, line in enumerate(source.lines):
+        if (match := _FIRST.match(line)) and match[1].upper() == "RAW":
+            raise InputError(
+                f"{source.at(index)}: found raw counts; give the volume 1 or 2 file, of uncorrected"
+                " or corrected acceleration"
+            )
 
 
 def _scale(source: Source, part: _Part) -> float:
     """Value [m/s2] of the unit, which is given by name, by code or both."""
-    name, code = part.line[4], part.line[5]
+    name, code = part.line[4].strip().rstrip("."), part.line[5]
     coded = _UNITS.get(int(code), "") if code else ""
     if code and not coded:
         raise InputError(

@@ -3,8 +3,8 @@
 Handles this format only. A file has one or more channels, each with lines of text, 100 integers and
 50 or 100 real numbers of heading, then values. Volume 1 is uncorrected: pairs of time and
 acceleration (10F7.3), which may be unevenly spaced, or evenly spaced values after a line that
-states their format. Volume 2 is corrected: evenly spaced accelerations, velocities and
-displacements, of which the accelerations are read. Read `read` first.
+states their step, and mostly their format. Volume 2 is corrected: evenly spaced accelerations,
+velocities and displacements, of which the accelerations are read. Read `read` first.
 
 Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,
 California Division of Mines and Geology, OSMS 85-03, 1985.
@@ -33,6 +33,7 @@ from solver.formats.numbers import (
     FieldFormat,
     each,
     fixed_values,
+    free_values,
     header_values,
     layout_of,
     printed,
@@ -57,7 +58,9 @@ _PAIRS = FieldFormat(per_line=10, width=7)
 _LENGTH_1, _LENGTH_2, _STEP_2 = 3, 44, 45
 
 _POINTS = re.compile(r"NO\. OF POINTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
-_PAIR_UNIT = re.compile(r"UNITS OF UNCOR\s+\w+\s+ARE\s+SEC\s+AND\s+([A-Z/0-9]+)", re.IGNORECASE)
+_PAIR_UNIT = re.compile(
+    r"UNITS OF UNCOR\s+\w+\s+(?:ARE\s+SEC\s+AND|IS)\s+([A-Z/0-9]+)", re.IGNORECASE
+)
 _EVEN_1 = re.compile(
     r"(?<!\d)(\d+)\s+ACCELEROGRAM POINTS AT\s+([\d.]+)\s*PTS/SEC IN UNITS OF\s+([A-Z/0-9]++)"
     r".*FORMAT:\s*\(([^)]*)\)",
@@ -95,8 +98,16 @@ def read(source: Source) -> MotionFile:
 
 
 def _volume_1(source: Source, part: range) -> Channel:
-    even = _search(source, part, _EVEN_1)
-    dt_s, values, notes = _even_values(source, part, *even) if even else _pair_values(source, part)
+    if even := _search(source, part, _EVEN_1):
+        at, line = even
+        rate = printed(line[2], at).value
+        step = Stated(value=1.0 / rate if rate > 0.0 else 0.0, rounding=0.0, index=at)
+        dt_s, values, notes = _even_values(source, part, at, line, step)
+    elif even := _search(source, part, _EVEN_2):
+        at, line = even
+        dt_s, values, notes = _even_values(source, part, at, line, printed(line[2], at))
+    else:
+        dt_s, values, notes = _pair_values(source, part)
     at, peak_mps2 = _peak(source, part, _PEAK_1)
     return Channel(
         name=_name(source, part, _TEXT_1),
@@ -130,22 +141,22 @@ def _pair_values(source: Source, part: range) -> tuple[float, Floats, tuple[str,
 
 
 def _even_values(
-    source: Source, part: range, at: int, match: re.Match[str]
+    source: Source, part: range, at: int, match: re.Match[str], step: Stated
 ) -> tuple[float, Floats, tuple[str, ...]]:
-    """Evenly spaced values after a line with their count, rate, unit and format."""
+    """Evenly spaced values after a line with their count, rate or step, unit and maybe format."""
     _check_heading(source, part, at, _TEXT_1 + _WHOLE + _REAL.lines(_REALS_1))
-    rate, count = printed(match[2], at).value, int(match[1])
-    layout = layout_of(match[4])
-    if not rate > 0.0 or not layout:
+    layout = layout_of(match[4]) if match[4] else None
+    if not step.value > 0.0 or (match[4] and not layout):
         raise InputError(
             f"{source.at(at)}: found {match[2]} points per second in format ({match[4]}); give a"
             " rate above 0 and a format as (8f9.6)"
         )
-    dt_s = source.step(Stated(value=1.0 / rate, rounding=0.0, index=at))
+    dt_s = source.step(step)
     scale = source.scale(match[3], at)
     stop, ended = _stop(source, at + 1, part.stop)
-    block = Block(first=at + 1, stop=stop, count=count, promised=at)
-    values = fixed_values(source, block, layout) * scale
+    block = Block(first=at + 1, stop=stop, count=int(match[1]), promised=at)
+    numbers = fixed_values(source, block, layout) if layout else free_values(source, block)
+    values = numbers * scale
     length = _reals_1(source, part)[_LENGTH_1 - 1]
     check_length(source, length, len(values) * dt_s, dt_s)
     return dt_s, values, ended

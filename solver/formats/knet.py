@@ -1,41 +1,123 @@
-"""K-NET and KiK-net ASCII files of Japan (.NS, .EW, .UD, .NS2, ...): one component, as counts.
+"""K-NET and KiK-net files of Japan: ASCII (.NS, .EW, .UD, .NS2, ...) and CSV.
 
-Handles this format only. Seventeen named lines of heading, then counts, eight per line. The scale
-factor is in gal per count; the counts include the offset of the instrument. Read `read` first.
+Handles these formats only. ASCII is one component: seventeen named lines of heading, then counts,
+eight per line, with a scale factor in gal per count. CSV is a station: lines of heading after `#`,
+then a date, the time from the start and the three or six components in gal. Both include the offset
+of the instrument. Read `read` first.
 
 Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
 the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak is
-without the mean).
+without the mean). CSV: the files of NIED from 2024 on; the duration is in whole seconds.
 """
 
 from __future__ import annotations
 
+import datetime as dt
 import re
 from collections.abc import Sequence
+from contextlib import suppress
+
+import numpy as np
 
 from solver.formats.channels import Channel, motion_file, offset_notes, peak_notes
 from solver.formats.motionfile import MotionFile
-from solver.formats.numbers import Block, free_values, printed
+from solver.formats.numbers import (
+    COMPARED,
+    Block,
+    field_problem,
+    free_values,
+    is_cut_short,
+    printed,
+)
 from solver.formats.source import Source, Stated
+from solver.formats.times import sampled
 from solver.model import InputError
-from solver.records.record import shown
+from solver.records.record import raise_any, shown
 
 _HEADING_LINES = 20
 _SCALE = re.compile(r"([\d.]+)\s*\(\s*([A-Z]+)\s*\)\s*/\s*([\d.]+)", re.ASCII | re.IGNORECASE)
 _LEADING = re.compile(r"[\d.]+", re.ASCII)
 
+_CSV_HEADING_LINES = 40
+_COLUMNS = re.compile(r"#?\s*Time\s*,\s*RelativeTime\s*\(s\)\s*,", re.IGNORECASE)
+_IN_UNIT = re.compile(r"(.*?)\s*\(([^()]+)\)")
+
+_BOREHOLE = "the sensor is in the borehole, not at the surface"
 _KIK_NET = {"1": "NS1", "2": "EW1", "3": "UD1", "4": "NS2", "5": "EW2", "6": "UD2"}
 
 
 def recognizes(lines: Sequence[str]) -> bool:
-    """Whether the heading begins with the origin time and has a scale factor."""
+    """Whether the heading has origin time and scale factor, or the columns of the CSV."""
     near = lines[:_HEADING_LINES]
     begins = bool(near) and near[0].startswith("Origin Time")
-    return begins and any(line.startswith("Scale Factor") for line in near)
+    is_csv = any(map(_COLUMNS.match, lines[:_CSV_HEADING_LINES]))
+    return is_csv or (begins and any(line.startswith("Scale Factor") for line in near))
 
 
 def read(source: Source) -> MotionFile:
-    """Read the one component of a file."""
+    """Read the one component of a file of counts, or all of a CSV."""
+    at = next((i for i, x in enumerate(source.lines[:_CSV_HEADING_LINES]) if _COLUMNS.match(x)), -1)
+    return _csv(source, at) if at >= 0 else _counts(source)
+
+
+def _csv(source: Source, at: int) -> MotionFile:
+    """Read the components below the line of columns at an index."""
+    heads = [text.strip() for text in source.lines[at].split(",")]
+    rows = [(i, row.split(",")) for i, row in enumerate(source.lines) if i > at and row.strip()]
+    if len(rows) < 2:
+        raise InputError(f"{source.at(at)}: found {len(rows)} rows below it; give the whole file")
+    raise_any(
+        f"{source.at(index)}: found {len(fields)} columns; give {len(heads)}"
+        for index, fields in rows
+        if len(fields) != len(heads)
+    )
+    raise_any(
+        f"{source.at(index)}: {problem}"
+        for index, fields in rows
+        for field in fields[1:]
+        if (problem := field_problem(field.strip()))
+    )
+    if is_cut_short([fields[-1].strip() for _, fields in rows[-COMPARED:]]):
+        raise InputError(
+            f"{source.at(rows[-1][0])}: found {shown(rows[-1][1][-1])} at the end, with fewer"
+            " digits than all other values; give the whole file"
+        )
+    table = np.array([[float(field) for field in fields[1:]] for _, fields in rows])
+    even = sampled(source, table[:, 0], table[:, 1:].T, lambda i: rows[i][0])
+    channels = []
+    for head, values in zip(heads[2:], even.columns, strict=True):
+        unit = _IN_UNIT.fullmatch(head)
+        if not unit:
+            raise InputError(f"{source.at(at)}: found {shown(head)}; give a column as N-S(gal)")
+        name, a_mps2 = _KIK_NET.get(unit[1], unit[1]), values * source.scale(unit[2], at)
+        borehole = (_BOREHOLE,) if name.endswith("1") else ()
+        notes = (*offset_notes(a_mps2), *borehole)
+        channels.append(Channel(name=name, dt_s=even.dt_s, a_mps2=a_mps2, notes=notes))
+    form = "KiK-net CSV" if channels and channels[0].name[-1:].isdecimal() else "K-NET CSV"
+    notes = (*even.notes, *_length_notes(source, len(table) * even.dt_s))
+    return motion_file(source, form, channels, notes, _start(rows[0][1][0]))
+
+
+def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
+    """Compare a CSV with the duration that its heading states, in whole seconds."""
+    lines = source.lines[:_CSV_HEADING_LINES]
+    at = next((i for i, line in enumerate(lines) if line.startswith("#DurationTime")), len(lines))
+    stated_s = printed(source.line(at + 1).strip("#, "), at + 1).value
+    if not abs(stated_s - length_s) > 1e-6:
+        return ()
+    words = f"the heading states {stated_s:g} s, the record lasts {length_s:g} s"
+    if abs(stated_s - length_s) >= 1.0:
+        raise InputError(f"{source.at(at + 1)}: {words}; give the whole file")
+    return (words,)
+
+
+def _start(text: str) -> dt.datetime | None:
+    with suppress(ValueError):
+        return dt.datetime.strptime(text.strip(), "%Y/%m/%d %H:%M:%S.%f")
+    return None
+
+
+def _counts(source: Source) -> MotionFile:
     rate = _number(source, "Sampling Freq(Hz)")
     duration = _number(source, "Duration Time(s)")
     _, memo = _entry(source, "Memo.")
@@ -50,7 +132,7 @@ def read(source: Source) -> MotionFile:
     direction, _ = _entry(source, "Dir.")
     name = _KIK_NET.get(direction, direction)
     if name.endswith("1"):
-        notes.append("the sensor is in the borehole, not at the surface")
+        notes.append(_BOREHOLE)
     form = "KiK-net" if direction in _KIK_NET else "K-NET"
     channel = Channel(name=name, dt_s=dt_s, a_mps2=values, notes=tuple(notes))
     return motion_file(source, form, [channel])

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -123,9 +124,27 @@ def free_values(source: Source, block: Block) -> Floats:
     values = _row_by_row(source, block, rows, _apart)
     if len(values) != block.count:
         raise InputError(_wrong_count(source, block, len(values)))
-    written = [row for row in rows if row.strip()][-COMPARED:]
-    _check_last(source, block, _apart(" ".join(written).translate(_FORTRAN)))
+    written = [(index, row) for index, row in enumerate(rows, block.first) if row.strip()]
+    if len(written) == len(values):
+        _check_halved(source, written)
+    last = " ".join(row for _, row in written[-COMPARED:])
+    _check_last(source, block, _apart(last.translate(_FORTRAN)))
     return values
+
+
+def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
+    """Refuse a line of one value that lost its end: it alone has fewer digits than all others."""
+    digits = [_digits(row.strip().translate(_FORTRAN)) for _, row in rows]
+    counts = Counter(digits)
+    if len(counts) != 2 or min(counts.values()) > 1 or len(digits) < COMPARED // 3:
+        return
+    usual, odd = (found for found, _ in counts.most_common())
+    if odd < usual:
+        index, row = rows[digits.index(odd)]
+        raise InputError(
+            f"{source.at(index)}: found {shown(row.strip())}, with fewer digits than all other"
+            " values; give the whole file"
+        )
 
 
 def _check_last(source: Source, block: Block, fields: Sequence[str]) -> None:
@@ -175,6 +194,12 @@ def field_problem(field: str) -> str:
         return f"found {shown(field)}, a number too large for its columns; give a wider file"
     point = " with a decimal point" if DECIMAL_COMMA.match(field) else ""
     return f"found {shown(field)}; give a number{point}"
+
+
+def is_row(fields: Sequence[str]) -> bool:
+    """Whether all fields of a line are numbers, of which there is one."""
+    plain = [field.rstrip(",").translate(_FORTRAN) for field in fields]
+    return bool(plain) and all(map(NUMBER.fullmatch, plain))
 
 
 def printed(text: str, index: int) -> Stated:

@@ -1,64 +1,96 @@
-"""PEER records (.AT2): four lines of heading, then accelerations in g separated by blanks.
+"""PEER records (.AT2), and others whose heading ends with a line of count and step.
 
-Handles this format only. The last line of the heading is `NPTS=  4000, DT=   .0100 SEC` in files of
-the NGA databases and `4000    0.0100    NPTS, DT` in those of the first PEER database. Read `read`
-first.
+Handles these formats only: lines of text, the line of count and step, then accelerations separated
+by blanks. In PEER's files that line is the fourth, `NPTS=  4000, DT=   .0100 SEC` in the NGA
+databases and `4000    0.0100    NPTS, DT` in the first one; the NRC's and rotated files have more
+lines above it. eqsig and RSPMatch write the two numbers alone, below a name, and no unit. Read
+`read` first.
 
 Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
-is no written definition).
+is no written definition); eqsig.loader (label, then count and step, then a value a line);
+the RSPMatch09 manual (title, then count, step and a third number, then values).
 """
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 
 from solver.formats.channels import Channel, motion_file
 from solver.formats.motionfile import MotionFile
-from solver.formats.numbers import Block, free_values, printed
+from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
 from solver.model import InputError
 from solver.records.record import shown
+from solver.records.units import unit_size
 
-# The count is in the first lines of a file; the heading has four.
-_HEADING_LINES = 6
+# The count is in the first lines of a file: the heading has four, or seven and more.
+_HEADING_LINES, _LONGEST_HEADING = 6, 20
 _NUMBER = r"([+-]?\d*(?:\.\d*)?(?:[eE][+-]?\d+)?)"
-_NAMED = re.compile(rf"NPTS\s*=\s*(\d+)\s*+(?:,\s*)?DT\s*=\s*{_NUMBER}", re.ASCII | re.IGNORECASE)
+_NAMED = re.compile(
+    rf"NPTS\s*=\s*(\d+)(?:\s*+(?:,\s*)?DT\s*=\s*{_NUMBER})?", re.ASCII | re.IGNORECASE
+)
 _BEHIND = re.compile(
     rf"\s*(\d+)(?:\s*+,)?\s++{_NUMBER}\s*+(?:,\s*)?NPTS\s*,\s*DT", re.ASCII | re.IGNORECASE
 )
 _COUNT_LINE = re.compile(r"\bNPTS\b", re.IGNORECASE)
-_UNIT = re.compile(r"IN UNITS OF\s+([A-Z/0-9^]+)", re.ASCII | re.IGNORECASE)
+_BARE = re.compile(r"(\d{1,9})[,\s]++(\d*\.\d+(?:[eE]-?\d+)?)(?:[,\s]++\d+)?[,\s]*+", re.ASCII)
+_UNIT = re.compile(
+    r"IN UNITS OF\s+([A-Z/0-9^]+)|\bACC[A-Z]*\b[^()]*\(\s*([A-Z/0-9^]+)(?:'S)?\s*\)",
+    re.ASCII | re.IGNORECASE,
+)
 _OTHER = re.compile(r"\b(VELOCITY|DISPLACEMENT)\b", re.IGNORECASE)
 
 
 def recognizes(lines: Sequence[str]) -> bool:
-    """Whether a line near the top gives the count as NPTS."""
-    return _count_line(lines) >= 0
+    """Whether a line near the top gives the count as NPTS, or count and step alone."""
+    return max(_count_line(lines), _bare_line(lines)) >= 0
 
 
 def read(source: Source) -> MotionFile:
-    """Read the one component of a PEER file."""
+    """Read the one component of a file."""
     at = _count_line(source.lines)
+    form = "PEER AT2" if at >= 0 else "count and step"
+    if at < 0:
+        at = _bare_line(source.lines)
     heading = source.lines[:at]
     _check_acceleration(source, heading)
-    counted = _NAMED.search(source.lines[at]) or _BEHIND.match(source.lines[at])
+    counted = _counted(source.lines[at]) or _BARE.fullmatch(source.lines[at].strip())
     if not counted:
         raise InputError(
             f"{source.at(at)}: found {shown(source.lines[at].strip())}; give the count and the step"
             " as in NPTS=  4000, DT=   .0100 SEC"
         )
     scale = _scale(source, heading)
-    dt_s = source.step(printed(counted[2], at))
+    dt_s = source.step(printed(counted[2] or "", at))
     block = Block(first=at + 1, stop=len(source.lines), count=int(counted[1]), promised=at)
     values = free_values(source, block) * scale
     channel = Channel(name=_component(heading), dt_s=dt_s, a_mps2=values, notes=())
-    return motion_file(source, "PEER AT2", [channel])
+    return motion_file(source, form, [channel])
+
+
+def _counted(line: str) -> re.Match[str] | None:
+    return _NAMED.search(line) or _BEHIND.match(line)
 
 
 def _count_line(lines: Sequence[str]) -> int:
-    near = enumerate(lines[:_HEADING_LINES])
-    return next((index for index, line in near if _COUNT_LINE.search(line)), -1)
+    """Index of the line of the count as NPTS: the last, as an older heading may stand above."""
+    near = list(enumerate(lines[:_LONGEST_HEADING]))
+    whole = [i for i, line in near if _counted(line) and not line.lstrip().startswith("#")]
+    named = [i for i, line in near[:_HEADING_LINES] if _COUNT_LINE.search(line)]
+    return max(whole or named[:1], default=-1)
+
+
+def _bare_line(lines: Sequence[str]) -> int:
+    """Index of a line of count and step alone, below text and above rows of another width."""
+    rows = ((i, line.split()) for i, line in enumerate(lines) if line.strip())
+    near = list(itertools.islice(rows, _HEADING_LINES + 1))
+    for (index, fields), (_, following) in itertools.pairwise(near):
+        if is_row(fields):
+            is_bare = _BARE.fullmatch(lines[index].strip()) and len(fields) != len(following)
+            return index if is_bare and is_row(following) else -1
+    return -1
 
 
 def _check_acceleration(source: Source, heading: Sequence[str]) -> None:
@@ -71,10 +103,11 @@ def _check_acceleration(source: Source, heading: Sequence[str]) -> None:
 
 
 def _scale(source: Source, heading: Sequence[str]) -> float:
-    for index, line in enumerate(heading):
-        if unit := _UNIT.search(line):
-            return source.scale(unit[1], index)
-    return source.given_scale()
+    stated = [(u[1] or u[2], i) for i, line in enumerate(heading) if (u := _UNIT.search(line))]
+    if len({unit_size(unit) for unit, _ in stated}) > 1:
+        units = " and ".join(dict.fromkeys(unit for unit, _ in stated))
+        raise InputError(f"{source.at(stated[-1][1])}: found units {units}; correct one of them")
+    return source.scale(*stated[0]) if stated else source.given_scale()
 
 
 def _component(heading: Sequence[str]) -> str:

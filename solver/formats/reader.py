@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
-from solver.formats import cosmos, csmip, geonet, knet, peer, smc, text
+from solver.formats import cosmos, csmip, esm, geonet, knet, peer, smc, text
 from solver.formats.motionfile import MotionFile
 from solver.formats.source import Source, open_source
 from solver.records.record import Record
@@ -23,15 +23,18 @@ class _Format(Protocol):
 
 
 # GeoNet precedes CSMIP, whose first line is similar; text is last because it accepts every file.
-_FORMATS: tuple[_Format, ...] = (cosmos, geonet, csmip, smc, knet, peer, text)
+_FORMATS: tuple[_Format, ...] = (cosmos, geonet, csmip, smc, knet, esm, peer, text)
 
 
-def read_motion_file(path: str | Path, *, units: str = "", dt_s: float = math.nan) -> MotionFile:
+def read_motion_file(
+    path: str | Path, *, units: str = "", dt_s: float = math.nan, values_per_line: int = 0
+) -> MotionFile:
     """Read all channels of a record file.
 
     The format is identified by content: PEER AT2; COSMOS V1.20; CSMIP volumes 1 and 2; RENADIC;
-    USGS SMC; GeoNet V1A and V2A; K-NET and KiK-net; or text of one column (acceleration) or more
-    (time [s], accelerations). No sample is filtered and no offset is removed. Records with uneven
+    USGS SMC; GeoNet V1A and V2A; K-NET and KiK-net, ASCII and CSV; ESM, ITACA and AFAD; a line of
+    count and step (eqsig, RSPMatch); or text of one column (acceleration) or more (time [s],
+    accelerations). No sample is filtered and no offset is removed. Records with uneven
     times are resampled by linear interpolation, with a note.
 
     Parameters
@@ -42,6 +45,10 @@ def read_motion_file(path: str | Path, *, units: str = "", dt_s: float = math.na
         agree.
     dt_s : float
         Sampling interval [s], likewise.
+    values_per_line : int
+        For a text without a heading whose values follow each other across the lines, as programs
+        such as OpenSees and SAP2000 read them: their number in each line but the last. 0 for
+        columns.
 
     Returns
     -------
@@ -57,19 +64,24 @@ def read_motion_file(path: str | Path, *, units: str = "", dt_s: float = math.na
     >>> read_motion_file("projects/example/records/RM1-x.csv").channels
     (Record('RM1-x.csv', 6001 samples at 0.005 s),)
     """
-    source = open_source(Path(path), units=units, dt_s=dt_s)
+    source = open_source(Path(path), units=units, dt_s=dt_s, values_per_line=values_per_line)
     found = next(form for form in _FORMATS if form.recognizes(source.lines)).read(source)
     return replace(found, content=source.content)
 
 
 def read_record(
-    path: str | Path, *, units: str = "", dt_s: float = math.nan, channel: str = ""
+    path: str | Path,
+    *,
+    units: str = "",
+    dt_s: float = math.nan,
+    channel: str = "",
+    values_per_line: int = 0,
 ) -> Record:
     """Read one channel of a record file.
 
     Parameters
     ----------
-    path, units, dt_s
+    path, units, dt_s, values_per_line
         As in `read_motion_file`.
     channel : str
         Its name or number in the file; may be omitted where there is only one.
@@ -88,4 +100,5 @@ def read_record(
     >>> read_record("projects/example/records/RM1-x.csv")
     Record('RM1-x.csv', 6001 samples at 0.005 s)
     """
-    return read_motion_file(path, units=units, dt_s=dt_s).channel(channel)
+    file = read_motion_file(path, units=units, dt_s=dt_s, values_per_line=values_per_line)
+    return file.channel(channel)

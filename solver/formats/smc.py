@@ -13,6 +13,7 @@ have short lines where two pieces of film join, was found in files (575 Market S
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Sequence
@@ -53,9 +54,9 @@ def read(source: Source) -> MotionFile:
     whole = header_values(source, _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, _TEXT + _WHOLE.lines(_WHOLES), _REALS, _REAL)
     scale = source.scale("cm/s2", 0)
-    block = _block(source, whole)
+    block, more = _block(source, whole)
     dt_s, values, told = _samples(source, real[_RATE - 1], block)
-    values, notes = values * scale, list(told)
+    values, notes = values * scale, [*more, *told]
     if whole[_FLAG - 1].value == 1.0:
         notes.append("the heading flags a problem with this record: read its comments")
     peak = max(abs(_known(real[_LARGEST - 1])), abs(_known(real[_SMALLEST - 1]))) * scale
@@ -81,8 +82,8 @@ def _kind(source: Source) -> str:
     return kind
 
 
-def _block(source: Source, whole: Sequence[Stated]) -> Block:
-    """Lines of the values, after the comments."""
+def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, ...]]:
+    """Lines of the values, after the comments, with a note where these are more than stated."""
     comments, count = whole[_COMMENTS - 1], whole[_COUNT - 1]
     for number, meaning in ((comments, "lines of comment"), (count, "values")):
         if not 0.0 <= number.value < 1e8:
@@ -97,7 +98,19 @@ def _block(source: Source, whole: Sequence[Stated]) -> Block:
                 f"{source.at(index)}: found a line without | among the {comments.value:.0f} lines"
                 " of comment; give the whole file"
             )
-    return Block(first=first, stop=len(source.lines), count=int(count.value), promised=count.index)
+    more = len(list(itertools.takewhile(lambda line: line.startswith("|"), source.lines[first:])))
+    notes = (
+        (f"states {comments.value:.0f} lines of comment, found {comments.value + more:.0f}",)
+        if more
+        else ()
+    )
+    block = Block(
+        first=first + more,
+        stop=len(source.lines),
+        count=int(count.value),
+        promised=count.index,
+    )
+    return block, notes
 
 
 def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...]]:

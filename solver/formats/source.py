@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from solver.files import check_length
+from solver.formats.likely import likely_bytes
 from solver.meant import meant
 from solver.model import InputError
 from solver.records.record import is_finite_number, raise_any, shown
@@ -25,8 +26,11 @@ MAX_NAME = 255
 # Text has no control characters except tab, line ends and form feed.
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f]")
 
-# Old systems end a text file with Ctrl-Z, or fill its last block with it.
+# Old systems end a text file with Ctrl-Z, or fill its last block with it or with NUL.
 _END_OF_TEXT = b"\x1a \r\n"
+
+# A file copied as text twice ends each line with two carriage returns.
+_LINE_END = re.compile(r"\r{0,2}\n|\r")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,6 +55,8 @@ class Source:
         One of `UNIT_CHOICES`, or "" if the caller gives none.
     dt_s : float
         Sampling interval [s], or NaN if the caller gives none.
+    values_per_line : int
+        As the caller says of values that follow each other across the lines; else 0.
     is_ended : bool
         Whether the last line ends with a line end, which a file that was cut rarely does.
     content : bytes
@@ -61,6 +67,7 @@ class Source:
     lines: list[str]
     units: str
     dt_s: float
+    values_per_line: int = 0
     is_ended: bool = True
     content: bytes = b""
 
@@ -117,7 +124,7 @@ class Source:
         return self.dt_s
 
 
-def open_source(path: Path, *, units: str, dt_s: float) -> Source:
+def open_source(path: Path, *, units: str, dt_s: float, values_per_line: int = 0) -> Source:
     """Read the lines of a file.
 
     Raises
@@ -131,6 +138,10 @@ def open_source(path: Path, *, units: str, dt_s: float) -> Source:
     unknown = isinstance(dt_s, float) and math.isnan(dt_s)
     if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
         problems.append(f"{name}: time step dt is {shown(dt_s)}; give a number of seconds above 0")
+    if isinstance(values_per_line, bool) or not isinstance(values_per_line, int):
+        problems.append(f"{name}: values per line is {shown(values_per_line)}; give a whole number")
+    elif values_per_line < 0:
+        problems.append(f"{name}: values per line is {values_per_line}; give 1 or more")
     raise_any(problems)
     data = _bytes(path)
     return Source(
@@ -138,6 +149,7 @@ def open_source(path: Path, *, units: str, dt_s: float) -> Source:
         lines=_lines(name, data),
         units=units,
         dt_s=float(dt_s),
+        values_per_line=values_per_line,
         is_ended=data.rstrip(b"\x00\x1a ").endswith((b"\n", b"\r")),
         content=data,
     )
@@ -166,7 +178,9 @@ def _bytes(path: Path) -> bytes:
 
 
 def _lines(name: str, data: bytes) -> list[str]:
-    text = _decode(name, data).replace("\r\n", "\n").replace("\r", "\n")
+    text = _decode(name, data)
+    if "\r" in text:
+        text = _LINE_END.sub("\n", text)
     count = text.count("\n") + 1
     if count > MAX_LINES:
         raise InputError(f"{name}: found {count:,} lines; give at most {MAX_LINES:,}")
@@ -184,10 +198,13 @@ def _decode(name: str, data: bytes) -> str:
     try:
         if data.startswith((b"\xff\xfe", b"\xfe\xff")):
             return data.decode("utf-16")
+        plain = data.rstrip(b"\x00" + _END_OF_TEXT)
+        if not _CONTROL.search(plain):
+            return plain.decode("utf-8-sig")
+    except UnicodeDecodeError:
         data = data.rstrip(_END_OF_TEXT)
         if not _CONTROL.search(data):
-            return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        if not _CONTROL.search(data):
             return data.decode("latin-1")
-    raise InputError(f"{name}: not a text file; give the text of a record")
+    raise InputError(
+        f"{name}: not a text file; {likely_bytes(data) or 'give the text of a record'}"
+    )

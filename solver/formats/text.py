@@ -1,8 +1,10 @@
 """Text and csv: one column (acceleration), or times and one or more columns.
 
-Handles this format only; `solver.formats.headings` interprets headings, `solver.formats.times`
-times. Columns are separated by comma, semicolon, tab or blanks. One heading line, blank lines and
-comments after `#` are skipped, except that units are read from them. Read `read` first.
+Handles this format only; `solver.formats.layout` finds its rows and takes off what programs add,
+`solver.formats.headings` interprets headings, `solver.formats.times` times. Columns are separated
+by comma, semicolon, tab or blanks. One heading line, blank lines and comments after `#` are
+skipped, except that units are read from them. Where the caller says how many values a line has,
+they follow each other across the lines. Read `read` first.
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -20,6 +22,19 @@ from numpy.typing import NDArray
 from solver.formats import headings
 from solver.formats.channels import Channel, motion_file
 from solver.formats.headings import Heading, Kind
+from solver.formats.layout import (
+    ACROSS,
+    Row,
+    across,
+    check_shape,
+    content_of,
+    first_row,
+    is_heading,
+    plain_lines,
+    rows_of,
+    separator_of,
+)
+from solver.formats.likely import likely_text
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import COMPARED, DECIMAL_COMMA, field_problem, is_cut_short, printed
 from solver.formats.source import Source, Stated
@@ -28,13 +43,9 @@ from solver.model import Floats, InputError
 from solver.records.record import BEYOND, HOLD, raise_any, shown
 from solver.records.units import unit_size
 
-_BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
-
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 
 _MAX_REMARKS = 200
-
-_Row = tuple[int, str]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,7 +69,7 @@ class _Table:
     start: int
     headings: list[Heading]
     heading_index: int
-    remarks: list[_Row]
+    remarks: list[Row]
 
 
 def recognizes(lines: Sequence[str]) -> bool:
@@ -67,7 +78,8 @@ def recognizes(lines: Sequence[str]) -> bool:
 
 
 def read(source: Source) -> MotionFile:
-    """Read a text of one or more columns."""
+    """Read a text of one or more columns, or of values across the lines."""
+    source = replace(source, lines=plain_lines(source.lines))
     table = _table(source)
     _check_count(source, table)
     _check_last(source, table)
@@ -120,10 +132,10 @@ def _check_count(source: Source, table: _Table) -> None:
 
 def _check_last(source: Source, table: _Table) -> None:
     """Refuse a file without a line end whose last value has fewer digits than those before it."""
-    if source.is_ended or not _content(source.lines[-1]) or "#" in source.lines[-1]:
+    if source.is_ended or not content_of(source.lines[-1]) or "#" in source.lines[-1]:
         return
-    rows = list(_rows(source.lines, max(table.start, len(source.lines) - COMPARED)))
-    fields = [content.split(_separator(content))[-1].strip() for _, content in rows]
+    rows = list(rows_of(source.lines, max(table.start, len(source.lines) - COMPARED)))
+    fields = [content.split(separator_of(content))[-1].strip() for _, content in rows]
     if is_cut_short(fields):
         raise InputError(
             f"{source.at(rows[-1][0])}: found {shown(fields[-1])} at the end, with fewer digits"
@@ -160,16 +172,28 @@ def _evened(source: Source, table: _Table, columns: Floats, timed: bool) -> Samp
         return Sampled(dt_s=_stated_step(source, table), columns=columns, notes=())
     unit_s = _seconds(source, table)
     times = table.values[:, 0] * unit_s
+    _check_is_time(source, table, times)
     _check_decimal_comma(source, table, times)
 
     @cache
     def indexes() -> NDArray[np.int64]:
-        rows = _rows(source.lines, table.start)
+        rows = rows_of(source.lines, table.start)
         return np.fromiter((index for index, _ in rows), dtype=np.int64)
 
     even = sampled(source, times, columns, lambda i: int(indexes()[i]), unit_s)
     _check_step(source, table, even)
     return even
+
+
+def _check_is_time(source: Source, table: _Table, times: Floats) -> None:
+    """Raise where the first of columns without headings cannot be times at all."""
+    falling = int((np.diff(times) <= 0.0).sum())
+    if not table.headings and len(times) > 10 and 4 * falling > len(times):
+        raise InputError(
+            f"{source.name}: found {table.values.shape[1]} columns without a heading, and the first"
+            f" is no time: it falls {falling} times; give a heading such as time_s,x_g, or"
+            f" {ACROSS.format(table.values.shape[1])}"
+        )
 
 
 def _seconds(source: Source, table: _Table) -> float:
@@ -255,59 +279,44 @@ def _heading_scale(source: Source, table: _Table, heading: Heading) -> float:
 
 
 def _table(source: Source) -> _Table:
-    start = _first_row(source.lines)
-    first = next(_rows(source.lines, start), None)
+    start = first_row(source.lines)
+    first = next(rows_of(source.lines, start), None)
     if first is None:
         raise InputError(f"{source.name}: found no numbers; give one or more columns of them")
-    separator = _separator(first[1])
-    width = len(first[1].split(separator))
+    separator = separator_of(first[1])
+    fields = first[1].split(separator)
+    if any(field.strip(" *") and is_heading(field.strip()) for field in fields):
+        raise InputError(f"{source.at(first[0])}: {likely_text(source.lines, first[0])}")
+    width, remarks = len(fields), _remarks(source.lines, start)
+    if due := source.values_per_line or _told_across(source, start, separator, remarks):
+        numbers = across(source, start, separator, due)
+        return _Table(values=numbers, start=start, headings=[], heading_index=-1, remarks=remarks)
     values = _parse_fast(source.lines[start:], separator, width)
     if values is None:
+        check_shape(source, start, separator)
         values = _parse_slowly(source, start, separator, width)
     if len(values) < 2:
         raise InputError(f"{source.name}: found 1 sample; give at least 2")
-    remarks = _remarks(source.lines, start)
     heads, place = _headings(source, start, separator, width, remarks)
     if width > 2 and not heads:
         raise InputError(
             f"{source.at(first[0])}: found {width} columns without a heading; give one that names"
-            " them, such as time_s,x_g,y_g"
+            f" them, such as time_s,x_g,y_g, or {ACROSS.format(width)}"
         )
     remarks = [remark for remark in remarks if remark[0] != place]
     return _Table(values=values, start=start, headings=heads, heading_index=place, remarks=remarks)
 
 
-def _content(line: str) -> str:
-    return line.partition("#")[0].strip()
+def _told_across(source: Source, start: int, separator: str | None, remarks: Sequence[Row]) -> int:
+    """Values in the first line, if a remark states as many samples as there are in all lines."""
+    stated = max((headings.count_in(line) for _, line in remarks), default=-1)
+    widths = (
+        [len(row.split(separator)) for _, row in rows_of(source.lines, start)] if stated > 0 else []
+    )
+    return widths[0] if widths and sum(widths) == stated != len(widths) else 0
 
 
-def _rows(lines: Sequence[str], start: int) -> Iterator[_Row]:
-    """Index and content of each line from index `start` on that is not blank or a comment."""
-    for index in range(start, len(lines)):
-        if content := _content(lines[index]):
-            yield index, content
-
-
-def _first_row(lines: Sequence[str]) -> int:
-    """Index of the first line that may have numbers: after the heading, if there is one."""
-    for index, content in _rows(lines, 0):
-        return index + 1 if _is_heading(content) else index
-    return len(lines)
-
-
-def _is_heading(content: str) -> bool:
-    word = re.split(r"[,;\s]", content)[0]
-    return content[0] not in "+-.0123456789" and word.lower() not in {"nan", "inf", "infinity"}
-
-
-def _separator(content: str) -> str | None:
-    """Separator of the columns; None for blanks and tabs. The commas of `0,1 0,2` are decimal."""
-    if ";" in content:
-        return ";"
-    return "," if "," in content and not _BLANK_BETWEEN.search(content) else None
-
-
-def _remarks(lines: Sequence[str], start: int) -> list[_Row]:
+def _remarks(lines: Sequence[str], start: int) -> list[Row]:
     """Index and text of every line above the first row, without comment signs."""
     plain = ((index, lines[index].replace("#", " ").strip()) for index in range(start))
     ahead = [(index, line) for index, line in plain if line]
@@ -321,11 +330,11 @@ def _remarks(lines: Sequence[str], start: int) -> list[_Row]:
 
 
 def _headings(
-    source: Source, start: int, separator: str | None, width: int, remarks: Sequence[_Row]
+    source: Source, start: int, separator: str | None, width: int, remarks: Sequence[Row]
 ) -> tuple[list[Heading], int]:
     """Heading of each column and the index of their line: the heading line, or else a comment."""
-    heading = _content(source.lines[start - 1]) if start else ""
-    if heading and _is_heading(heading):
+    heading = content_of(source.lines[start - 1]) if start else ""
+    if heading and is_heading(heading):
         texts = headings.words(heading, separator)
         if len(texts) == width:
             return headings.settled([headings.parse(text) for text in texts]), start - 1
@@ -353,10 +362,10 @@ def _parse_slowly(source: Source, start: int, separator: str | None, width: int)
     """Read a table that has an error row by row, to report all its errors."""
     raise_any(
         f"{source.at(index)}: {problem}"
-        for index, content in _rows(source.lines, start)
+        for index, content in rows_of(source.lines, start)
         for problem in _row_problems(content.split(separator), width)
     )
-    rows = _rows(source.lines, start)
+    rows = rows_of(source.lines, start)
     return np.array([[float(field) for field in row.split(separator)] for _, row in rows])
 
 
@@ -369,7 +378,7 @@ def _row_problems(fields: Sequence[str], width: int) -> list[str]:
 
 def _check_decimal_comma(source: Source, table: _Table, times: Floats) -> None:
     """Raise for rows such as `0,12` and `0,13`: one column with decimal commas, not two."""
-    rows = list(itertools.islice(_rows(source.lines, table.start), _MAX_REMARKS))
+    rows = list(itertools.islice(rows_of(source.lines, table.start), _MAX_REMARKS))
     if is_even(times) or not all(DECIMAL_COMMA.fullmatch(content) for _, content in rows):
         return
     index, content = rows[0]

@@ -31,6 +31,8 @@ RESAMPLED = (
     "times are uneven, steps of 0.007 to 0.013 s: resampled at 0.001 s by linear interpolation,"
     " which changes no sample"
 )
+SHARES = (10, 20, 40, 1, 2, 4)
+BOREHOLE = "the sensor is in the borehole, not at the surface"
 OFFSET = "uncorrected: the mean is {}; it is not removed"
 
 
@@ -75,6 +77,16 @@ HELD = {
         RESAMPLED,
         OFFSET.format("0.0123 g, 1.6 % of the peak"),
     )),
+    # Volume 1 whose line of values has a step and no format.
+    "csmip-step.raw": Held("CSMIP V1", 0.005, {
+        "Chan 1: 360 Deg": WAVE / 1000 * G,
+    }, {"abs": 0.51e-6 * G}, (f"line 5 states 2 channels of the recorder{OTHERS}",)),
+    "afad.txt": Held("AFAD text", 0.01, {
+        "N-S": WAVE / 100, "E-W": WAVE / 200, "U-D": WAVE / 400,
+    }, {"abs": 1.01e-8}),
+    "esm.asc": Held("ESM, ITACA, AFAD .asc", 0.005, {"HNE": WAVE / 100}, {"abs": 1e-8}),
+    "eqsig.txt": Held("count and step", 0.01, {"eqsig.txt": WAVE / 1e4}, {"abs": 1e-8}),
+    "rspmatch.acc": Held("count and step", 0.01, {"rspmatch.acc": WAVE / 1000 * G}, {"abs": 1e-7}),
     # Uncorrected readings keep their offset, which the first component has.
     "geonet.v1a": Held("GeoNet V1A", 0.005, {
         "Component N28W": WAVE / 100 - 0.006,
@@ -91,8 +103,15 @@ HELD = {
         "EW1": (-2471 + COUNTS[1]) * 2000 / 8388608 / 100,
     }, EXACT, (
         OFFSET.format("-0.000597 g, 17 % of the peak"),
-        "the sensor is in the borehole, not at the surface",
+        BOREHOLE,
     )),
+    "kiknet.csv": Held("KiK-net CSV", 0.05, {
+        name: WAVE[:20] / (100 * by)
+        for name, by in zip(("NS1", "EW1", "UD1", "NS2", "EW2", "UD2"), SHARES, strict=True)
+    }, {"abs": 0.51e-4}, tuple(f"{name}: {BOREHOLE}" for name in ("NS1", "EW1", "UD1"))),
+    "knet.csv": Held("K-NET CSV", 0.05, {
+        "N-S": WAVE[:20] / 100 + 0.01, "E-W": WAVE[:20] / 200, "U-D": WAVE[:20] / 400 - 0.1,
+    }, {"abs": 0.51e-4}, (f"U-D: {OFFSET.format('-0.0102 g, 24 % of the peak')}",)),
     "knet.ns": Held("K-NET", 0.01, {
         "N-S": (13186 + COUNTS[0]) * 3920 / 6182761 / 100,
     }, EXACT, (OFFSET.format("0.00855 g, 40 % of the peak"),)),
@@ -141,6 +160,9 @@ START = "2003-01-02 03:04:05"
         ("renadic.v1", START),
         ("knet.ns", "2003-01-02 03:04:20"),
         ("kiknet.ew1", "2003-01-02 03:04:20"),
+        ("knet.csv", "2003-01-02 03:04:20"),
+        ("esm.asc", START),
+        ("afad.txt", START),
         ("peer-nga.at2", "None"),
         ("geonet.v2a", "None"),
     ],
@@ -177,6 +199,16 @@ READ_OTHERWISE = [
     ("cosmos.v2c", [("(1E15.6)", "(1F15.6E)")], 1.0, ()),
     ("cosmos.v2c", [("End-of-data for Chan  1 acceleration", "")], 1.0,
      ("no end-of-data line follows the values: the file may be truncated",)),
+    # The California Geological Survey leaves out a comma; quantities may be two words.
+    ("cosmos.v1c", [("(02),Format", ".  (02)Format")], 1.0, ()),
+    ("cosmos.v1c", 2 * [("acceleration pts", "uncor accel.   pts")], 1.0, ()),
+    ("esm.asc", [("STREAM: HNE", "COMPONENT: HNE")], 1.0, ()),
+    ("esm.asc", [("ACCELERATION", "UNPROCESSED ACCELERATION"), ("DURATION_S: 0.105\n", "")],
+     1.0, ()),
+    ("afad.txt", [("TURKIYE", "TURKEY"), ("made by hand for a test\r\n", "")], 1.0, ()),
+    ("knet.csv", [("#Time", "Time")], 1.0, ()),
+    ("smc-corrected.smc", [("         2\r", "         1\r")], 1.0,
+     ("states 1 lines of comment, found 2",)),
     ("knet.ns", [("Max. Acc. (gal)   ", "Max Acc. (gal)    ")], 1.0, ()),
     ("smc-uneven.smc", [("        26    -32768", "        13    -32768")], 1.0, ()),
     ("smc-corrected.smc", [("        21    -32768", "        21         1")], 1.0,
@@ -218,7 +250,7 @@ FAULTS = [
     ("cosmos.v2c", [("approx  0 secs", "approx  9 secs")], ":49: states about 9 s, count times st"),
     ("cosmos.v2c", [("Real-header", "Some")], ":1: found no block ... Real-header values follow"),
     ("cosmos.v2c", [("-123.456000", "-923.456000")], ":38: the header states a peak of 0.9417 g,"),
-    ("cosmos.v2c", [("Corrected accel", "Raw accel")], ":1: found raw counts; give a file of unc"),
+    ("cosmos.v2c", [("Corrected accel", "Raw accel")], ":1: found raw counts; give the volume 1"),
     ("cosmos.v2c", [("       7.812500", "       0.000000"), ("       0.005000", "       0.000000")],
      ":26: found no time step; give dt"),
     ("cosmos.v2c", [("21 acceleration pts", "21 velocity pts")],
@@ -259,6 +291,30 @@ FAULTS = [
     ("geonet.v2a", [("mm/s/s at", "mm/s at")], ":14: found unit 'mm/s'; give an acceleration in g"),
     ("geonet.v2a", [("Acceleration:", "Accel:")], ":14: found no line Acceleration: peak ... mm/s"),
     ("geonet.v2a", [("  0.0000 -1234.6", "  0.0000 -9234.6")], ":24: the header states a peak of"),
+    ("esm.asc", [("NDATA: 21", "NDATA: 20")], ":18: states 20 values, found 21; correct the count"),
+    ("esm.asc", [("NDATA: 21", "NDATA: many")], ":18: found 'many'; give the number of values"),
+    ("esm.asc", [("DATA_TYPE: ACC", "DATA_TYPE: VELOCITY OR ACC"), ("cm/s^2", "cm/s")],
+     ":21: found unit 'cm/s'; give"),
+    ("esm.asc", [("DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY")], ":27: found velocity; give"),
+    ("esm.asc", [("ACCELERATION", "ACCELERATION RESPONSE SPECTRUM")], ":27: found acceleration"),
+    ("esm.asc", [("UNITS: cm/s^2\n", "")], ": found no line UNITS; give the whole heading"),
+    ("esm.asc", [("-123.456000", "-923.456000")], ":23: the header states a peak of 0.9417 g, the"),
+    ("esm.asc", [("\n0.750000", "\n0.7")], ":47: found '0.7', with fewer digits than all other"),
+    ("esm.asc", [("0.005000", "0.050000")], ":19: the heading states 0.105 s, the record lasts"),
+    ("afad.txt", [("NUMBER OF DATA                  : 21", "NUMBER OF DATA: 22")],
+     ":13: states 66 values, found 63; give the whole file"),
+    ("afad.txt", [("     0.062500\r", "\r")], ":19: found 2 values; give 3"),
+    ("afad.txt", [("(gal)            : (N", "(count)            : (N")], ":15: found unit 'COUNT'"),
+    ("afad.txt", [("RAW PGA", "RAW")], ": found no line RAW PGA VALUES; give the whole heading"),
+    ("knet.csv", [("#1\n#Offset", "#3\n#Offset")], ":12: the heading states 3 s, the record lasts"),
+    ("knet.csv", [("13.12,", "13.12")], ":19: found 4 columns; give 5"),
+    ("knet.csv", [("13.12,", "13;12,")], ":19: found '13;12'; give a number"),
+    ("knet.csv", [("(s),N-S(gal)", "(s),N-S[gal]")], ":16: found 'N-S[gal]'; give a column as N-S"),
+    ("eqsig.txt", [("\n21 ", "\n20 ")], ":2: states 20 values, found 21; correct the count"),
+    ("rspmatch.acc", [(" in units of g", "")], ": found no unit of acceleration; give units, one"),
+    ("csmip-step.raw", [(" .005 SEC.  (", " 0 SEC.  (")], ":28: found "),
+    ("csmip-step.raw", [("21 POINTS OF", "22 POINTS OF")], ":28: states 22 values, found 21; give"),
+    ("peer-nga.at2", [("PEER NGA", "ACCELERATION (CM/S2)")], ":3: found units CM/S2 and G;"),
     ("knet.ns", [("   15611", "   1561x")], ":18: found '1561x'; give a number"),
     ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.3")], ":12: states 30 values, fou"),
     ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.1")], ":12: states 10 values, fou"),
@@ -425,6 +481,7 @@ def test_what_is_no_record_is_refused(file, content, expected):
         "NPTS = 3 DT = 1.0E-2",
         "    3    0.0100    NPTS, DT",
         "3, .01 NPTS, DT",
+        "NPTS = 9, DT = 1.0\nMORE\n\nOLD HEADING ABOVE\nNPTS=  3, DT= .01 SEC , FACTOR= 1.0",
     ],
 )
 def test_count_and_step_are_found_however_they_are_set(file, line):

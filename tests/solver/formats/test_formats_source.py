@@ -27,6 +27,21 @@ def test_what_is_no_text_is_refused(file, content):
     assert problems_of(file(content)) == ("roof.csv: not a text file; give the text of a record",)
 
 
+@pytest.mark.parametrize(
+    ("content", "kind"),
+    [
+        (b"000001D STA  \x00\x01", "miniSEED; convert it to times and accelerations, for example"),
+        (b"PK\x03\x04\x14\x00", "a zip or a workbook; unpack it, or save its sheet as CSV"),
+        (bytes(304) + b"\x06\0\0\0" + bytes(328), "SAC; convert it to times and accelerations,"),
+        (bytes(304) + b"\0\0\0\x07" + bytes(328), "SAC; convert it to times and accelerations,"),
+        (b"%PDF-1.7\n\x00\x01", "a PDF; give the record itself"),
+    ],
+)
+def test_a_known_kind_of_file_is_named_with_what_to_do(file, content, kind):
+    (problem,) = problems_of(file(content))
+    assert problem.startswith(f"roof.csv: not a text file; {kind}")
+
+
 def test_what_is_not_a_file_is_refused(tmp_path):
     assert problems_of(tmp_path / "none.csv")[0].startswith("none.csv: no such file")
     assert problems_of(tmp_path)[0].startswith(f"{tmp_path.name}: not a file")

@@ -44,6 +44,74 @@ def test_two_columns_read_alike_however_they_are_set(file, content):
     assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 0.3 * G]
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        '"Time (s)","Acc (g)"\n"0.00","0.1"\n"0.02","-0.2"\n"0.04","0.3"\n',
+        '"Time";"Acc, g"\r\n"0,00";"0,1"\r\n"0,02";"-0,2"\r\n"0,04";"0,3"\r\n',
+        '"a";"b"\n"0.00";"0.1"\n"0.02";"-0.2"\n"0.04";"0.3"',
+        "sep=;\nTime (s);Acc (g)\n0.00;0.1\n0.02;-0.2\n0.04;0.3\n",
+        '"sep=,"\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n',
+        "sep=|\nt|a\n0.00|0.1\n0.02|-0.2\n0.04|0.3\n",
+        "Time (s),Acc (g),\n0.00,0.1,\n0.02,-0.2,\n0.04,0.3,\n",
+        "t_s;a_g\n0.00;0.1;\n0.02;-0.2;\n0.04;0.3;\n",
+        "Time,Acc\n(s),(g)\n0.00,0.1\n0.02,-0.2\n0.04,0.3\n",
+        "Time\tAcc\nms\tg\n0\t0.1\n20\t-0.2\n40\t0.3\n",
+        "Time Acc\n[s] [g]\n0.00 0.1\n0.02 -0.2\n0.04 0.3\n",
+        "t;a\n0,00;0,1\n0,02;-0,2\n0,04;0,3\n",
+        "t\ta\r\n0,00\t0,1\r\n0,02\t-0,2\r\n0,04\t0,3\r\n",
+        b"0.00,0.1\r\r\n0.02,-0.2\r\r\n0.04,0.3\r\r\n" + bytes(500),
+    ],
+)
+def test_what_programs_add_to_a_table_changes_no_number(file, content):
+    record = read_record(file(content), units="g")
+    assert record.dt_s == 0.02
+    assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 0.3 * G]
+
+
+@pytest.mark.parametrize(
+    ("content", "problem"),
+    [
+        # The third column has a heading and no values: it is not taken for a comma at the ends.
+        ("t,a,b\n0,1,\n1,2,\n", "2: found ''; give a number"),
+        # Points and commas: which of them groups thousands is not said.
+        ("t;a\n0;1.000\n1;0,5\n", "3: found '0,5'; give a number with a decimal point"),
+        ("t;a\n0;1,000\n1;2,500\n", "2: found '1,000'; give a number with a decimal point"),
+    ],
+)
+def test_what_may_mean_two_things_is_refused(file, content, problem):
+    assert problems_of(file(content))[0] == f"roof.csv:{problem}"
+
+
+ACROSS = "0.1 0.2 0.3\n0.4 0.5 0.6\n0.7\n"
+
+
+def test_values_across_the_lines_are_read_where_their_number_in_a_line_is_told(file):
+    expected = [k * G / 10 for k in range(1, 8)]
+    for content in (ACROSS, ACROSS.replace(" ", ", ").replace("\n", ",\n")):
+        record = read_record(file(content), units="g", dt_s=0.01, values_per_line=3)
+        assert record.a_mps2 == pytest.approx(expected, rel=1e-15)
+    told = read_record(file(f"# number of points: 7, in g\n{ACROSS}"), dt_s=0.01)
+    assert told.a_mps2 == pytest.approx(expected, rel=1e-15)
+    peer = read_record(file(f"OpenSees\nNPTS= 7\n{ACROSS}"), units="g", dt_s=0.01)
+    assert peer.a_mps2 == pytest.approx(expected, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("content", "due", "problem"),
+    [
+        (ACROSS, 4, ":1: found 3 values; give 4 as in every line but the last"),
+        (ACROSS.replace(" 0.5", ""), 3, ":2: found 2 values; give 3 as in every line but the last"),
+        (ACROSS.replace("0.5", "x"), 3, ":2: found 'x'; give a number"),
+        (ACROSS, -1, ": values per line is -1; give 1 or more"),
+        (ACROSS, 2.0, ": values per line is 2.0; give a whole number"),
+    ],
+)
+def test_a_line_of_another_number_of_values_is_refused(file, content, due, problem):
+    problems = problems_of(file(content), dt_s=0.01, values_per_line=due)
+    assert problems[0] == f"roof.csv{problem}"
+
+
 @pytest.mark.parametrize("content", ["1\n-2\n3\n", "acc\n1\n-2\n3", "# x\n 1\n\n-2 \n3"])
 def test_one_column_takes_its_step_from_the_argument(file, content):
     record = read_record(file(content), units="m/s2", dt_s=0.005)
@@ -220,7 +288,26 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("0 1\n0 2\n", ["2: found time 0 s after 0 s"]),
         ("0 1\n1e-320 2\n", ["2: found time 9.99989e-321 s after 0 s"]),
         ("0 1\n" + "1" * 1200 + " 2\n", ["2: found a line of 1202 characters; give at"]),
-        ("word\nand some more\nin prose\n", ["2: found 'and'; give a number", "2: f", "2: f", "3"]),
+        (
+            "word\nand some more\nin prose\n",
+            ["2: found 'and some more' where numbers are due, and"],
+        ),
+        (
+            "1994 Northridge\n0.1\n0.2\n",
+            ["1: found '1994 Northridge' where numbers are due, and no"],
+        ),
+        ("<html>\n<body>\n", ["2: this looks like a web page, which is not read; give the record"]),
+        ("TIMESERIES IU_X, 9 samples\n1 2 x\n", ["2: this looks like TSPAIR or SLIST of Earth"]),
+        ("1 2 3\n4 5 6\n7\n", ["3: found 1 values after lines of 3: values across the lines, not"]),
+        ("60 0.1\n1 2 3\n4 5 6\n7\n", ["1: states 60 values, found 7; give the whole file"]),
+        (
+            "100 7\n1\n2\n3\n",
+            ["1: found 2 numbers above rows of 1; if they are no samples, put # be"],
+        ),
+        (
+            "0 1\n2 0\n" * 6,
+            [" found 2 columns without a heading, and the first is no time: it fal"],
+        ),
         ("0 1 2\n0.1 3 4\n", ["1: found 3 columns without a heading; give one that"]),
         ("t,x,y,z\n0,1,2\n1,2,3\n", ["1: found 4 headings over 3 columns; give one"]),
         ("n,t_s,x_g\n0,1,2\n1,2,3\n", [" found times in column 2; give them in the"]),

@@ -1,0 +1,75 @@
+"""What a file that is not read probably is, by its first lines or bytes, and what to do with it.
+
+Reads no values. Read `likely_text` and `likely_bytes`.
+
+Source: SEED reference manual and FDSN miniSEED 3 (record headings); SAC manual, data file format
+(version 6 or 7 in word 77); the first lines of files of CWA, UNAM and others as their archives give
+them.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+from collections.abc import Sequence
+
+from solver.records.record import shown
+
+_CONVERT = (
+    "convert it to times and accelerations, for example with ObsPy: write columns time_s,acc_g"
+)
+_COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
+_AS_RECORD = "give the record itself, such as the file that its download page offers"
+
+_TEXTS = (
+    (r"\s*<(?:!doctype html|html)", "a web page", _AS_RECORD),
+    (r"\s*<\?xml|\s*<[a-z]+[ >]", "XML, such as StationXML", _AS_RECORD),
+    (r"\s*[\[{]", "JSON", _COLUMNS),
+    (r"#?\s*(?:StationCode|Station Code|InstrumentKind)\b", "a file of CWA, Taiwan", _COLUMNS),
+    (r"TIMESERIES ", "TSPAIR or SLIST of EarthScope", _CONVERT),
+    (r"(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b", "GSE2", _CONVERT),
+    (r"(?:\s+-?12345(?:\.0*)?){3}", "SAC in letters", _CONVERT),
+    (r".*(?:BASE DE DATOS MEXICANA|ASA ?2\.0|\bUNAM\b)", "a file of UNAM, Mexico", _COLUMNS),
+    (r".*\b(?:BHRC|ISMN)\b", "a file of BHRC, Iran", _COLUMNS),
+    (r".*(?:CSMNC|CHINA STRONG)", "a file of CSMNC, China", _COLUMNS),
+    (r".*\bUSC\b|.*UNIVERSITY OF SOUTHERN CALIFORNIA", "a file of USC", _COLUMNS),
+    (r"\s*(?:timeSeries|set|function|import|pattern)\b", "a program", _AS_RECORD),
+)  # fmt: skip
+_LOOKED_AT = 15
+
+_BYTES = (
+    (re.compile(rb"\d{6}[DRQM][ \x00]|MS\x03"), "miniSEED", _CONVERT),
+    (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
+    (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its sheet as CSV"),
+    (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
+    (re.compile(rb"%PDF"), "a PDF", _AS_RECORD),
+    (re.compile(rb"\x89HDF"), "HDF5, such as ASDF", _CONVERT),
+    (re.compile(rb"MATLAB"), "a file of MATLAB", _COLUMNS),
+    (re.compile(rb"\x93NUMPY"), "an array of numpy", _COLUMNS),
+)
+_SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, (6, 7)
+
+
+def likely_text(lines: Sequence[str], index: int) -> str:
+    """Return what a text that is no table of numbers probably is, and what to do; at a line."""
+    near = [line for line in lines[:_LOOKED_AT] if line.strip()]
+    for pattern, name, remedy in _TEXTS:
+        if any(re.match(pattern, line, re.IGNORECASE) for line in near):
+            return f"this looks like {name}, which is not read; {remedy}"
+    return (
+        f"found {shown(lines[index].strip())} where numbers are due, and no heading of a format"
+        f" that is read; {_COLUMNS}, with # before every other line of text"
+    )
+
+
+def likely_bytes(data: bytes) -> str:
+    """Return what a file that is no text probably is, and what to do; "" if unknown."""
+    for pattern, name, remedy in _BYTES:
+        if pattern.match(data):
+            return f"{name}; {remedy}"
+    heading = data[_SAC_VERSION_AT : _SAC_VERSION_AT + 4]
+    if len(data) > _SAC_HEADING and any(
+        struct.unpack(f"{order}i", heading)[0] in _SAC_VERSIONS for order in "<>"
+    ):
+        return f"SAC; {_CONVERT}"
+    return ""
