@@ -11,6 +11,7 @@ import math
 import os
 import tomllib
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -53,6 +54,9 @@ def _reading(command: Callable[..., None]) -> Callable[..., None]:
     return command
 
 
+_per_line = click.option("--values-per-line", type=click.IntRange(1), default=None, callback=lambda
+                         *given: given[2] or 0, help="The values follow each other across the "
+                         "lines, so many in each but the last.")  # fmt: skip
 _channel = click.option("--channel", default="", metavar="NAME",
                         help="One channel: its name or its number in the file.")  # fmt: skip
 
@@ -69,13 +73,12 @@ def _picture(_: click.Context, __: click.Parameter, path: Path | None) -> Path |
 @motion.command()
 @click.argument("file", metavar="FILE", type=SOURCE)
 @_channel
+@_per_line
 @_reading
 @AS_JSON
 @click.option("--plot", metavar="OUT.svg|OUT.png", type=SOURCE, callback=_picture,
               help="Plot the records and their 5 % damped response spectra.")  # fmt: skip
-def info(
-    file: Path, channel: str, units: str | None, dt_s: float, as_json: bool, plot: Path | None
-) -> None:
+def info(file: Path, channel: str, as_json: bool, plot: Path | None, **how: Any) -> None:
     """List the channels of FILE with peaks, duration and drift.
 
     Prints peak acceleration, velocity and displacement, Arias intensity, significant duration (5 to
@@ -85,7 +88,7 @@ def info(
     from report.suite.info import summary, table
 
     with input_errors(file):
-        motion_file = _read(file, units, dt_s)
+        motion_file = _read(file, **how)
         records = [motion_file.channel(channel)] if channel else motion_file.channels
         if plot:
             _draw(records, plot)
@@ -105,15 +108,19 @@ def info(
 @click.argument("file", metavar="FILE", type=SOURCE)
 @click.argument("out", metavar="OUT.csv", type=SOURCE)
 @_channel
+@click.option("--factor", type=Number(), default=1.0, help="Multiply the samples, by -1 for a "
+              "vertical record that is positive downward.")  # fmt: skip
+@_per_line
 @_reading
-def convert(file: Path, out: Path, channel: str, units: str | None, dt_s: float) -> None:
+def convert(file: Path, out: Path, channel: str, factor: float, **how: Any) -> None:
     """Write FILE as CSV: time in s, acceleration in g.
 
     An existing file is never overwritten. If FILE has several channels, select one with --channel.
     """
     with input_errors(file):
-        motion_file = _read(file, units, dt_s)
-        _write(motion_file.channel(channel), out)
+        motion_file = _read(file, **how)
+        record = motion_file.channel(channel)
+        _write(replace(record, a_mps2=factor * record.a_mps2), out)
     for note in motion_file.notes:
         click.echo(f"note: {note}")
     click.echo(out)
@@ -211,12 +218,15 @@ def suite(
               help="Where they were recorded; required with a workbook.")  # fmt: skip
 @click.option("--only", metavar="NAME", multiple=True,
               help="Take the motions of this name; * stands for any letters.")  # fmt: skip
+@click.option("--without-vertical", is_flag=True,
+              help="Take two horizontal records without a vertical one as a set.")  # fmt: skip
 @_reading
 def rows(
     source: Path,
     project: Path | None,
     at: str | None,
     only: tuple[str, ...],
+    without_vertical: bool,
     units: str | None,
     dt_s: float,
 ) -> None:
@@ -241,13 +251,21 @@ def rows(
         if folder.is_file():
             zipped, folder = folder, Path(temporary, folder.stem)
             unpack(zipped, folder)
-        sets, left = sets_of(folder, units or "", dt_s)
+            for inner in folder.rglob("*.zip"):
+                unpack(inner, inner.with_suffix(""))
+        sets, left = sets_of(folder, units or "", dt_s, without_vertical=without_vertical)
         wanted = [name.casefold() for name in only or ("*",)]
         for name in list(sets):
             if not any(fnmatchcase(name.casefold(), each) for each in wanted):
                 del sets[name]
         for line in (*table(sets), *(f"not taken: {what}: {why}" for what, why in left)):
             click.echo(plain(line))
+        if flat := [name for name, group in sets.items() if len(group) == 2]:
+            click.echo(
+                f"note: {plain(', '.join(flat))}: without a vertical record. Motions for analysis"
+                " have two horizontal components and the vertical together: the value from"
+                " analysis is not permitted with these."
+            )
         if not sets:
             raise InputError("no set of two horizontal records and a vertical one to take")
         if project:
@@ -305,10 +323,10 @@ def _targets(
     return ac156_targets(**whole), []
 
 
-def _read(path: Path, units: str | None, dt_s: float) -> MotionFile:
+def _read(path: Path, units: str | None, dt_s: float, values_per_line: int) -> MotionFile:
     from solver.formats import read_motion_file
 
-    return read_motion_file(path, units=units or "", dt_s=dt_s)
+    return read_motion_file(path, units=units or "", dt_s=dt_s, values_per_line=values_per_line)
 
 
 def _write(record: Record, out: Path) -> None:

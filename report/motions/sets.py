@@ -29,9 +29,9 @@ STARTS_WITHIN = dt.timedelta(seconds=1)
 _UP, _DOWN, _AZIMUTH = "up", "down", "azimuth"
 _HIDDEN = re.compile(r"/(\.|~\$|__MACOSX/)")
 _SPELLED = {
-    (_UP, 0): "up u ud u-d v ver vert vertical z", (_DOWN, 0): "dn dwn down",
+    (_UP, 0): "up u ud u-d v ver vrt vert vertical z", (_DOWN, 0): "dn dwn down",
     ("xy", 0): "x", ("xy", 90): "y", ("12", 0): "h1 1", ("12", 90): "h2 2",
-    ("en", 0): "e ew e-w", ("en", 90): "n ns n-s", ("en", 180): "w", ("en", 270): "s",
+    ("en", 0): "e ew e-w we", ("en", 90): "n ns n-s", ("en", 180): "w", ("en", 270): "s",
     ("lt", 0): "l long longitudinal", ("lt", 90): "t tran transverse",
 }  # fmt: skip
 VERTICAL = re.compile(
@@ -44,12 +44,14 @@ _NAMED = {word: meant for meant, words in _SPELLED.items() for word in words.spl
 _WITHIN = re.compile(r"([befhs][gln])([enz12])|(ns|ew|ud)(\d)")
 _BEARING = re.compile(r"([ns])(\d{1,2})([ew])")
 _CHANNEL = re.compile(r"\b(?:(?:sta|rcrdr)\s+)?cha?nn?(?:el)?\s*+(?::\s*)?\d+\s*:?", re.IGNORECASE)
+_VOLUME = re.compile(r"\.v([12])[a-z]?$", re.IGNORECASE)
 _CHANNEL_OF_NAME = re.compile(r"[-_. ]?cha?nn?(?:el)?[-_ ]?\d+", re.IGNORECASE)
 _NOISE = re.compile("comp(onent)?|deg|axis|accelerometer|longitudinal|transverse|vertical")
 _END = re.compile(
     r"(.*?)(?:(?:^|(?<![-_. ])[-_. ]+)(u-d|n-s|e-w|[a-z]+\d?|[ns]\d+[ew]|\d\d\d?)|(?<!\d)(\d{3}))",
     re.IGNORECASE,
 )
+_GLUED = re.compile(r"(.+?)(dwn|vrt|vert|[ns]\d\d[ew])", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,6 +74,14 @@ class Candidate:
         return f"{self.file} {BAR} {self.channel}" if self.channel else self.file
 
     @property
+    def taken_for(self) -> str:
+        """Which component it is by its heading or name."""
+        if not self.is_horizontal:
+            return f"vertical, positive {self.family}"
+        word = _SPELLED.get((self.family, self.degrees), f"{self.degrees} deg").split(" ")[0]
+        return f"horizontal {word if self.family != _AZIMUTH else f'{self.degrees} deg'}"
+
+    @property
     def is_horizontal(self) -> bool:
         """Whether it is neither up nor down."""
         return self.family not in (_UP, _DOWN)
@@ -83,9 +93,15 @@ Sets = dict[str, Sequence[Candidate]]
 Left = tuple[str, str]
 """What was not taken, and why."""
 
+_Clear = tuple[str, str, list[Candidate]]  # name, longer name, channels
 
-def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets, Sequence[Left]]:
+
+def sets_of(
+    folder: Path, units: str = "", dt_s: float = math.nan, *, without_vertical: bool = False
+) -> tuple[Sets, Sequence[Left]]:
     """Return the sets of three in a folder and the folders in it, and what is left.
+
+    Two horizontal records alone are a set where that is asked.
 
     Raises
     ------
@@ -113,14 +129,15 @@ def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets
                 groups.setdefault(key, []).append(each)
         except InputError as error:
             left.append((file, error.problems[0].removeprefix(f"{path.name}: ")))
-    clear: list[tuple[str, str, list[Candidate]]] = []
+    clear: list[_Clear] = []
     for (parent, stem, rest, *_), group in groups.items():
         group.sort(key=lambda each: (not each.is_horizontal, each.degrees))
-        if why := next(_unclear(group), ""):
+        if why := next(_unclear(group, without_vertical), ""):
             left.append((_listed(group), why))
         else:
             name = stem or PurePosixPath(parent).name or folder.resolve().name
             clear.append((name, f"{name} {rest}".strip(), group))
+    clear = list(_corrected(clear, left))
     plain = Counter(name for name, _, _ in clear)
     named = [(name if plain[name] == 1 else longer, group) for name, longer, group in clear]
     times = Counter(name for name, _ in named)
@@ -136,26 +153,41 @@ def sets_of(folder: Path, units: str = "", dt_s: float = math.nan) -> tuple[Sets
 
 def table(sets: Sets) -> Iterator[str]:
     """Yield the lines of a table: which channel is x, y and z of each set."""
-    rows = [("motion", "", "record", "dt [s]", "samples", "format")]
+    rows = [("motion", "", "record", "taken for", "dt [s]", "samples", "format")]
     for name, group in sets.items():
-        for axis, each in zip("xyz", group, strict=True):
-            first = name if axis == "x" else ""
-            rows.append((first, axis, each.name, f"{each.dt_s:.4g}", str(each.npts), each.format))
-    return aligned(rows, "<<<>><")
+        for axis, each in zip("xyz", group, strict=False):
+            what = each.name, each.taken_for, f"{each.dt_s:.4g}", str(each.npts), each.format
+            rows.append((name if axis == "x" else "", axis, *what))
+    return aligned(rows, "<<<<>><")
 
 
 def _listed(group: Sequence[Candidate]) -> str:
-    return ", ".join(each.name for each in group)
+    return ", ".join(f"{each.name} ({each.taken_for})" for each in group)
 
 
-def _unclear(group: Sequence[Candidate]) -> Iterator[str]:
+def _corrected(clear: Sequence[_Clear], left: list[Left]) -> Iterator[_Clear]:
+    """Yield the sets without those of volume 1 where the same motion is there as volume 2."""
+    volumes = [(longer, _VOLUME.search(group[0].file)) for _, longer, group in clear]
+    corrected = {longer for longer, volume in volumes if volume and volume[1] == "2"}
+    for each, (longer, volume) in zip(clear, volumes, strict=True):
+        if volume and volume[1] == "1" and longer in corrected:
+            left.append((_listed(each[2]), "uncorrected; the corrected records are taken"))
+        else:
+            yield each
+
+
+def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str]:
     """Yield why a group in the order of x, y, z is not the set of a motion."""
     level = [each for each in group if each.is_horizontal]
-    if (len(level), len(group)) != (2, 3):
+    if (len(level), len(group)) not in ((2, 3), (2, 2 if without_vertical else 3)):
         counts = f"{len(level)} horizontal and {len(group) - len(level)} vertical of one motion"
-        yield f"{counts}; a set has 2 and 1"
-    elif group[2].family == _DOWN:
-        yield "the vertical is positive downward; a motion has it upward"
+        alone = "; --without-vertical takes the two" if len(level) == len(group) == 2 else ""
+        yield f"{counts}; a set has 2 and 1{alone}"
+    elif group[-1].family == _DOWN:
+        yield (
+            f"{group[-1].name} is positive downward: give it with factor -1, as motion convert"
+            " --factor -1 writes it"
+        )
     elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:
         yield "the horizontal components are not perpendicular by their names"
     steps, lengths = [each.dt_s for each in group], [each.npts for each in group]
@@ -184,8 +216,8 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
         family, degrees, rest = meant
         if of_heading and of_name and _differ(of_heading, of_name):
             raise InputError(f"its heading ({said}) and its name have different components")
-        if not of_name and family == _AZIMUTH:
-            stem = stem.removesuffix(f"{degrees:03d}")
+        if not of_name:
+            stem = _unglued(stem, family, degrees)
         found.append(
             Candidate(
                 file=file,
@@ -200,6 +232,15 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
             )
         )
     return found
+
+
+def _unglued(stem: str, family: str, degrees: int) -> str:
+    """Return a name without the word for a component at its end, of three letters or two."""
+    for count in (3, 2):
+        word = stem[-count:].casefold()
+        if len(stem) > count and (found := _by_word(word)) and found[:2] == (family, degrees):
+            return stem[:-count]
+    return stem
 
 
 _Meant = tuple[str, int, str]  # family, degrees, and the rest of what was said
@@ -224,10 +265,12 @@ def _by_heading(text: str) -> _Meant | None:
 
 def _by_name(stem: str) -> tuple[str, _Meant | None]:
     """Return the name of a file without the component at its end, and that component."""
-    if match := re.fullmatch(rf"(.+?){_CHANNEL_OF_NAME.pattern}", stem, re.IGNORECASE):
+    if match := re.fullmatch(rf"(.*?){_CHANNEL_OF_NAME.pattern}", stem, re.IGNORECASE):
         return match[1], None
     match = _END.fullmatch(stem)
     found = _by_word((match[2] or match[3]).casefold()) if match else None
+    if not found and (match := _GLUED.fullmatch(stem)):
+        found = _by_word(match[2].casefold())
     return (match[1], found) if match and found else (stem, None)
 
 

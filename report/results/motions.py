@@ -143,6 +143,6 @@ def set_rows(
     rows: list[Row] = []
     for name, group in sets.items():
         cells = [names[each.file] + each.name.removeprefix(each.file) for each in group]
-        records = dict(zip(LABELS, cells, strict=True))
+        records = dict(zip(LABELS, cells, strict=False))  # two without a vertical
         rows.append({"id": name, **records, "source": f"{name}, {group[0].format}", **about})
     return rows, files

@@ -15,7 +15,7 @@ import numpy as np
 from solver.formats.motionfile import MotionFile, distinct
 from solver.formats.source import Source, Stated
 from solver.model import Floats, InputError
-from solver.records.record import UNITS, Record, check_gaps, read_only, shown
+from solver.records.record import UNITS, Record, check_gaps, has_gravity, read_only, shown
 
 MAX_CHANNELS = 1000
 
@@ -99,8 +99,10 @@ def motion_file(
             raise InputError(f"{source.name}: found {samples}; give at least 2")
         _check_size(source, channel)
         a_mps2 = read_only(channel.a_mps2)
+        gravity = ("the mean is about 1 g: gravity is in it",) if has_gravity(a_mps2) else ()
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
-        all_notes += channel.notes if alone else [f"{name}: {note}" for note in channel.notes]
+        told = (*gravity, *channel.notes)
+        all_notes += told if alone else [f"{name}: {note}" for note in told]
     return MotionFile(
         name=source.name,
         format=form,

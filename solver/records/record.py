@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike
 from solver.files import write_whole
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 
-_SPIKE_G = 9.0  # a code for missing data, at least: where all else is below 1 g, no shaking
-_NINES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25)")
+_ALONE = 3.0  # a code for missing data / all other samples, at least: shaking rises over several
+_CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
 
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 """Acceleration units and their value in m/s2."""
@@ -201,10 +201,10 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     at = int(size.argmax())
     others = size[np.abs(size - size[at]) > 1e-9 * size[at]]
     most = float(others.max(initial=0.0))
-    if most >= UNITS["g"] or size[at] < _SPIKE_G * UNITS["g"]:
+    if size[at] <= _ALONE * most:
         return
     values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
-    if codes := list(filter(_NINES.fullmatch, values)):
+    if codes := list(filter(_CODES.fullmatch, values)):
         raise InputError(
             f"{name}: sample {at + 1:,} is {min(codes, key=len)} where no other exceeds"
             f" {most / UNITS['g']:.3g} g: it is a code for missing data; give a record without gaps"

@@ -10,12 +10,15 @@ import math
 import warnings
 from collections.abc import Callable, Mapping
 from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from solver.formats.headings import parse
 from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
 from solver.records.record import UNITS, Record, has_gravity, read_only
+from solver.records.units import unit_size as records_unit
 from solver.rivals.methods import ANY_NUMBER, METHODS, NO_RECORD, WANTED, Method, Parameters
 from solver.sliding import two_axes
 
@@ -77,7 +80,9 @@ def checked_scene(
         raise InputError(
             f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
         )
-    if units is None and not any(isinstance(each, Record | Motion) for each in given.values()):
+    if units is None and not any(
+        isinstance(each, Record | Motion) or is_series(each) for each in given.values()
+    ):
         _warn_if_in_g(run)
     return run
 
@@ -85,12 +90,49 @@ def checked_scene(
 def unit_size(given: Mapping[str, Given | None], units: str | None, problems: list[str]) -> float:
     """Return the size of the unit of arrays [m/s2]; records and motions have their own."""
     if units is None:
-        return 1.0
+        return _size_of_series(given, problems)
     if any(isinstance(each, Record | Motion) for each in given.values()):
         problems.append("units are given beside a record or a motion, which is in m/s2; omit them")
     if units not in UNITS:
         problems.append(f"units is {shown(units)}; give one of {', '.join(UNITS)}")
     return UNITS.get(units, 1.0)
+
+
+def _size_of_series(given: Mapping[str, Given | None], problems: list[str]) -> float:
+    """Return the size of the unit that the names of Series state; 1 without any Series."""
+    sizes = {
+        name: records_unit(parse(str(each.name)).unit)  # type: ignore[union-attr]
+        for name, each in given.items()
+        if is_series(each)
+    }
+    if any(map(math.isnan, sizes.values())):
+        unknown = next(name for name, size in sizes.items() if math.isnan(size))
+        problems.append(
+            f"{unknown} is a Series without a unit; give units, or a name such as acceleration_g"
+        )
+    elif len({*sizes.values()}) > 1 or 0 < len(sizes) < sum(e is not None for e in given.values()):
+        problems.append("some components are Series, in other units than the rest; give units")
+    return next(iter(sizes.values()), 1.0)
+
+
+def is_series(given: object) -> bool:
+    """Whether the argument is a Series of pandas: values with an index and a name."""
+    return all(hasattr(given, name) for name in ("index", "name", "to_numpy"))
+
+
+def _step_of_series(name: str, series: Any, problems: list[str]) -> float | None:
+    """Return the step of the index [s], if it is of times; None if it counts samples."""
+    times = np.asarray(series.index)
+    if times.dtype.kind in "mM":
+        times = (times - times[:1]) / np.timedelta64(1, "s")
+    if times.dtype.kind != "f" or len(times) < 2:
+        return None
+    steps = np.diff(times)
+    step = float(f"{(times[-1] - times[0]) / len(steps):.9g}")
+    if not (step > 0.0 and np.abs(steps - step).max() <= 1e-3 * step):
+        problems.append(f"{name} has an uneven index; give times at one step, in seconds")
+        return 1.0  # which is of no account beside the problem
+    return step
 
 
 def _warn_if_in_g(run: Scene) -> None:
@@ -123,8 +165,14 @@ def unpacked(
     """
     along, *others = given.values()
     steps = {each.dt_s for each in given.values() if isinstance(each, Record | Motion)}
+    for name, each in given.items():
+        if is_series(each) and (step := _step_of_series(name, each, problems)):
+            steps.add(step)
     if steps and dt_s is not None:
-        problems.append("dt_s is given beside a record or a motion, which has its own; omit it")
+        problems.append(
+            "dt_s is given beside a record or a motion, which has its own, or a Series of times;"
+            " omit it"
+        )
     if len(steps) > 1:
         shown = " and ".join(f"{step:g} s" for step in sorted(steps))
         problems.append(f"the components have steps of {shown}; give components of one step")

@@ -46,7 +46,9 @@ def slide(
     ----------
     ax_mps2 : array_like, shape (n,), Record or Motion
         Horizontal roof acceleration at even intervals [m/s2], linear between samples. A motion is
-        taken with all its components and its scale, as recorded.
+        taken with all its components and its scale, as recorded. The index of a Series of pandas is
+        its time, in seconds or as time deltas, unless it counts samples; its unit is that of its
+        name, such as ``a_g``, or `units`.
     dt_s : float, optional
         Sampling interval [s], > 0; a record or a motion has its own.
     slope_rad : float
@@ -195,9 +197,9 @@ def scene(
 
 
 def motion(
-    x: Given,
-    y: ArrayLike | Record | None = None,
-    z: ArrayLike | Record | None = None,
+    ax_mps2: Given,
+    ay_mps2: ArrayLike | Record | None = None,
+    az_mps2: ArrayLike | Record | None = None,
     *,
     dt_s: float | None = None,
     id: str = "",
@@ -210,9 +212,9 @@ def motion(
 
     Parameters
     ----------
-    x : array_like, shape (n,), Record or Motion
+    ax_mps2 : array_like, shape (n,), Record or Motion
         Horizontal acceleration [m/s2]; a motion is taken with its components, and scaled.
-    y, z : array_like, shape (n,), or Record, optional
+    ay_mps2, az_mps2 : array_like, shape (n,), or Record, optional
         The other horizontal acceleration and the vertical one, positive up [m/s2].
     dt_s : float, optional
         Sampling interval [s], > 0; a record or a motion has its own.
@@ -237,10 +239,15 @@ def motion(
 
     Examples
     --------
-    >>> motion([0.0, 4.0, -4.0, 0.0], z=[0.0, 1.0, -1.0, 0.0], dt_s=0.1, id="pulse", scale=1.5)
+    >>> up = [0.0, 1.0, -1.0, 0.0]
+    >>> motion([0.0, 4.0, -4.0, 0.0], az_mps2=up, dt_s=0.1, id="pulse", scale=1.5)
     Motion: pulse, x and z, 4 samples of 0.1 s, scale 1.5
     """
-    checked = checked_scene(x, y, z, dt_s, 0.0, 0.0, scale, STANDARD_GRAVITY_MPS2, "exact", units)
+    components = ax_mps2, ay_mps2, az_mps2
+    checked = checked_scene(
+        *components, dt_s, 0.0, 0.0, scale, STANDARD_GRAVITY_MPS2, "exact", units
+    )
+    x = ax_mps2
     if signs is None:
         signs = x.signs if isinstance(x, Motion) else (1, -1)
     if not signs or not {*signs} <= {1, -1}:

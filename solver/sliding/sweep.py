@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,9 +18,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels import one_axis
 from solver.kernels.compiler import THREADS
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError, Scene, Status, coulomb
+from solver.model import (
+    STANDARD_GRAVITY_MPS2,
+    Floats,
+    InputError,
+    Scene,
+    SlideResult,
+    Status,
+    coulomb,
+)
 from solver.records.record import Record
-from solver.rivals.methods import NO_RECORD
+from solver.sliding import two_axes
 from solver.sliding.arguments import (
     Given,
     checked_number,
@@ -32,7 +41,13 @@ from solver.sliding.arguments import (
 if TYPE_CHECKING:
     import pandas as pd
 
-STATUSES = (Status.OK, Status.SLIDING_AT_END, Status.UPLIFT)
+STATUSES = (
+    Status.OK,
+    Status.SLIDING_AT_END,
+    Status.UPLIFT,
+    Status.STEP_LIMIT,
+    Status.DIVERGED,
+)
 """Meaning of the numbers in `Sweep.status`."""
 
 
@@ -44,7 +59,8 @@ class Sweep:
     ----------
     slopes_rad, mus, scales : array, shape (p,), (q,), (r,)
     prd_m, residual_m : array
-        Peak relative displacement and displacement at the end [m]; NaN if N falls below zero.
+        Peak relative displacement and displacement at the end, in two axes that downslope [m]; NaN
+        if N falls below zero.
     status : array of uint8
         Index into `STATUSES`.
     """
@@ -83,6 +99,7 @@ def sweep(
     slopes_rad: ArrayLike,
     mus: ArrayLike,
     scales: ArrayLike,
+    ay_mps2: ArrayLike | Record | None = None,
     az_mps2: ArrayLike | Record | None = None,
     g_mps2: float = STANDARD_GRAVITY_MPS2,
     units: str | None = None,
@@ -90,13 +107,13 @@ def sweep(
 ) -> Sweep:
     """Run all combinations of slope, friction coefficient and scale of a record.
 
-    By the exact method. The runs are distributed over all cores; the result does not depend on the
-    number of cores.
+    By the exact method; with ay in two axes, to the tolerance of `solver.slide`, and slower. The
+    runs are distributed over all cores; the result does not depend on the number of cores.
 
     Parameters
     ----------
-    ax_mps2, dt_s, az_mps2, g_mps2, units
-        As in `solver.slide`, in one axis; `solver.study` runs motions of two.
+    ax_mps2, dt_s, ay_mps2, az_mps2, g_mps2, units
+        As in `solver.slide`.
     slopes_rad : array_like, shape (p,)
         Roof slopes [rad], |slope| < pi/2.
     mus : array_like, shape (q,)
@@ -126,11 +143,13 @@ def sweep(
     0.3 1.0    0.0007  0.0030
     """
     problems: list[str] = []
-    given: dict[str, Given | None] = {"ax_mps2": ax_mps2, "az_mps2": az_mps2}
+    given: dict[str, Given | None] = {
+        "ax_mps2": ax_mps2,
+        "ay_mps2": ay_mps2,
+        "az_mps2": az_mps2,
+    }
     records, step_s, factor = unpacked(given, dt_s, problems)
-    if records.get("ay_mps2") is not None:
-        problems.append("the motion has two horizontal components; give one, or call solver.study")
-    ax, *_, az = checked_records(records, problems, unit_size(given, units, problems))
+    ax, ay, az = checked_records(records, problems, unit_size(given, units, problems))
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
         axis("mus", mus, -math.ulp(0.0), math.inf, problems),
@@ -146,7 +165,7 @@ def sweep(
     scale *= abs(factor)
     largest = Scene(
         ax_mps2=ax,
-        ay_mps2=NO_RECORD,
+        ay_mps2=ay,
         az_mps2=az,
         dt_s=dt,
         slope_rad=0.0,
@@ -156,7 +175,36 @@ def sweep(
     )
     if faults := overflow(largest):
         raise InputError(faults)
+    if ay.size:
+        return _run_in_plane(largest, axes, factor, progress or (lambda share: None))
     return _run(ax, az, dt, g, axes, factor, progress or (lambda share: None))
+
+
+def _run_in_plane(
+    scene: Scene, axes: list[Floats], factor: float, progress: Callable[[float], None]
+) -> Sweep:
+    slopes, mus, scales = axes
+
+    def run(each: tuple[float, float, float]) -> SlideResult:
+        slope, mu, scale = map(float, each)
+        friction = coulomb(mu)
+        given = replace(scene, slope_rad=slope, friction=friction, scale=factor * scale)
+        return two_axes.run(given)
+
+    results: list[SlideResult] = []
+    with ThreadPoolExecutor(THREADS) as pool:
+        for k, slope in enumerate(slopes):
+            results += pool.map(run, product([slope], mus, scales))
+            progress((k + 1) / slopes.size)
+    shape = slopes.size, mus.size, scales.size
+    return Sweep(
+        slopes_rad=slopes,
+        mus=mus,
+        scales=scales,
+        prd_m=np.array([each.prd_m for each in results]).reshape(shape),
+        residual_m=np.array([each.residual_m for each in results]).reshape(shape),
+        status=np.array([STATUSES.index(r.status) for r in results], np.uint8).reshape(shape),
+    )
 
 
 def _is_size(value: float) -> bool:

@@ -1,6 +1,7 @@
 """Which records of a folder are the three components of a motion, by names and headings."""
 
 import datetime as dt
+import re
 
 import numpy as np
 import pytest
@@ -24,7 +25,8 @@ def peer(path, component, dt_s=0.01):
 
 def taken(folder):
     sets, left = sets_of(folder)
-    return {name: [each.name for each in group] for name, group in sets.items()}, dict(left)
+    named = {name: [each.name for each in group] for name, group in sets.items()}
+    return named, {re.sub(r" \([^()]*\)", "", what): why for what, why in left}
 
 
 @pytest.mark.parametrize(
@@ -42,6 +44,9 @@ def taken(folder):
         ("site-270 site-360 site-UP", "site"),
         ("site_45 site_135 site_vert", "site"),
         ("WTMC_N28W WTMC_S62W WTMC_up", "WTMC"),
+        ("ABC180 ABC270 ABCVRT", "ABC"),
+        ("ABCN45E ABCN45W ABC-UP", "ABC"),
+        ("ITACA-NS ITACA-WE ITACA-UP", "ITACA"),
         ("x y z", "quake"),
     ],
 )
@@ -59,12 +64,20 @@ def test_sets_of_three_are_told_by_the_ends_of_names(tmp_path, names, motion):
 @pytest.mark.parametrize(
     ("names", "why"),
     [
-        ("PET-000 PET-090", "2 horizontal and 0 vertical of one motion; a set has 2 and 1"),
+        (
+            "PET-000 PET-090",
+            "2 horizontal and 0 vertical of one motion; a set has 2 and 1;"
+            " --without-vertical takes the two",
+        ),
         ("P-000 P-090 P-180 P-UP", "3 horizontal and 1 vertical of one motion; a set has 2 and 1"),
         ("P-000 P-090 P-UP P-V", "2 horizontal and 2 vertical of one motion; a set has 2 and 1"),
         ("P-000 P-180 P-UP", "the horizontal components are not perpendicular by their names"),
         ("P-000 P-H2 P-UP", "the horizontal components are not perpendicular by their names"),
-        ("P-000 P-090 P-DWN", "the vertical is positive downward; a motion has it upward"),
+        (
+            "P-000 P-090 P-DWN",
+            "P-DWN.csv is positive downward: give it with factor -1, as motion"
+            " convert --factor -1 writes it",
+        ),
     ],
 )
 def test_what_is_not_clear_is_left_with_the_reason(tmp_path, names, why):
@@ -146,6 +159,52 @@ def test_headings_go_before_names_and_must_not_contradict_them(tmp_path):
     assert left["two-090.AT2"].startswith("1 horizontal and 0 vertical")
 
 
+def test_the_heading_tells_where_a_glued_name_ends(tmp_path):
+    for end, component in (("180", "180"), ("270", "270"), ("UP", "UP")):
+        peer(tmp_path / f"RSN9_ABC{end}.AT2", component)
+    for end, component in (("N45E", "N45E"), ("N45W", "N45W"), ("DWN", "DOWN")):
+        peer(tmp_path / f"RSN8_ABC{end}.AT2", component)
+    sets, left = taken(tmp_path)
+    assert sets == {"RSN9_ABC": [f"RSN9_ABC{end}.AT2" for end in ("180", "270", "UP")]}
+    ((what, why),) = left.items()
+    assert what == "RSN8_ABCN45E.AT2, RSN8_ABCN45W.AT2, RSN8_ABCDWN.AT2"
+    assert why.startswith("RSN8_ABCDWN.AT2 is positive downward: give it with factor -1")
+
+
+def channel(path, name, component):
+    """A channel of CSMIP, whose heading names its component."""
+    text = (ROOT / "tests/data/motions" / name).read_text()
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(re.sub(r"(?im)^chan +1: +\d+ deg", f"Chan  1: {component}", text))
+
+
+def test_files_named_by_their_channel_alone_are_a_set_and_the_corrected_one_is_taken(tmp_path):
+    for number, component in enumerate(("90 deg", "Up", "0 deg"), start=1):
+        channel(tmp_path / "CE99" / f"chan00{number}.v2", "csmip-new.v2", component)
+        channel(tmp_path / "CE99" / f"chan00{number}.v1", "csmip-step.raw", component)
+    sets, left = taken(tmp_path)
+    assert sets == {"CE99": [f"CE99/chan00{number}.v2" for number in (3, 1, 2)]}
+    assert list(left.values()) == ["uncorrected; the corrected records are taken"]
+
+
+def test_two_horizontal_records_are_a_set_where_that_is_asked(tmp_path):
+    for name in ("P-000", "P-090", "Q-000", "Q-090", "Q-UP", "R-000"):
+        plain(tmp_path / f"{name}.csv")
+    sets, left = sets_of(tmp_path, without_vertical=True)
+    assert {name: len(group) for name, group in sets.items()} == {"P": 2, "Q": 3}
+    assert [what for what, _ in left] == ["R-000.csv (horizontal 0 deg)"]
+
+
+def test_the_table_says_what_each_file_was_taken_for(tmp_path):
+    for name in ("K-NS", "K-EW", "K-UD", "M-H1"):
+        plain(tmp_path / f"{name}.csv")
+    sets, left = sets_of(tmp_path)
+    words = ["horizontal e", "horizontal n", "vertical, positive up"]
+    assert [each.taken_for for each in sets["K"]] == words
+    assert all(word in line for word, line in zip(words, list(table(sets))[1:], strict=True))
+    assert left[0][0] == "M-H1.csv (horizontal h1)"
+
+
 def test_several_channels_of_a_file_are_named_as_in_the_sheet(tmp_path):
     rows = "".join(f"{0.01 * k:.2f},0.1,{0.2 * (k % 2)},0.{k}\n" for k in range(8))
     (tmp_path / "PAS.csv").write_text(f"time [s],HNZ [g],HNN [g],HNE [g]\n{rows}")
@@ -153,7 +212,9 @@ def test_several_channels_of_a_file_are_named_as_in_the_sheet(tmp_path):
     sets, left = taken(tmp_path)
     assert sets == {"PAS": ["PAS.csv | HNE", "PAS.csv | HNN", "PAS.csv | HNZ"]}
     assert left == {"many.csv": "neither its heading (a) nor its name has a component"}
-    assert "PAS     x  PAS.csv | HNE    0.01        8  text" in list(table(sets_of(tmp_path)[0]))
+    assert "PAS     x  PAS.csv | HNE  horizontal e             0.01        8  text" in list(
+        table(sets_of(tmp_path)[0])
+    )
 
 
 def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):

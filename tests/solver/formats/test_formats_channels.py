@@ -121,7 +121,8 @@ def shaken(code, at=(20,), unit="g", peak=0.3):
     [
         ("-999", "g", (20,)), ("-999.0", "g", (20, 21, 22)), ("9999", "cm/s2", (0,)),
         ("-9999.00", "cm/s2", (299,)), ("99999", "cm/s2", (7,)), ("999.99", "m/s2", (7, 90)),
-        ("-999.25", "g", (7,)),
+        ("-999.25", "g", (7,)), ("-12345", "cm/s2", (7,)), ("32767", "cm/s2", (7,)),
+        ("99.99", "g", (7,)),
     ],
 )  # fmt: skip
 def test_a_code_for_missing_data_is_no_sample(tmp_path, code, unit, at):
@@ -131,6 +132,21 @@ def test_a_code_for_missing_data_is_no_sample(tmp_path, code, unit, at):
     shown = "99999" if code == "999.99" else f"{float(code):g}"  # the file may be of cm/s2
     assert f"a.txt: sample {at[0] + 1} is {shown} where no other exceeds" in problem
     assert "code for missing data" in problem
+
+
+def test_a_code_beside_weak_or_strong_shaking_is_no_sample(tmp_path):
+    path = tmp_path / "a.txt"
+    for code, unit, peak in (("-999", "cm/s2", 0.05), ("-999", "g", 1.4)):
+        path.write_text(shaken(code, unit=unit, peak=peak))
+        (problem,) = refused(read_motion_file, path, units=unit, dt_s=0.01)
+        assert "code for missing data" in problem
+
+
+def test_gravity_in_a_component_is_noted(tmp_path):
+    path = tmp_path / "a.csv"
+    rows = "".join(f"{k / 100},{0.1 * (-1) ** k},{1 - 0.1 * (-1) ** k}\n" for k in range(50))
+    path.write_text(f"t_s,X_g,Z_g\n{rows}")
+    assert read_motion_file(path).notes == ("Z: the mean is about 1 g: gravity is in it",)
 
 
 @pytest.mark.parametrize(

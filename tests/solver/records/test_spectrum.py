@@ -21,7 +21,7 @@ def test_the_spectrum_of_a_record_has_its_name(noise):
 
 
 def test_the_spectra_of_a_motion_are_those_of_its_components_scaled(noise):
-    motion = solver.motion(noise, z=0.5 * noise, dt_s=0.01, scale=2.0)
+    motion = solver.motion(noise, az_mps2=0.5 * noise, dt_s=0.01, scale=2.0)
     found = solver.spectrum(motion, PERIODS)
     assert list(found.sa_mps2) == ["x", "z"]
     np.testing.assert_allclose(found.sa_mps2["x"], 2.0 * response_spectrum(noise, 0.01, PERIODS))

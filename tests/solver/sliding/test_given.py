@@ -4,9 +4,11 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import solver
+from refused import refused
 from solver import METHODS, InputError, Model, Motion, Outcome, Record, Settings, Status
 
 pytestmark = pytest.mark.quick
@@ -53,7 +55,9 @@ def test_a_sweep_takes_a_record_and_a_motion_of_one_axis(components):
     axes = {"slopes_rad": [0.0, 0.03], "mus": [0.2, 0.3], "scales": [0.5, 1.0]}
     from_arrays = solver.sweep(x.a_mps2, DT_S, az_mps2=z.a_mps2, **axes)
     from_records = solver.sweep(x, az_mps2=z, **axes)
-    from_motion = solver.sweep(solver.motion(x, z=z, scale=2.0), **axes | {"scales": [0.25, 0.5]})
+    from_motion = solver.sweep(
+        solver.motion(x, az_mps2=z, scale=2.0), **axes | {"scales": [0.25, 0.5]}
+    )
     for swept in (from_records, from_motion):
         np.testing.assert_array_equal(swept.prd_m, from_arrays.prd_m)
     with pytest.raises(InputError, match="two horizontal components"):
@@ -205,3 +209,45 @@ def test_shaking_that_is_far_too_weak_to_slip_anything_is_asked_about():
     solver.slide(weak, 0.1, slope_rad=0.0, mu=0.4, units="m/s2")
     solver.slide(weak, 0.1, slope_rad=0.0, mu=0.1)
     solver.slide(solver.record_from_values("r", weak, units="m/s2", dt_s=0.1), slope_rad=0, mu=0.4)
+
+
+PULSE_G = [0.0, 0.4, -0.4, 0.0, 0.0, 0.0]
+
+
+def series(name, index):
+    return pd.Series(PULSE_G, index=index, name=name)
+
+
+TIMES_S = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
+
+
+@pytest.mark.parametrize(
+    ("name", "index", "how"),
+    [
+        ("acceleration_g", TIMES_S, {}),
+        ("a [g]", pd.to_timedelta(TIMES_S, "s"), {}),
+        ("a_g", pd.date_range("2026-01-01", periods=6, freq="100ms"), {}),
+        ("x", TIMES_S, {"units": "g"}),
+        ("a_g", range(6), {"dt_s": 0.1}),
+    ],
+)
+def test_the_index_of_a_series_is_its_time_and_its_name_may_have_the_unit(name, index, how):
+    expected = solver.slide(PULSE_G, 0.1, slope_rad=0.0, mu=0.2, units="g")
+    given = series(name, index)
+    assert solver.slide(given, slope_rad=0.0, mu=0.2, **how) == expected
+    assert solver.motion(given, **how).dt_s == 0.1
+
+
+@pytest.mark.parametrize(
+    ("name", "index", "how", "problem"),
+    [
+        ("x", TIMES_S, {}, "ax_mps2 is a Series without a unit; give units, or a name such as"),
+        ("a_g", [*TIMES_S[:5], 0.6], {}, "ax_mps2 has an uneven index; give times at one step"),
+        ("a_g", TIMES_S, {"dt_s": 0.1}, "dt_s is given beside a record or a motion, which has"),
+        ("a_g", range(6), {}, "dt_s is None; give a number of seconds above 0"),
+        ("a_g", TIMES_S, {"ay_mps2": PULSE_G}, "some components are Series, in other units than"),
+    ],
+)
+def test_a_series_without_unit_or_even_times_is_refused(name, index, how, problem):
+    (told,) = refused(solver.slide, series(name, index), slope_rad=0.0, mu=0.2, **how)
+    assert told.startswith(problem)

@@ -9,7 +9,7 @@ import pytest
 
 from solver.kernels import one_axis
 from solver.model import InputError, Status
-from solver.sliding.checked import slide
+from solver.sliding.checked import motion, slide
 from solver.sliding.sweep import STATUSES, order_alike, sweep
 
 pytestmark = pytest.mark.quick
@@ -33,6 +33,21 @@ def test_a_sweep_is_every_single_run(noise, with_vertical):
         assert STATUSES[swept.status[i, j, k]] is result.status
         seen.add(result.status)
     assert {Status.OK, Status.SLIDING_AT_END} <= seen
+
+
+@pytest.mark.parametrize("with_vertical", [False, True])
+def test_a_sweep_in_two_axes_is_every_single_run(noise, with_vertical):
+    plane = {"ay_mps2": 0.8 * noise[::-1]} | ({"az_mps2": 0.2 * noise} if with_vertical else {})
+    few = {"slopes_rad": [0.0, 0.05], "mus": [0.1, 0.3], "scales": [0.0, 1.0]}
+    swept = sweep(noise, 0.01, **few, **plane)
+    for (i, slope), (j, mu), (k, scale) in product(*map(enumerate, few.values())):
+        result = slide(noise, 0.01, slope_rad=slope, mu=mu, scale=scale, **plane)
+        assert swept.prd_m[i, j, k] == result.prd_m
+        assert swept.residual_m[i, j, k] == result.residual_m
+        assert STATUSES[swept.status[i, j, k]] is result.status
+    assert swept.prd_m.max() > 0.0
+    whole = motion(noise, plane["ay_mps2"], plane.get("az_mps2"), dt_s=0.01)
+    np.testing.assert_array_equal(sweep(whole, **few).prd_m, swept.prd_m)
 
 
 def test_uplift_is_a_hole_with_its_status():

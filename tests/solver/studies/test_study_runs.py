@@ -22,7 +22,7 @@ def motions():
     rows *= np.sin(np.linspace(0.0, np.pi, 400))
     rows[:, -60:] = 0.0
     along = [
-        solver.motion(row, z=0.2 * row[::-1], dt_s=0.02, id=f"M{k}", signs=(1,))
+        solver.motion(row, az_mps2=0.2 * row[::-1], dt_s=0.02, id=f"M{k}", signs=(1,))
         for k, row in enumerate(rows[:3])
     ]
     return [*along, solver.motion(rows[3], rows[0], dt_s=0.02, id="both")]
