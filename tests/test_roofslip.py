@@ -108,6 +108,29 @@ def test_the_launcher_follows_its_own_link(tmp_path):
     )
 
 
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (["stdy", "x"], 2, "no such command 'stdy'; "),
+        (["study", "no.xlsx"], 1, "no.xlsx: no such file or folder"),
+        (["report", "projects", "--jbos=2"], 2, "no such option '--jbos'; see "),
+        (["motion", "rows", "x", "--without"], 0, ""),
+    ],
+)
+def test_the_launcher_checks_arguments_before_it_installs_anything(tmp_path, words, status, said):
+    folder = launcher(tmp_path)
+    shutil.copytree(ROOT / "docs", folder / "docs", ignore=shutil.ignore_patterns("pictures"))
+    (folder / "projects").mkdir()
+    path = f"{folder / '.venv' / 'bin'}:{os.environ['PATH']}"
+    done = subprocess.run(
+        [folder / "roofslip", *words], cwd=folder, env={"PATH": path}, capture_output=True,
+        text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, said in done.stderr) == (status, True)
+    seen = folder / ".venv" / "bin" / "seen"
+    assert seen.exists() == (status == 0)
+
+
 def test_an_environment_that_was_copied_is_made_anew_where_it_is(tmp_path):
     folder = launcher(tmp_path)
     first = calls_of(folder, folder / "roofslip")

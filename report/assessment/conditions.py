@@ -254,10 +254,21 @@ def motion_rows(acceptance: Acceptance, routes: Iterable[Route]) -> tuple[Requir
     What makes a value from analysis NG is none where no array takes that value.
     """
     takes_analysis = Route.ANALYSIS in routes
-    return tuple(_motion_row(missed, takes_analysis) for missed in acceptance.missed)
+    has_records = any(not motion.is_generated for motion in acceptance.motions)
+    spectral = next((each for each in acceptance.missed if each.is_ratio_to_target), None)
+    return tuple(
+        _motion_row(missed, takes_analysis, _SCALED if has_records and missed is spectral else "")
+        for missed in acceptance.missed
+    )
 
 
-def _motion_row(missed: Limit, takes_analysis: bool) -> Requirement:
+_SCALED = (
+    " To have the spectra of records reach it, set Scaling to target spectrum on the sheet Motions,"
+    " or make motions of them with motion suite --records."
+)
+
+
+def _motion_row(missed: Limit, takes_analysis: bool, way: str) -> Requirement:
     is_ng = missed.consequence is Consequence.NG
     found, least = (f"{v:.4g} {missed.measure.unit}".rstrip() for v in (missed.found, missed.limit))
     return Requirement(
@@ -268,7 +279,7 @@ def _motion_row(missed: Limit, takes_analysis: bool) -> Requirement:
         basis=missed.provision.clause,
         is_satisfied=False,
         consequence=Consequence.NG if is_ng and takes_analysis else Consequence.CONDITION,
-        remedy=_motion_remedy(is_ng, takes_analysis),
+        remedy=_motion_remedy(is_ng, takes_analysis) + way,
         places=(Place("motions"),),
     )
 
