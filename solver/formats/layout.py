@@ -21,13 +21,13 @@ from solver.model import Floats, InputError
 from solver.records.record import raise_any
 
 _SEP = re.compile(r'"?sep=([,;\t| ])"?', re.IGNORECASE)
-_QUOTED = re.compile(r'"[^"]*"\s*([,;\t|])?')
+_QUOTED = re.compile(r'"[^"]*" *([,;\t|])?')
 _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
 _MARKS = ",;\t"
 _SEEN = 200
 _BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
 
-ACROSS = "put one on each line, or say that there are {} values per line"
+ACROSS = "put one on each line, or give the values per line (--values-per-line {})"
 
 Row = tuple[int, str]
 """Index of a line, and its content."""

@@ -1,6 +1,8 @@
 """The commands on records, as a user or a script calls them."""
 
+import io
 import re
+import zipfile
 
 import numpy as np
 import pytest
@@ -90,6 +92,29 @@ def test_info_takes_the_step_and_the_units_of_a_bare_column(column):
     (channel,) = as_json("info", column, "--dt", 0.02, "--units", "m/s2")["channels"]
     assert channel["dt_s"] == 0.02
     assert channel["pga_g"] == pytest.approx(0.25 / G, rel=1e-12)
+
+
+def test_values_across_the_lines_are_read_where_their_number_is_given(tmp_path):
+    path, out = tmp_path / "across.txt", tmp_path / "out.csv"
+    path.write_text("0 0.125 -0.25\n0.1 0.2 0.3\n0.5\n")
+    assert "(--values-per-line 3)" in refused("info", path, *READING)
+    printed("convert", path, out, *READING, "--values-per-line", 3, "--factor", -1)
+    record = read_record(out)
+    assert record.dt_s == 0.02
+    assert record.a_mps2 / G == pytest.approx([0.0, -0.125, 0.25, -0.1, -0.2, -0.3, -0.5])
+
+
+def test_a_zip_in_a_zip_is_unpacked_and_two_components_are_taken_where_asked(tmp_path):
+    inner, outer = io.BytesIO(), tmp_path / "site.zip"
+    with zipfile.ZipFile(inner, "w") as archive:
+        for axis in "xy":
+            archive.write(RECORD, f"M-{axis}.csv")
+    with zipfile.ZipFile(outer, "w") as archive:
+        archive.writestr("part.zip", inner.getvalue())
+    assert "--without-vertical takes the two" in refused("rows", outer)
+    told = printed("rows", outer, "--without-vertical")
+    assert "part/M-x.csv  horizontal x" in told
+    assert "note: M: without a vertical record. Motions for analysis have two horizontal" in told
 
 
 def test_info_prints_a_table_for_people(column):

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from refused import refused
 from solver.formats import read_motion_file, read_record
@@ -67,6 +69,31 @@ def test_what_programs_add_to_a_table_changes_no_number(file, content):
     record = read_record(file(content), units="g")
     assert record.dt_s == 0.02
     assert record.a_mps2.tolist() == [0.1 * G, -0.2 * G, 0.3 * G]
+
+
+@pytest.mark.nightly
+@settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    values=st.lists(st.integers(-900, 900), min_size=3, max_size=40),
+    mark=st.sampled_from([",", ";", "\t"]),
+    is_quoted=st.booleans(),
+    is_told=st.booleans(),
+    has_last_mark=st.booleans(),
+    units_row=st.booleans(),
+    end=st.sampled_from(["\n", "\r\n", "\r\r\n"]),
+)
+def test_any_dialect_of_a_table_has_the_same_samples(
+    file, values, mark, is_quoted, is_told, has_last_mark, units_row, end
+):
+    rows = [["Time", "Acc"], ["s", "m/s2"]] if units_row else [["Time [s]", "Acc [m/s2]"]]
+    rows += [[f"{0.01 * k:.2f}", f"{value / 1000:.3f}"] for k, value in enumerate(values)]
+    quote = '"' if is_quoted else ""
+    lines = [mark.join(f"{quote}{field}{quote}" for field in row) for row in rows]
+    top = [f"sep={mark}"] if is_told else []
+    content = end.join([*top, *(line + mark * has_last_mark for line in lines), ""])
+    record = read_record(file(content))
+    assert record.dt_s == 0.01
+    assert record.a_mps2.tolist() == [value / 1000 for value in values]
 
 
 @pytest.mark.parametrize(
