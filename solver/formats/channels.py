@@ -99,7 +99,8 @@ def motion_file(
             raise InputError(f"{source.name}: found {samples}; give at least 2")
         _check_size(source, channel)
         a_mps2 = read_only(channel.a_mps2)
-        gravity = ("the mean is about 1 g: gravity is in it",) if has_gravity(a_mps2) else ()
+        shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
+        gravity = ("the mean is about 1 g: gravity is in it",) if shakes else ()
         records.append(Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2))
         told = (*gravity, *channel.notes)
         all_notes += told if alone else [f"{name}: {note}" for note in told]

@@ -33,11 +33,11 @@ from solver.records.record import raise_any, shown
 
 _LONGEST_HEADING = 100
 _COUNTS = "NDATA", "NUMBER OF DATA"
-_STEPS = "SAMPLING_INTERVAL_S", "SAMPLING INTERVAL (SEC)"
+_STEPS = "SAMPLING_INTERVAL_S", "SAMPLING INTERVAL (SEC)", "SAMPLING INTERVAL (S)"
 _START = "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS", "RECORD TIME"
 _START_FORMATS = "%Y%m%d_%H%M%S.%f", "%Y%m%d_%H%M%S", "%d/%m/%Y %H:%M:%S.%f", "%d/%m/%Y %H:%M:%S"
 _PEAK, _LENGTH, _QUANTITY, _UNIT = "PGA_CM/S^2", "DURATION_S", "DATA_TYPE", "UNITS"
-_PEAKS = re.compile(r"RAW PGA VALUES\s*\((.*)\)")
+_PEAKS = re.compile(r"(?:RAW )?PGA VALUES\s*\((.*)\)")
 _NAMED_PEAK = re.compile(r"\(([NSEWUDVZ-]{1,3})\)\s*([+-]?[\d.]+)", re.ASCII)
 _NAME = re.compile(r"[A-Z]-?[A-Z]?", re.IGNORECASE)
 
@@ -72,7 +72,7 @@ def read(source: Source) -> MotionFile:
 
 
 def _asc(source: Source, heading: _Heading, dt_s: float, block: Block) -> list[Channel]:
-    quantity, at = _entry(source, heading, _QUANTITY)
+    quantity, at = heading.get(_QUANTITY, ("ACCELERATION", 0))
     if "ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper():
         raise InputError(f"{source.at(at)}: found {quantity.lower()}; give a file of acceleration")
     scale = source.scale(*_entry(source, heading, _UNIT))

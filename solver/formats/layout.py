@@ -156,12 +156,13 @@ def check_shape(source: Source, start: int, separator: str | None) -> None:
     """Raise for rows that are no columns: values across the lines, or a first row unlike all."""
     rows = [(i, len(row.split(separator))) for i, row in rows_of(source.lines, start)]
     (first, width), *others = rows
-    is_headed = start > 0 and bool(content_of(source.lines[start - 1]))
-    if is_headed or len(others) < 2:
+    heading = content_of(source.lines[start - 1]) if start else ""
+    is_headed = bool(heading) and len(headings.words(heading, separator)) == width
+    if len(others) < 2:
         return
     *middle, (last, left) = others
     widths = {found for _, found in middle}
-    if widths == {width} and left < width:
+    if not is_headed and widths == {width} and left < width:
         raise InputError(
             f"{source.at(last)}: found {left} values after lines of {width}: values across the"
             f" lines, not in columns; {ACROSS.format(width)}"

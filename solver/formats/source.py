@@ -199,7 +199,7 @@ def _decode(name: str, data: bytes) -> str:
         if data.startswith((b"\xff\xfe", b"\xfe\xff")):
             return data.decode("utf-16")
         plain = data.rstrip(b"\x00" + _END_OF_TEXT)
-        if not _CONTROL.search(plain):
+        if not _CONTROL.search(plain) and (plain or not data.startswith(b"\x00")):
             return plain.decode("utf-8-sig")
     except UnicodeDecodeError:
         data = data.rstrip(_END_OF_TEXT)

@@ -21,6 +21,8 @@ from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
 
 _ALONE = 3.0  # a code for missing data / all other samples, at least: shaking rises over several
 _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
+_SHORT_CODES = {"99", "-99"}  # where no shaking is as large
+_NO_SHAKING_G = 9.0
 
 UNITS = {"g": STANDARD_GRAVITY_MPS2, "m/s2": 1.0, "cm/s2": 0.01, "mm/s2": 0.001}
 """Acceleration units and their value in m/s2."""
@@ -204,7 +206,10 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     if size[at] <= _ALONE * most:
         return
     values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
-    if codes := list(filter(_CODES.fullmatch, values)):
+    codes = [value for value in values if _CODES.fullmatch(value)]
+    if size[at] > _NO_SHAKING_G * UNITS["g"]:
+        codes += _SHORT_CODES.intersection(values)
+    if codes:
         raise InputError(
             f"{name}: sample {at + 1:,} is {min(codes, key=len)} where no other exceeds"
             f" {most / UNITS['g']:.3g} g: it is a code for missing data; give a record without gaps"

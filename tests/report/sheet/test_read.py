@@ -370,7 +370,10 @@ REFUSED = [
     ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
     ("pipe.csv", f"'pipe.csv' is not a file; {WITHIN}"),
     ("big.csv", "'big.csv' has 65 MB; give at most 64 MB"),
-    ("input.xlsx", "input.xlsx: not a text file; give the text of a record"),
+    (
+        "input.xlsx",
+        "input.xlsx: not a text file; a zip or a workbook; unpack it, or save its sheet as CSV",
+    ),
 ]
 
 

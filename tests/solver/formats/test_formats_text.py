@@ -331,6 +331,8 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
             "100 7\n1\n2\n3\n",
             ["1: found 2 numbers above rows of 1; if they are no samples, put # be"],
         ),
+        ("made motion\n0.01 7\n1\n2\n3\n", ["2: found 2 numbers above rows of 1; if they are no"]),
+        ("Northridge\n1 2 3\n4 5 6\n7\n", ["4: found 1 values after lines of 3: values across"]),
         (
             "0 1\n2 0\n" * 6,
             [" found 2 columns without a heading, and the first is no time: it fal"],
