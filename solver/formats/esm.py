@@ -18,13 +18,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from solver.formats.channels import (
-    Channel,
-    check_length,
-    motion_file,
-    offset_notes,
-    peak_notes,
-)
+from solver.formats.channels import Channel, check_length, motion_file, offset_notes, peak_notes
 from solver.formats.motionfile import MotionFile
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.source import Source
@@ -101,16 +95,9 @@ def _afad(
     columns = free_values(source, block).reshape(-1, len(names)).T * scale
     stated = {m[1]: printed(m[2], at).value * scale for m in _NAMED_PEAK.finditer(text.upper())}
     return [
-        Channel(
-            name=name,
-            dt_s=dt_s,
-            a_mps2=values,
-            notes=(
-                *_peak_notes(source, at, stated.get(name.upper(), 0.0), values),
-                *offset_notes(values),
-            ),
-        )
+        Channel(name=name, dt_s=dt_s, a_mps2=values, notes=(*notes, *offset_notes(values)))
         for name, values in zip(names, columns, strict=True)
+        for notes in (_peak_notes(source, at, stated.get(name.upper(), 0.0), values),)
     ]
 
 

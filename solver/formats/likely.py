@@ -10,7 +10,6 @@ them.
 from __future__ import annotations
 
 import re
-import struct
 from collections.abc import Sequence
 
 from solver.records.record import shown
@@ -29,10 +28,8 @@ _TEXTS = (
     (r"TIMESERIES ", "TSPAIR or SLIST of EarthScope", _CONVERT),
     (r"(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b", "GSE2", _CONVERT),
     (r"(?:\s+-?12345(?:\.0*)?){3}", "SAC in letters", _CONVERT),
-    (r".*(?:BASE DE DATOS MEXICANA|ASA ?2\.0|\bUNAM\b)", "a file of UNAM, Mexico", _COLUMNS),
-    (r".*\b(?:BHRC|ISMN)\b", "a file of BHRC, Iran", _COLUMNS),
-    (r".*(?:CSMNC|CHINA STRONG)", "a file of CSMNC, China", _COLUMNS),
-    (r".*\bUSC\b|.*UNIVERSITY OF SOUTHERN CALIFORNIA", "a file of USC", _COLUMNS),
+    (r".*(?:MEXICANA|ASA ?2\.0|UNAM\b)", "a file of UNAM, Mexico", _COLUMNS),
+    (r".*\b(?:BHRC|CSMNC|USC)\b", "a file of another network", _COLUMNS),
     (r"\s*(?:timeSeries|set|function|import|pattern)\b", "a program", _AS_RECORD),
 )  # fmt: skip
 _LOOKED_AT = 15
@@ -47,7 +44,7 @@ _BYTES = (
     (re.compile(rb"MATLAB"), "a file of MATLAB", _COLUMNS),
     (re.compile(rb"\x93NUMPY"), "an array of numpy", _COLUMNS),
 )
-_SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, (6, 7)
+_SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, {6, 7}
 
 
 def likely_text(lines: Sequence[str], index: int) -> str:
@@ -68,8 +65,6 @@ def likely_bytes(data: bytes) -> str:
         if pattern.match(data):
             return f"{name}; {remedy}"
     heading = data[_SAC_VERSION_AT : _SAC_VERSION_AT + 4]
-    if len(data) > _SAC_HEADING and any(
-        struct.unpack(f"{order}i", heading)[0] in _SAC_VERSIONS for order in "<>"
-    ):
-        return f"SAC; {_CONVERT}"
-    return ""
+    versions = [int.from_bytes(heading, order) for order in ("little", "big")]
+    is_sac = len(data) > _SAC_HEADING and not _SAC_VERSIONS.isdisjoint(versions)
+    return f"SAC; {_CONVERT}" if is_sac else ""

@@ -99,18 +99,10 @@ def _block(source: Source, whole: Sequence[Stated]) -> tuple[Block, tuple[str, .
                 " of comment; give the whole file"
             )
     more = len(list(itertools.takewhile(lambda line: line.startswith("|"), source.lines[first:])))
-    notes = (
-        (f"states {comments.value:.0f} lines of comment, found {comments.value + more:.0f}",)
-        if more
-        else ()
-    )
-    block = Block(
-        first=first + more,
-        stop=len(source.lines),
-        count=int(count.value),
-        promised=count.index,
-    )
-    return block, notes
+    note = f"states {comments.value:.0f} lines of comment, found {comments.value + more:.0f}"
+    stop, promised = len(source.lines), count.index
+    block = Block(first=first + more, stop=stop, count=int(count.value), promised=promised)
+    return block, (note,) if more else ()
 
 
 def _uneven(source: Source, block: Block) -> tuple[float, Floats, tuple[str, ...]]:

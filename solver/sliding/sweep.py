@@ -42,12 +42,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 STATUSES = (
-    Status.OK,
-    Status.SLIDING_AT_END,
-    Status.UPLIFT,
-    Status.STEP_LIMIT,
-    Status.DIVERGED,
-)
+    Status.OK, Status.SLIDING_AT_END, Status.UPLIFT, Status.STEP_LIMIT, Status.DIVERGED
+)  # fmt: skip
 """Meaning of the numbers in `Sweep.status`."""
 
 
@@ -143,11 +139,8 @@ def sweep(
     0.3 1.0    0.0007  0.0030
     """
     problems: list[str] = []
-    given: dict[str, Given | None] = {
-        "ax_mps2": ax_mps2,
-        "ay_mps2": ay_mps2,
-        "az_mps2": az_mps2,
-    }
+    names = "ax_mps2", "ay_mps2", "az_mps2"
+    given = dict(zip(names, (ax_mps2, ay_mps2, az_mps2), strict=True))
     records, step_s, factor = unpacked(given, dt_s, problems)
     ax, ay, az = checked_records(records, problems, unit_size(given, units, problems))
     axes = [
@@ -188,8 +181,9 @@ def _run_in_plane(
     def run(each: tuple[float, float, float]) -> SlideResult:
         slope, mu, scale = map(float, each)
         friction = coulomb(mu)
-        given = replace(scene, slope_rad=slope, friction=friction, scale=factor * scale)
-        return two_axes.run(given)
+        return two_axes.run(
+            replace(scene, slope_rad=slope, friction=friction, scale=factor * scale)
+        )
 
     results: list[SlideResult] = []
     with ThreadPoolExecutor(THREADS) as pool:
