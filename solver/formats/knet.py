@@ -40,7 +40,7 @@ _LEADING = re.compile(r"[\d.]+", re.ASCII)
 
 _CSV_HEADING_LINES = 40
 _COLUMNS = re.compile(r"#?\s*Time\s*,\s*RelativeTime\s*\(s\)\s*,", re.IGNORECASE)
-_IN_UNIT = re.compile(r"(.*?)\s*\(([^()]+)\)")
+_IN_UNIT = re.compile(r"([^()\s]*+)\s*+\(([^()]+)\)")
 
 _BOREHOLE = "the sensor is in the borehole, not at the surface"
 _KIK_NET = {"1": "NS1", "2": "EW1", "3": "UD1", "4": "NS2", "5": "EW2", "6": "UD2"}

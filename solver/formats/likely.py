@@ -21,16 +21,16 @@ _COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
 _AS_RECORD = "give the record itself, such as the file that its download page offers"
 
 _TEXTS = (
-    (r"\s*<(?:!doctype html|html)", "a web page", _AS_RECORD),
-    (r"\s*<\?xml|\s*<[a-z]+[ >]", "XML, such as StationXML", _AS_RECORD),
-    (r"\s*[\[{]", "JSON", _COLUMNS),
-    (r"#?\s*(?:StationCode|Station Code|InstrumentKind)\b", "a file of CWA, Taiwan", _COLUMNS),
-    (r"TIMESERIES ", "TSPAIR or SLIST of EarthScope", _CONVERT),
-    (r"(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b", "GSE2", _CONVERT),
-    (r"(?:\s+-?12345(?:\.0*)?){3}", "SAC in letters", _CONVERT),
-    (r".*(?:MEXICANA|ASA ?2\.0|UNAM\b)", "a file of UNAM, Mexico", _COLUMNS),
-    (r".*\b(?:BHRC|CSMNC|USC)\b", "a file of another network", _COLUMNS),
-    (r"\s*(?:timeSeries|set|function|import|pattern)\b", "a program", _AS_RECORD),
+    (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
+    (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
+    (re.compile(r"(?i)\s*[\[{]"), "JSON", _COLUMNS),
+    (re.compile(r"(?i)#?\s*(?:Station ?Code|InstrumentKind)\b"), "a file of CWA, Taiwan", _COLUMNS),
+    (re.compile(r"(?i)TIMESERIES "), "TSPAIR or SLIST of EarthScope", _CONVERT),
+    (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
+    (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
+    (re.compile(r"(?i).*(?:MEXICANA|ASA ?2\.0|UNAM\b)"), "a file of UNAM, Mexico", _COLUMNS),
+    (re.compile(r"(?i).*\b(?:BHRC|CSMNC|USC)\b"), "a file of another network", _COLUMNS),
+    (re.compile(r"(?i)\s*(?:timeSeries|set|function|import|pattern)\b"), "a program", _AS_RECORD),
 )  # fmt: skip
 _LOOKED_AT = 15
 
@@ -51,7 +51,7 @@ def likely_text(lines: Sequence[str], index: int) -> str:
     """Return what a text that is no table of numbers probably is, and what to do; at a line."""
     near = [line for line in lines[:_LOOKED_AT] if line.strip()]
     for pattern, name, remedy in _TEXTS:
-        if any(re.match(pattern, line, re.IGNORECASE) for line in near):
+        if any(map(pattern.match, near)):
             return f"this looks like {name}, which is not read; {remedy}"
     return (
         f"found {shown(lines[index].strip())} where numbers are due, and no heading of a format"
