@@ -96,6 +96,10 @@ def read(
             layers = choose(drawn, named, given, accept)
             found = plan_of(drawn, unit_m, {**named, **layers}, gap_m)
         if not (found.roof or found.arrays or found.objects):
+            if drawn.layouts and not drawn.lines:
+                names = ", ".join(drawn.layouts)
+                text = f"its closed lines are in the layout {names}, not in model space"
+                raise InputError(f"{text}; move them there in CAD")
             unread = list(_unread(found)) or ["the drawing has no closed lines"]
             raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
         with input_errors(drawing):
@@ -111,6 +115,7 @@ def read(
             ]
         more = [*more, *withdrawn(change)]
     lines = (
+        *filter(None, (drawn.repairs,)),
         *turn,
         *(_line(place, gap_m) for place in (*found.roof, *told.plan.arrays, *told.plan.objects)),
         *_unread(found),
@@ -175,6 +180,8 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     found = read_dxf(drawing, LENGTHS.get(units or ""))
     unit = units or found.unit
     if not unit:
+        if found.other_unit:
+            raise InputError(found.other_unit)
         raise InputError(f"states no unit; add --units with one of {', '.join(UNIT_CHOICES)}")
     return found, LENGTHS[unit]
 

@@ -11,7 +11,7 @@ import logging
 import math
 import re
 from collections import Counter, defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -43,9 +43,17 @@ JOIN_M = 0.005
 
 UNITS: Mapping[int, str] = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
 """Units of drawings by $INSUNITS."""
+OTHER_UNITS: Mapping[int, tuple[str, str]] = {
+    3: ("miles", "ft"), 7: ("kilometers", "m"), 8: ("microinches", "in"), 9: ("mils", "in"),
+    10: ("yards", "ft"), 14: ("decimeters", "m"), 15: ("decameters", "m"),
+    16: ("hectometers", "m"), 21: ("US survey feet", "ft"), 22: ("US survey inches", "in"),
+    23: ("US survey yards", "ft"), 24: ("US survey miles", "ft"),
+}  # fmt: skip
+"""Units that drawings state and roofs are not drawn in, and in which such a drawing mostly is."""
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 _HEIGHTS = ("HT", "HEIGHT", "ELEV")
+_ENDED = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*EOF\s*\Z")
 _ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
 
 
@@ -113,7 +121,13 @@ class RoofDrawing:
     Attributes
     ----------
     unit : str
-        Empty if it states none that is known.
+        Empty if it states none of `UNITS`.
+    other_unit : str
+        What it states of `OTHER_UNITS`, as a sentence goes on after its name; empty for none.
+    layouts : tuple of str
+        Those that have closed lines, which no plan is read from.
+    repairs : str
+        What to say of a damaged drawing; empty for a sound one.
     counts : Counter of tuple of str
         How many of each layer and kind of entity there are.
     north_deg : float
@@ -123,6 +137,9 @@ class RoofDrawing:
     """
 
     unit: str
+    other_unit: str = ""
+    layouts: tuple[str, ...] = ()
+    repairs: str = ""
     lines: list[Drawn] = field(default_factory=list)
     texts: list[Words] = field(default_factory=list)
     unread: list[Unread] = field(default_factory=list)
@@ -163,23 +180,53 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     from report.words.units import LENGTHS
 
     _check(path)
-    document = _loaded(path)
-    unit = UNITS.get(document.header.get("$INSUNITS", 0), "")
+    document, repairs = _loaded(path)
+    code = document.header.get("$INSUNITS", 0)
+    unit = UNITS.get(code, "")
     geodata = document.modelspace().get_geodata()
     north_deg = math.nan
     if geodata and not (north := geodata.dxf.north_direction.vec2).is_null:
         north_deg = north.angle_deg % 360.0
-    drawing = RoofDrawing(unit, north_deg=north_deg)
     hidden = {
         layer.dxf.name.casefold(): "frozen" if layer.is_frozen() else "off"
         for layer in document.layers
         if layer.is_frozen() or layer.is_off()
     }
-    reader = _Reader(drawing, unit_m or LENGTHS.get(unit, 1.0), hidden)
-    for entity in document.modelspace():
-        reader.take(entity, _Block())
-    reader.take_joined()
+    size_m = unit_m or LENGTHS.get(unit, 1.0)
+    drawing = RoofDrawing(
+        unit,
+        other_unit=_other_unit(code),
+        repairs=repairs,
+        north_deg=north_deg,
+        layouts=tuple(_drawn_layouts(document, size_m, hidden)),
+    )
+    reader = _Reader(drawing, size_m, hidden)
+    reader.take_all(document.modelspace())
     return drawing
+
+
+def _other_unit(code: int) -> str:
+    if code not in OTHER_UNITS:
+        return ""
+    stated, unit = OTHER_UNITS[code]
+    is_same = stated == f"US survey {'feet' if unit == 'ft' else 'inches'}"  # within 2 in a million
+    condition = "" if is_same else ", if that is what it is drawn in, or scale it in CAD"
+    return f"states {stated}; give --units {unit}{condition}"
+
+
+def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str]) -> Iterator[str]:
+    """Yield the layouts that have closed lines, as far as the limits of a drawing go."""
+    drawing = RoofDrawing("")
+    reader = _Reader(drawing, unit_m, hidden)
+    for name in document.layouts.names_in_taborder():
+        before = len(drawing.lines)
+        try:
+            if name != "Model":
+                reader.take_all(document.paperspace(name))
+        except InputError:
+            return
+        if len(drawing.lines) > before:
+            yield _printable(name)
 
 
 def _check(path: Path) -> None:
@@ -212,16 +259,28 @@ def _limit(count: int, most: int, what: str) -> None:
         )
 
 
-def _loaded(path: Path) -> Document:
+def _loaded(path: Path) -> tuple[Document, str]:
+    """Return a drawing, and what to say of its repair if strict reading refuses it."""
     import ezdxf
+    from ezdxf import recover
 
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:
-        return ezdxf.filemanagement.readfile(str(path))
-    except Exception as error:  # a damaged drawing makes the library raise almost anything
-        raise InputError(
-            "not a DXF drawing, or damaged; open it in CAD and save it again"
-        ) from error
+        return ezdxf.filemanagement.readfile(str(path)), ""
+    except Exception as refused:  # a damaged drawing makes the library raise almost anything
+        damaged = InputError("not a DXF drawing, or damaged; open it in CAD and save it again")
+        # What is missing at the end of a drawing that was cut off, no repair would tell.
+        if not _ENDED.search(path.read_bytes()):
+            raise damaged from refused
+    try:
+        document, audit = recover.readfile(str(path))
+    except Exception as error:
+        raise damaged from error
+    if audit.has_errors:  # such as a coordinate that it has guessed
+        raise damaged
+    count = len(audit.fixes)
+    fixes = f", {count} faults repaired" if count > 1 else ", a fault repaired" if count else ""
+    return document, f"a damaged drawing, read as far as it can be{fixes}: compare the plan"
 
 
 def _check_expanded(count: int) -> None:
@@ -242,6 +301,9 @@ def _count(insert: Any) -> int:
 def _printable(text: object) -> str:
     """Return a text of the drawing without what no terminal and no page may print."""
     return trimmed(UNPRINTABLE.sub("", str(text)))
+
+
+_Clip = tuple[list[Point], bool]
 
 
 class _Block(NamedTuple):
@@ -267,6 +329,12 @@ class _Reader:
     blocks: int = 0
     points: int = 0
     letters: int = 0
+
+    def take_all(self, space: Iterable[Any]) -> None:
+        """Add all of model space, or of a layout."""
+        for entity in space:
+            self.take(entity, _Block())
+        self._take_joined()
 
     def take(self, entity: Any, block: _Block) -> None:
         """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
@@ -326,7 +394,7 @@ class _Reader:
         self.drawing.lines.append(replace(line, points=ring(line.points)))
         return ""
 
-    def take_joined(self) -> None:
+    def _take_joined(self) -> None:
         """Add the closed lines that the open ones form."""
         for lines in self.opened.values():
             closed, rest = join([line.points for line in lines], JOIN_M / self.unit_m)
@@ -336,6 +404,7 @@ class _Reader:
                     self._leave(line.handle, line.layer, reason)
             for k, reason in rest.items():
                 self._leave(lines[k].handle, lines[k].layer, reason)
+        self.opened.clear()
 
     def _leave(self, handle: str, layer: str, reason: str) -> None:
         """Note what is not read; after a colon, what of it."""
@@ -345,8 +414,6 @@ class _Reader:
 
     def _take_insert(self, insert: Any, layer: str, handle: str, depth: int) -> str:
         """Add what a block shows, or return why it shows nothing."""
-        from ezdxf.xclip import XClip
-
         block_of, shown = insert.block(), f"'{_printable(insert.dxf.name)}'"
         if block_of is None:
             return f"a block that the drawing does not have: {shown}"
@@ -357,20 +424,37 @@ class _Reader:
         if depth > MAX_DEPTH:
             raise InputError(f"block {shown}: nested more than {MAX_DEPTH} deep; explode it")
         name, heights = _attributes(insert)
-        count = _count(insert)
+        count, clip = _count(insert), _clip(insert)
         _check_expanded(count)
         for one in insert.multi_insert() if count > 1 else (insert,):
             self.blocks += 1
             _check_expanded(self.blocks)
             block = _Block(self.blocks, depth, handle, name, heights)
+            before = len(self.drawing.lines)
             for entity in one.virtual_entities():
                 # Layer 0 within a block is the layer that the block is put on.
                 if entity.dxf.get("layer", "0") == "0":
                     entity.dxf.layer = layer
                 self.take(entity, block)
-        if XClip(insert).is_clipping_enabled:
-            return f"a block that is clipped, of which all is read: {shown}"
+            if clip and count == 1:
+                self._clip_off(before, clip)
+        if clip:
+            return f"a block that is clipped, and read whole where the clip crosses a line: {shown}"
         return ""
+
+    def _clip_off(self, first: int, clip: _Clip) -> None:
+        """Leave out the lines of a block that its clip hides whole."""
+        import shapely
+
+        path, is_inverted = clip
+        area, lines = shapely.Polygon(path).buffer(0.0), self.drawing.lines[first:]
+        del self.drawing.lines[first:]
+        for line in lines:
+            shape = shapely.LinearRing(line.points)
+            if area.contains(shape) if is_inverted else not area.intersects(shape):
+                self._leave(line.handle, line.layer, "clipped off")
+            else:
+                self.drawing.lines.append(line)
 
     def _take_text(self, entity: Any, layer: str, kind: str) -> str:
         """Add a text that says something at a place; none is missed that does not."""
@@ -390,6 +474,19 @@ class _Reader:
                       of=_own_name(entity))
             )  # fmt: skip
         return ""
+
+
+def _clip(insert: Any) -> _Clip | None:
+    """Return the clip of a block in world coordinates, and whether it hides what is inside."""
+    from ezdxf.xclip import XClip
+
+    # One within another block is a copy, which has no clip of its own.
+    clip = XClip(insert.origin_of_copy or insert)
+    if not clip.is_clipping_enabled:
+        return None
+    path = clip.get_block_clipping_path()
+    at = insert.matrix44().transform_vertices([(p.x, p.y, 0.0) for p in path.inner_polygon()])
+    return [(float(p.x), float(p.y)) for p in at], path.is_inverted_clip
 
 
 def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:

@@ -9,6 +9,7 @@ from report.drawing.read_dxf import read_dxf
 from report.sheet.schema.choices import UnitsFirst
 from sheets import blank
 from sketch import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
+from solver.model import InputError
 
 pytestmark = pytest.mark.quick
 
@@ -70,13 +71,113 @@ def test_an_external_reference_that_is_not_bound_is_named(tmp_path):
     )  # fmt: skip
 
 
-def test_a_clipped_block_is_read_whole_and_named(tmp_path):
+CLIPPED = "a block that is clipped, and read whole where the clip crosses a line"
+
+
+@pytest.mark.parametrize("is_nested", [False, True])
+@pytest.mark.parametrize(
+    ("path", "is_inverted", "shown"),
+    [
+        ([(67, 55), (70, 60)], False, ["OBJ-1"]),
+        ([(0, 0), (60, 50)], False, []),
+        ([(60, 50), (80, 50), (70, 90)], False, ["OBJ-1"]),
+        ([(0, 0), (60, 50)], True, ["OBJ-1"]),
+        ([(60, 50), (80, 70)], True, []),
+    ],
+)
+def test_a_clipped_block_is_read_without_the_lines_that_are_hidden(
+    tmp_path, path, is_inverted, shown, is_nested
+):
     sketch = Sketch()
     put = with_block(sketch)
-    XClip(put).set_block_clipping_path([(67, 55), (70, 60)])
+    clip = XClip(put)
+    clip.set_block_clipping_path(path)
+    if is_inverted:
+        clip.invert_clipping_path([(-500, -500), (500, 500)], ignore_acad_compatibility=True)
+    if is_nested:
+        outer = sketch.document.blocks.new("OUTER")
+        sketch.space.unlink_entity(put)
+        outer.add_entity(put)
+        turned = {"layer": "OBJECT", "rotation": 90, "xscale": -1}
+        sketch.space.add_blockref("OUTER", (300, 10), dxfattribs=turned)
     found = plan(sketch.saved(tmp_path))
-    assert names(found) == ["OBJ-1"]
-    assert reasons(found) == [("a block that is clipped, of which all is read", "OBJECT")]
+    assert names(found) == shown
+    left = [] if shown else [("clipped off", "OBJECT")]
+    assert reasons(found) == [*left, (CLIPPED, "OBJECT")]
+
+
+def test_closed_lines_in_a_layout_are_said_to_be_there(tmp_path):
+    sketch = Sketch()
+    paper = sketch.document.layouts.new("A-101 Roof")
+    paper.add_lwpolyline(BOX_FT, close=True, dxfattribs={"layer": "ARRAY"})
+    assert read_dxf(sketch.saved(tmp_path)).layouts == ("A-101 Roof",)
+    assert said_by_read(sketch, tmp_path) == (
+        "its closed lines are in the layout A-101 Roof, not in model space; move them there in CAD"
+    )
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        (21, "states US survey feet; give --units ft"),
+        (22, "states US survey inches; give --units in"),
+        (10, "states yards; give --units ft, if that is what it is drawn in, or scale it in CAD"),
+        (14, "states decimeters; give --units m, if that is what it is drawn in, or scale it in"
+         " CAD"),
+        (0, "states no unit; add --units with one of in, ft, mm, cm, m"),
+        (77, "states no unit; add --units with one of in, ft, mm, cm, m"),
+    ],
+)  # fmt: skip
+def test_a_unit_that_no_roof_is_drawn_in_is_named(tmp_path, code, said):
+    sketch = Sketch()
+    sketch.document.header["$INSUNITS"] = code
+    sketch.ring("ARRAY", BOX_FT, "A1")
+    assert said_by_read(sketch, tmp_path) == said
+
+
+def said_by_read(sketch, tmp_path):
+    path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
+    drawn = str(sketch.saved(tmp_path))
+    done = CliRunner().invoke(main, ["plan", "read", drawn, str(path), "--accept"])
+    assert done.exit_code == 2
+    return done.output.splitlines()[1].strip()
+
+
+def damaged(text, how):
+    match how:
+        case "a number":  # as of a program that divided by zero
+            return text.replace("\n 20\n75.0\n", "\n 20\n75.0x\n", 1)
+        case "an end too many":
+            return text.replace("  0\nENDSEC\n", "  0\nENDSEC\n  0\nENDSEC\n", 1)
+        case "a section":
+            return text.replace("  0\nSECTION\n  2\nCLASSES\n", "", 1)
+        case "its end":
+            return text[: text.index("LWPOLYLINE")]
+    raise ValueError(how)
+
+
+@pytest.mark.parametrize("how", ["an end too many", "a section"])
+def test_a_damaged_drawing_is_read_as_far_as_it_can_be_and_says_so(tmp_path, how):
+    sketch = Sketch()
+    sketch.ring("ARRAY", BOX_FT, "A1")
+    path = sketch.saved(tmp_path)
+    text = path.read_text()
+    path.write_text(damaged(text, how))
+    assert path.read_text() != text
+    found = read_dxf(path)
+    assert found.repairs.startswith("a damaged drawing, read as far as it can be")
+    assert found.repairs.endswith(": compare the plan")
+    assert [len(line.points) for line in found.lines] == [4]
+
+
+@pytest.mark.parametrize("how", ["a number", "its end"])
+def test_a_drawing_with_a_number_that_would_be_guessed_or_without_its_end_is_refused(tmp_path, how):
+    sketch = Sketch()
+    sketch.ring("ARRAY", BOX_FT, "A1")
+    path = sketch.saved(tmp_path)
+    path.write_text(damaged(path.read_text(), how))
+    with pytest.raises(InputError, match="not a DXF drawing, or damaged"):
+        read_dxf(path)
 
 
 def test_a_block_of_no_height_is_read_as_any_other(tmp_path):
