@@ -22,8 +22,8 @@ from report.words.counts import grouped_by, numbered
 if TYPE_CHECKING:
     from report.assessment.arrays import ArrayAssessment
     from report.drawing.ballast import Load
+    from report.drawing.drawn import RoofDrawing
     from report.drawing.plan_read import DrawnOutline, RoofPlan
-    from report.drawing.read_dxf import RoofDrawing
     from report.sheet.schema.choices import LayerKind
     from report.sheet.schema.fields import DraftRow
     from report.sheet.writing.filled import WorkbookChange
@@ -80,6 +80,7 @@ def read(
     from report.drawing.fill import changes
     from report.drawing.matched import matched
     from report.drawing.plan_read import check_size, plan_of
+    from report.sheet.checking.plan_checks import us_first
     from report.sheet.reading.read import read_book
     from report.sheet.writing.filled import changing, withdrawn
     from report.words.units import LENGTHS
@@ -88,13 +89,14 @@ def read(
     gap_m = gap[0] * LENGTHS[gap[1]]
     with input_errors(project), changing(project) as change:
         draft = read_book(change.book).draft
+        is_us = us_first(draft)
         known = (row for row in draft["layers"] if {"layer", "kind"} <= row.keys())
         named = {row["layer"]: row["kind"] for row in known}
         with input_errors(drawing):
             drawn, unit_m = _read(drawing, units)
             drawn, turn = _turned(drawn, rotate)
             layers = choose(drawn, named, given, accept)
-            found = plan_of(drawn, unit_m, {**named, **layers}, gap_m)
+            found = plan_of(drawn, unit_m, {**named, **layers}, gap_m, is_us)
         if not (found.roof or found.arrays or found.objects):
             if drawn.layouts and not drawn.lines:
                 names = ", ".join(drawn.layouts)
@@ -103,7 +105,7 @@ def read(
             unread = list(_unread(found)) or ["the drawing has no closed lines"]
             raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
         with input_errors(drawing):
-            check_size(found, unit_m)
+            check_size(found, unit_m, is_us)
             told = matched(found, draft)
         change.fill(changes(change.book, told, layers, replace=replace))
         try:
@@ -117,7 +119,10 @@ def read(
     lines = (
         *filter(None, (drawn.repairs,)),
         *turn,
-        *(_line(place, gap_m) for place in (*found.roof, *told.plan.arrays, *told.plan.objects)),
+        *(
+            _line(place, gap_m, is_us)
+            for place in (*found.roof, *told.plan.arrays, *told.plan.objects)
+        ),
         *_unread(found),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
         f"{change.book.path}: the plan is filled in.",
@@ -205,12 +210,12 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
     return drawn, lines
 
 
-def _line(place: DrawnOutline, gap_m: float) -> str:
+def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:
     from report.drawing.plan_read import own_axes
     from report.words.units import Quantity, pair
 
     *sides, angle = own_axes(place.shape)
-    wide, tall = (pair(side, Quantity.PLAN, True) for side in sides)
+    wide, tall = (pair(side, Quantity.PLAN, is_us) for side in sides)
     askew = f" at {angle:.6g}° to the axes" if round(angle, 6) else ""
     source = f" from {place.handle} on {place.layer}" if place.handle else ""
     note = "; ".join(filter(None, (place.unnamed, place.note)))
@@ -218,10 +223,11 @@ def _line(place: DrawnOutline, gap_m: float) -> str:
     count, made = len(place.shape.points), place.kind.value
     if place.sizes:
         sizes = ", ".join(
-            f"{numbered(of, 'module')} {pair(long, Quantity.SIZE)} by {pair(short, Quantity.SIZE)}"
+            f"{numbered(of, 'module')} {pair(long, Quantity.SIZE, is_us)} by"
+            f" {pair(short, Quantity.SIZE, is_us)}"
             for of, long, short in place.sizes
         )
-        made += f" of {sizes} with gaps of at most {pair(gap_m, Quantity.SIZE)}"
+        made += f" of {sizes} with gaps of at most {pair(gap_m, Quantity.SIZE, is_us)}"
     return f"{place.name}: {made}, {count} vertices, {wide} by {tall}{askew}{source}{note}"
 
 
@@ -252,7 +258,7 @@ def ballast(
     from report.drawing.ballast import loads, read_map
     from report.drawing.fill import ballast_changes
     from report.sheet.checking.grouped import listed
-    from report.sheet.checking.plan_checks import shapes_of
+    from report.sheet.checking.plan_checks import shapes_of, us_first
     from report.sheet.reading.read import read_book
     from report.sheet.writing.filled import changing
     from report.words.units import LENGTHS, WEIGHTS, Quantity, pair
@@ -272,10 +278,11 @@ def ballast(
         bare = [name for name in arrays if name not in found] if replace else []
         filled = ballast_changes(change.book, {**weights, **dict.fromkeys(bare)}, replace=replace)
         change.fill(filled)
+    is_us = us_first(sheet.draft)
     for name, row in arrays.items():
-        text = _balance(row, found[name], weights[name]) if name in found else "no blocks"
+        text = _balance(row, found[name], weights[name], is_us) if name in found else "no blocks"
         if name not in found and row.get("ballast_n") is not None:
-            was = pair(row["ballast_n"], Quantity.WEIGHT)
+            was = pair(row["ballast_n"], Quantity.WEIGHT, is_us)
             text += f"; the {was} given {'are taken out' if replace else 'stay without --replace'}"
         click.echo(plain(f"{name}: {text}"))
     if outside:
@@ -285,7 +292,7 @@ def ballast(
     say_next(project, change.has_formulas)
 
 
-def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:
+def _balance(row: DraftRow, load: Load, ballast_n: float, is_us: bool) -> str:
     """Return the ballast of an array and its center of gravity, as far as weights are known."""
     from report.drawing.ballast import center_of_gravity
     from report.words.units import Quantity, pair
@@ -294,9 +301,9 @@ def _balance(row: DraftRow, load: Load, ballast_n: float) -> str:
     modules_n = modules * each_n if modules and each_n else 0.0
     center = center_of_gravity(load, ballast_n, modules_n)
     off = (center[0] - load.centroid[0], center[1] - load.centroid[1])
-    x, y, off_x, off_y = (pair(value, Quantity.PLAN) for value in (*center, *off))
+    x, y, off_x, off_y = (pair(value, Quantity.PLAN, is_us) for value in (*center, *off))
     what = f"ballast and {modules} modules" if modules_n else "the ballast alone"
     return (
-        f"{numbered(load.blocks, 'block')}, {pair(ballast_n, Quantity.WEIGHT)}; center of gravity"
-        f" of {what} at x {x}, y {y}; from the centroid of the outline {off_x} in x, {off_y} in y"
+        f"{numbered(load.blocks, 'block')}, {pair(ballast_n, Quantity.WEIGHT, is_us)}; center of"
+        f" gravity of {what} at x {x}, y {y}; from the centroid of the outline {off_x} in x, {off_y} in y"
     )

@@ -11,7 +11,7 @@ import click
 from report.cli.terminal import plain
 
 if TYPE_CHECKING:
-    from report.drawing.read_dxf import RoofDrawing
+    from report.drawing.drawn import RoofDrawing
     from report.sheet.schema.choices import LayerKind
 
 _MOST_ROWS, _MOST_LETTERS = 100, 60
@@ -72,7 +72,7 @@ def choose(
             " add --accept to take what is proposed, or --layer NAME=KIND for a layer, where KIND"
             f" is one of {', '.join(LayerKind)}"
         )
-    return {**given, **{layer: kind for layer, kind in kinds.items() if kind}}
+    return {**given, **{layer: kind or LayerKind.NOT_READ for layer, kind in kinds.items()}}
 
 
 def _table(

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from report.drawing.read_dxf import MB
+from report.drawing.load_dxf import MB
 from report.sheet.schema.shapes import Point, Shape, solid
 from report.words.letters import cut
 from solver.model import InputError

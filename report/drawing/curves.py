@@ -34,12 +34,8 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
     """
     kind = entity.dxftype()
     # The other two are in world coordinates, whatever their direction of extrusion is.
-    x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
-    is_flat = abs(x) <= _FLAT and abs(y) <= _FLAT and z != 0.0
-    if kind not in ("LINE", "SPLINE") and not is_flat:
+    if kind not in ("LINE", "SPLINE") and not is_parallel(entity):
         return f"a {kind} that is not parallel to the plan"
-    if kind == "POLYLINE" and not (entity.is_2d_polyline or entity.is_3d_polyline):
-        return "a mesh"
     vertices = _vertices(entity, kind)
     # Of a spline without control points the library finds them, in a time that grows faster.
     has_fit_points = kind == "SPLINE" and not len(entity.control_points)
@@ -59,6 +55,12 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
         )
     points = [(float(p[0]), float(p[1])) for p in islice(exact, MAX_POINTS + 1)]
     return (points, is_closed) if _are_numbers(points) else no_number
+
+
+def is_parallel(entity: Any) -> bool:
+    """Whether the plane of an entity is parallel to the plan."""
+    x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
+    return bool(abs(x) <= _FLAT and abs(y) <= _FLAT and z != 0.0)
 
 
 def _are_numbers(rows: Iterable[Sequence[float]]) -> bool:

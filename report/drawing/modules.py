@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from report.drawing.read_dxf import Drawn
+from report.drawing.drawn import Drawn
 from report.sheet.reading.locate_tables import MAX_ROWS
 from report.sheet.schema.choices import LayerKind
 from report.sheet.schema.shapes import Polygon, Rectangle, Shape, mean, ring, solid
@@ -30,6 +30,10 @@ LEAST_ALIKE = 3
 
 ALIKE_M = 0.005
 """Sides within this [m] are equal; a step of an outline within this is none."""
+COARSE_M, COARSE_ALIKE_M = 0.01, 0.015
+"""The same for a drawing whose coordinates are all rounded to a centimeter, in any direction."""
+ROUNDED_GAP_M = 0.015
+"""Gaps larger by this [m] are the largest one rounded, such as 20 in to 1.7 ft."""
 
 MOST_TEXTS = 3
 """Texts within an array of which one may be its name; more are those of its modules."""
@@ -48,7 +52,17 @@ Known = tuple[Drawn, LayerKind, Shape]
 _Placed = tuple[Drawn, LayerKind]
 
 
-def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Placed], list[Drawn]]:
+def alike_m(lines: Sequence[Drawn], unit_m: float) -> float:
+    """Return within which the sides of modules are equal [m], by how a drawing is rounded."""
+    points = np.array([point for line in lines for point in line.points]).reshape(-1, 2)
+    steps = points * (unit_m / COARSE_M)
+    is_coarse = np.allclose(steps, np.rint(steps), rtol=0.0, atol=1e-3)
+    return COARSE_ALIKE_M if is_coarse else ALIKE_M
+
+
+def joined(
+    known: Sequence[Known], gap_m: float, alike: float = ALIKE_M
+) -> tuple[list[Known], list[_Placed], list[Drawn]]:
     """Return lines without modules, the arrays of modules in reading order, and lines they overlap.
 
     Modules are equal rectangles of one layer, at least `LEAST_ALIKE`, with sides within `SIDES_M`.
@@ -66,7 +80,7 @@ def joined(known: Sequence[Known], gap_m: float) -> tuple[list[Known], list[_Pla
     arrays: list[_Placed] = []
     gone: dict[int, bool] = {}  # whether a line is a module that counts
     for (kind, _), indices in layers.items():
-        for array, inside in _arrays([known[index] for index in indices], gap_m):
+        for array, inside in _arrays([known[index] for index in indices], gap_m, alike):
             arrays.append((array, kind))
             if len(arrays) > MAX_ROWS:
                 raise InputError(
@@ -103,17 +117,19 @@ def _in_reading_order(arrays: Sequence[_Placed]) -> list[_Placed]:
     return [item for row in rows for _, item in sorted(row, key=lambda one: one[0].x_from_m)]
 
 
-def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[Drawn, dict[int, bool]]]:
+def _arrays(
+    lines: Sequence[Known], gap_m: float, alike: float
+) -> Iterator[tuple[Drawn, dict[int, bool]]]:
     """Yield the arrays of a layer, with the lines within each and whether they are its modules."""
     import shapely
 
     small = [k for k, (*_, shape) in enumerate(lines) if shape.area_m2 <= SIDES_M[1] ** 2]
     middles = np.array([complex(*mean(lines[k][2].points)) for k in small])
-    found = list(_parallel(lines))
+    found = list(_parallel(lines, alike))
     modules = {k for at, *_ in found for k in at}
     for at, sizes, boxes, turn in found:
         row = {k: n for n, k in enumerate(at)}
-        parts = _closed(boxes, gap_m + ALIKE_M)
+        parts = _closed(boxes, gap_m + ROUNDED_GAP_M)
         own = middles / turn
         inside: list[dict[int, bool]] = [{} for _ in parts]
         tree = shapely.STRtree(shapely.points(own.real, own.imag))
@@ -122,7 +138,7 @@ def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[Drawn, dict[
                 inside[part][small[n]] = small[n] in row
         for part, within in zip(parts, inside, strict=True):
             its = [row[k] for k in within if within[k]]
-            again = _closed(_snapped(boxes[its]), gap_m + 3.0 * ALIKE_M)
+            again = _closed(_snapped(boxes[its], alike), gap_m + ROUNDED_GAP_M + 2.0 * alike)
             outline = again[0] if len(again) == 1 else part
             points = np.array(outline.exterior.coords) @ _COMPLEX * turn
             kinds = Counter(map(tuple, sizes[its].tolist())).most_common()
@@ -141,7 +157,9 @@ def _arrays(lines: Sequence[Known], gap_m: float) -> Iterator[tuple[Drawn, dict[
             )
 
 
-def _parallel(lines: Sequence[Known]) -> Iterator[tuple[list[int], Any, Any, complex]]:
+def _parallel(
+    lines: Sequence[Known], alike: float
+) -> Iterator[tuple[list[int], Any, Any, complex]]:
     """Yield the modules of a layer that are parallel: lines, sizes [m], boxes and their direction.
 
     Sizes are those of equal ones; boxes, along their sides, are x from, y from, x to and y to [m].
@@ -151,16 +169,17 @@ def _parallel(lines: Sequence[Known]) -> Iterator[tuple[list[int], Any, Any, com
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1]
     skew = np.abs(corners @ np.array((1, -1, 1, -1)))
     long, short = np.maximum(abs(a), abs(b)), np.minimum(abs(a), abs(b))
-    is_right = (skew <= ALIKE_M) & (abs((a * b.conj()).real) <= ALIKE_M * long)
-    fits = is_right & (short >= SIDES_M[0] - ALIKE_M) & (long <= SIDES_M[1] + ALIKE_M)
+    is_right = (skew <= 2.0 * alike) & (abs((a * b.conj()).real) <= alike * long)
+    fits = is_right & (short >= SIDES_M[0] - alike) & (long <= SIDES_M[1] + alike)
     sizes = np.full((len(four), 2), np.nan)
-    for run in _runs(long, np.flatnonzero(fits)):
-        for alike in _runs(short, run):
-            if len(alike) >= LEAST_ALIKE:
-                sizes[alike] = long[alike].mean(), short[alike].mean()
+    for run in _runs(long, np.flatnonzero(fits), alike):
+        for equal in _runs(short, run, alike):
+            if len(equal) >= LEAST_ALIKE:
+                sizes[equal] = long[equal].mean(), short[equal].mean()
+    parallel_deg = _PARALLEL_DEG * alike / ALIKE_M
     angles = np.degrees(np.angle(a)) % 90.0
-    runs = _runs(angles, np.flatnonzero(np.isfinite(sizes[:, 0])), _PARALLEL_DEG)
-    if len(runs) > 1 and angles[runs[0][0]] + 90.0 - angles[runs[-1][0]] <= _PARALLEL_DEG:
+    runs = _runs(angles, np.flatnonzero(np.isfinite(sizes[:, 0])), parallel_deg)
+    if len(runs) > 1 and angles[runs[0][0]] + 90.0 - angles[runs[-1][0]] <= parallel_deg:
         runs[0] = np.concatenate((runs[0], runs.pop()))
     for run in runs:
         off = (angles[run] - angles[run[0]] + 45.0) % 90.0 - 45.0
@@ -173,7 +192,7 @@ def _parallel(lines: Sequence[Known]) -> Iterator[tuple[list[int], Any, Any, com
         yield [four[k] for k in run[once]], sizes[run[once]], boxes[once], turn
 
 
-def _runs(values: Any, at: Any, width: float = ALIKE_M) -> list[NDArray[np.intp]]:
+def _runs(values: Any, at: Any, width: float) -> list[NDArray[np.intp]]:
     """Return the indices `at` by runs of ascending values, none wider than a width."""
     order = at[np.argsort(values[at], kind="stable")]
     starts: list[int] = []
@@ -208,10 +227,10 @@ def _closed(boxes: Any, width_m: float) -> list[Any]:
     return list(shapely.get_parts(grown.buffer(-half, join_style="mitre")))
 
 
-def _snapped(boxes: Any) -> Any:
+def _snapped(boxes: Any, alike: float) -> Any:
     """Return boxes without the steps between them that a drawing did not mean."""
     snapped = boxes.copy()
     for side in range(4):
-        for run in _runs(boxes[:, side], np.arange(len(boxes))):
+        for run in _runs(boxes[:, side], np.arange(len(boxes)), alike):
             snapped[run, side] = boxes[run, side].mean()
     return snapped

@@ -11,9 +11,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.neighbors import EDGE_STRIP_M, bare_sides
+from report.drawing.drawn import Drawn, RoofDrawing, Unread, Words, turned
 from report.drawing.layers import Layer
-from report.drawing.modules import GAP_M, MOST_TEXTS, Known, joined
-from report.drawing.read_dxf import Drawn, RoofDrawing, Unread, Words, turned
+from report.drawing.modules import GAP_M, MOST_TEXTS, Known, alike_m, joined
 from report.drawing.written import first_height, read_line
 from report.sheet.checking.plan_checks import LEAST_VERTICES
 from report.sheet.schema.choices import LayerKind
@@ -104,7 +104,11 @@ class RoofPlan:
 
 
 def plan_of(
-    drawing: RoofDrawing, unit_m: float, layers: Mapping[str, LayerKind], gap_m: float = GAP_M
+    drawing: RoofDrawing,
+    unit_m: float,
+    layers: Mapping[str, LayerKind],
+    gap_m: float = GAP_M,
+    us_first: bool = True,
 ) -> RoofPlan:
     """Return the plan of a drawing.
 
@@ -116,6 +120,8 @@ def plan_of(
         What is drawn on layers, in addition to `LAYERS`; capitals do not distinguish layers.
     gap_m : float
         Largest gap between modules of one array [m].
+    us_first : bool
+        Whether heights are noted in US units first.
     """
     kinds = known_layers(layers)
     passed = LayerKind.NOT_READ
@@ -135,12 +141,12 @@ def plan_of(
             unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
         elif kind is not passed:
             take(line, kind, unit_m)
-    known, arrays, others = joined(known, gap_m)
+    known, arrays, others = joined(known, gap_m, alike_m(drawing.lines, unit_m))
     reason = "a closed line within or around an array of modules"
     unread += [_unread(line, reason) for line in others]
     for array, kind in arrays:
         take(array, kind, 1.0)
-    places = _named(_once(known, unread), drawing.texts, unit_m, unread)
+    places = _named(_once(known, unread), drawing.texts, unit_m, unread, us_first)
     roofs = sorted((p for p in places if p.kind is LayerKind.ROOF), key=lambda p: -p.shape.area_m2)
     for extra in roofs[1:]:
         unread.append(Unread(handle=extra.handle, layer=extra.layer, reason="a second roof"))
@@ -171,7 +177,7 @@ def _once(known: Sequence[Known], unread: list[Unread]) -> list[Known]:
     return [one for k, one in enumerate(known) if k not in twins]
 
 
-def check_size(plan: RoofPlan, unit_m: float) -> None:
+def check_size(plan: RoofPlan, unit_m: float, us_first: bool = True) -> None:
     """Refuse a roof, or without one arrays, of a size that none has: the unit is another one.
 
     Raises
@@ -186,7 +192,7 @@ def check_size(plan: RoofPlan, unit_m: float) -> None:
     if places and not low_m <= long_m <= high_m:
         units = [u for u, m in LENGTHS.items() if low_m <= long_m * m / unit_m <= high_m]
         what = "the roof is" if plan.roof else "the largest array is"
-        text = f"{what} {pair(long_m, Quantity.PLAN)} long, which none is"
+        text = f"{what} {pair(long_m, Quantity.PLAN, us_first)} long, which none is"
         raise InputError(f"{text}; give --units with that of the drawing, {' or '.join(units)}")
 
 
@@ -232,6 +238,7 @@ def _named(
     texts: Sequence[Words],
     unit_m: float,
     unread: list[Unread],
+    us_first: bool,
 ) -> list[DrawnOutline]:
     """Return the places with their names: written by `report`, of their block, or inside of them.
 
@@ -262,7 +269,7 @@ def _named(
         if kind is not LayerKind.ROOF:
             taken[name.casefold()] = line.handle
         if kind not in (LayerKind.ROOF, LayerKind.ARRAY):
-            height_m = _height_m(line, words, unit_m, notes, unread)
+            height_m = _height_m(line, words, unit_m, notes, unread, us_first)
         places.append(
             DrawnOutline(name=name, kind=kind, shape=shape, handle=line.handle, layer=line.layer,
                          height_m=height_m, unnamed=unnamed, note="; ".join(notes),
@@ -297,7 +304,12 @@ def _name(line: Drawn, words: Sequence[Words], unit_m: float) -> str:
 
 
 def _height_m(
-    line: Drawn, words: Sequence[Words], unit_m: float, notes: list[str], unread: list[Unread]
+    line: Drawn,
+    words: Sequence[Words],
+    unit_m: float,
+    notes: list[str],
+    unread: list[Unread],
+    us_first: bool,
 ) -> float:
     """Return the height [m] that is written at an object, NaN for none, and note how it is read."""
     lines = [each for text in _by_layer(line, words) for each in (text.text, *text.others)]
@@ -306,7 +318,7 @@ def _height_m(
         unread.append(_unread(line, "a height that is not understood", f"'{unclear[:MAX_NAME]}'"))
     if height is None:
         return math.nan
-    notes.append(f"{height.word} {pair(height.value_m, Quantity.SIZE)}")
+    notes.append(f"{height.word} {pair(height.value_m, Quantity.SIZE, us_first)}")
     if not height.has_unit:
         notes.append("no unit given, so in that of the drawing")
     if height.word == "ELEV":

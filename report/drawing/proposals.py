@@ -12,13 +12,25 @@ from report.sheet.schema.choices import LayerKind
 _PATTERNS: tuple[tuple[re.Pattern[str], LayerKind], ...] = (
     (re.compile(r"-(ANNO|DIMS|IDEN|NPLT|PATT|TTLB)(-|$)"), LayerKind.NOT_READ),
     (re.compile(r"^PVC(SETBACK|INSTALLATIONAREA|SHADOW|WINDZONES)$"), LayerKind.NOT_READ),
-    (re.compile(r"^A-ROOF(-OTLN)?(-[A-Z])?$|^PVCROOF$"), LayerKind.ROOF),
+    (
+        re.compile(r"^(A-)?ROOF(-(OTLN|OUTLINE|BOUNDARY|PERIMETER))?(-[A-Z])?$|^PVCROOF$"),
+        LayerKind.ROOF,
+    ),
     (re.compile(r"PARAPET"), LayerKind.EDGE_WITH_PARAPET),
     (
-        re.compile(r"-SOLR(-|$)|(^|-)(PV|SOLAR)-?(MODULE|PANEL|ARRAY)S?(-|$)|^PVCLAYOUT$"),
+        re.compile(
+            r"-SOLR(-|$)|(^|-)(PV|SOLAR)-?(MODULE|PANEL|ARRAY)S?(-|$)|^PVCLAYOUT$"
+            r"|^(PV|SOLAR)?-?(MODULES?|PANELS?|ARRAYS)$|^(PV|SOLAR)$"
+        ),
         LayerKind.ARRAY,
     ),
-    (re.compile(r"-EQPM(-|$)|^PVCOBSTRUCTION$|(^|-)(OBSTRUCTION|RTU)S?(-|$)"), LayerKind.FIXED),
+    (
+        re.compile(
+            r"-EQPM(-|$)|^PVCOBSTRUCTION$|(^|-)(OBSTRUCTION|OBSTACLE|RTU|SKYLIGHT|VENT|CHIMNEY)S?(-|$)"
+            r"|(^|-)(HVAC|HATCH(ES)?|KEEP-?OUTS?|EQUIPMENT|MECH-EQUIP)$"
+        ),
+        LayerKind.FIXED,
+    ),
 )
 """Names, in capitals with hyphens for blanks and underscores, and what they mean; the first that
 fits counts.

@@ -1,167 +1,43 @@
 """Reads a roof drawing: its closed lines with their layers and names, and what else there is.
 
 Knows no workbook and no kinds (`report.drawing.plan_read`). Points are in the drawing's world
-coordinates and unit. Hostile files are refused by size before the library loads them.
+coordinates and unit. `report.drawing.load_dxf` loads the file.
 """
 
 from __future__ import annotations
 
-import cmath
-import logging
 import math
 import re
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from report.drawing.areas import HATCHES, boundaries, faces, is_fill, is_mesh, outlines, polygons
 from report.drawing.curves import CURVES, MAX_POINTS, curve
+from report.drawing.drawn import Drawn, RoofDrawing, Unread, Words
 from report.drawing.dxf import APPLICATION
 from report.drawing.joined import join
+from report.drawing.load_dxf import MAX_ENTITIES, UNITS, limit, loaded, other_unit
 from report.sheet.schema.shapes import Point, ring
 from report.words.letters import UNPRINTABLE, trimmed
-from solver.meant import meant
 from solver.model import InputError
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
-MB = 1_000_000
-MAX_BYTES = 25 * MB
-MAX_ENTITIES = 20_000
-MAX_VALUES = 1_000_000
 MAX_DEPTH = 8
 MAX_CURVE_POINTS = 500_000
 MAX_LETTERS = 500_000
-MAX_LINE = 10_000
 
 SAGITTA_M = 0.003
 """Largest distance [m] of an arc from the chords that it is read as."""
 JOIN_M = 0.005
 """Largest distance [m] between the ends of open lines that are joined."""
 
-UNITS: Mapping[int, str] = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}
-"""Units of drawings by $INSUNITS."""
-OTHER_UNITS: Mapping[int, tuple[str, str]] = {
-    3: ("miles", "ft"), 7: ("kilometers", "m"), 8: ("microinches", "in"), 9: ("mils", "in"),
-    10: ("yards", "ft"), 14: ("decimeters", "m"), 15: ("decameters", "m"),
-    16: ("hectometers", "m"), 21: ("US survey feet", "ft"), 22: ("US survey inches", "in"),
-    23: ("US survey yards", "ft"), 24: ("US survey miles", "ft"),
-}  # fmt: skip
-"""Units that drawings state and roofs are not drawn in, and in which such a drawing mostly is."""
-
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 _HEIGHTS = ("HT", "HEIGHT", "ELEV")
-_ENDED = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*EOF\s*\Z")
-_ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Drawn:
-    """A closed line of a drawing.
-
-    Attributes
-    ----------
-    handle : str
-        Of the line, or of the first of those that are joined.
-    name : str
-        As `report` wrote it, or from the attributes of its block; empty if neither.
-    points : tuple of Point
-        A ring, not repeated, in the unit of the drawing.
-    is_ours : bool
-        Whether `report` wrote it.
-    heights : tuple of str
-        Attributes of its block that give a height, each as `HT 42`.
-    sizes : tuple of (int, float, float)
-        Number, long side [m] and short side [m] of each size of the modules that it is the outline
-        of, the most frequent first; then its points are in m.
-    """
-
-    handle: str
-    layer: str
-    name: str
-    points: tuple[Point, ...]
-    is_ours: bool
-    heights: tuple[str, ...] = ()
-    sizes: tuple[tuple[int, float, float], ...] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Words:
-    """A text of a drawing, or the first line of it, where it is, and its other lines.
-
-    Attributes
-    ----------
-    of : str
-        What `report` wrote it of, wherever it is; empty for none.
-    """
-
-    layer: str
-    text: str
-    at: Point
-    others: tuple[str, ...] = ()
-    of: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Unread:
-    """Something of a drawing that was not understood, why, and what of it."""
-
-    handle: str
-    layer: str
-    reason: str
-    detail: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class RoofDrawing:
-    """What a drawing consists of.
-
-    Attributes
-    ----------
-    unit : str
-        Empty if it states none of `UNITS`.
-    other_unit : str
-        What it states of `OTHER_UNITS`, as a sentence goes on after its name; empty for none.
-    layouts : tuple of str
-        Those that have closed lines, which no plan is read from.
-    repairs : str
-        What to say of a damaged drawing; empty for a sound one.
-    counts : Counter of tuple of str
-        How many of each layer and kind of entity there are.
-    north_deg : float
-        Direction of north by GEODATA, counterclockwise from +x; NaN for none. Not by
-        `$NORTHDIRECTION`, "the angle between the Y axis of WCS and the grid north" (AutoCAD help)
-        in a sense that is not documented.
-    """
-
-    unit: str
-    other_unit: str = ""
-    layouts: tuple[str, ...] = ()
-    repairs: str = ""
-    lines: list[Drawn] = field(default_factory=list)
-    texts: list[Words] = field(default_factory=list)
-    unread: list[Unread] = field(default_factory=list)
-    counts: Counter[tuple[str, str]] = field(default_factory=Counter)
-    north_deg: float = math.nan
-
-    def turned(self, degrees: float) -> RoofDrawing:
-        """Return the drawing turned counterclockwise about its origin, with its north."""
-        places = turned([text.at for text in self.texts], degrees)
-        return replace(
-            self,
-            lines=[replace(line, points=turned(line.points, degrees)) for line in self.lines],
-            texts=[replace(text, at=at) for text, at in zip(self.texts, places, strict=True)],
-            north_deg=(self.north_deg + degrees) % 360.0,
-        )
-
-
-def turned(points: Sequence[Point], degrees: float) -> tuple[Point, ...]:
-    """Return points turned counterclockwise about the origin."""
-    turn = cmath.rect(1.0, math.radians(degrees))
-    found = (complex(*point) * turn for point in points)
-    return tuple((z.real, z.imag) for z in found)
 
 
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
@@ -179,8 +55,7 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     """
     from report.words.units import LENGTHS
 
-    _check(path)
-    document, repairs = _loaded(path)
+    document, repairs = loaded(path)
     code = document.header.get("$INSUNITS", 0)
     unit = UNITS.get(code, "")
     geodata = document.modelspace().get_geodata()
@@ -195,7 +70,7 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     size_m = unit_m or LENGTHS.get(unit, 1.0)
     drawing = RoofDrawing(
         unit,
-        other_unit=_other_unit(code),
+        other_unit=other_unit(code),
         repairs=repairs,
         north_deg=north_deg,
         layouts=tuple(_drawn_layouts(document, size_m, hidden)),
@@ -203,15 +78,6 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     reader = _Reader(drawing, size_m, hidden)
     reader.take_all(document.modelspace())
     return drawing
-
-
-def _other_unit(code: int) -> str:
-    if code not in OTHER_UNITS:
-        return ""
-    stated, unit = OTHER_UNITS[code]
-    is_same = stated == f"US survey {'feet' if unit == 'ft' else 'inches'}"  # within 2 in a million
-    condition = "" if is_same else ", if that is what it is drawn in, or scale it in CAD"
-    return f"states {stated}; give --units {unit}{condition}"
 
 
 def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str]) -> Iterator[str]:
@@ -227,60 +93,6 @@ def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str])
             return
         if len(drawing.lines) > before:
             yield _printable(name)
-
-
-def _check(path: Path) -> None:
-    """Refuse what is no DXF in text, and what is too large to load."""
-    try:
-        size = path.stat().st_size
-        if size > MAX_BYTES:
-            raise InputError(
-                f"{size / MB:.0f} MB, more than {MAX_BYTES // MB} MB; save the roof plan alone"
-            )
-        data = path.read_bytes()
-    except OSError as error:
-        asked = f"; {found}" if (found := meant(path)) else ""
-        raise InputError(f"cannot be read ({error.strerror}){asked}") from error
-    if data.startswith(b"AC10"):
-        raise InputError("a DWG drawing; save it as DXF (R12 to R2018)")
-    if data.startswith(b"AutoCAD Binary DXF"):
-        raise InputError("a binary DXF; save it as DXF in text")
-    values = data.count(b"\n") // 2  # each after a line with its code
-    _limit(values, MAX_VALUES, "values")
-    _limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
-    # Names are read once for each entity that has them; formats allow lines of 2,049 letters.
-    _limit(max(map(len, data.splitlines()), default=0), MAX_LINE, "letters in a line")
-
-
-def _limit(count: int, most: int, what: str) -> None:
-    if count > most:
-        raise InputError(
-            f"{count:,} {what}, more than {most:,}; save the layers of the roof plan alone"
-        )
-
-
-def _loaded(path: Path) -> tuple[Document, str]:
-    """Return a drawing, and what to say of its repair if strict reading refuses it."""
-    import ezdxf
-    from ezdxf import recover
-
-    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
-    try:
-        return ezdxf.filemanagement.readfile(str(path)), ""
-    except Exception as refused:  # a damaged drawing makes the library raise almost anything
-        damaged = InputError("not a DXF drawing, or damaged; open it in CAD and save it again")
-        # What is missing at the end of a drawing that was cut off, no repair would tell.
-        if not _ENDED.search(path.read_bytes()):
-            raise damaged from refused
-    try:
-        document, audit = recover.readfile(str(path))
-    except Exception as error:
-        raise damaged from error
-    if audit.has_errors:  # such as a coordinate that it has guessed
-        raise damaged
-    count = len(audit.fixes)
-    fixes = f", {count} faults repaired" if count > 1 else ", a fault repaired" if count else ""
-    return document, f"a damaged drawing, read as far as it can be{fixes}: compare the plan"
 
 
 def _check_expanded(count: int) -> None:
@@ -325,6 +137,8 @@ class _Reader:
     hidden: Mapping[str, str]  # layers that are not shown, and why
     # by their blocks and layers
     opened: dict[tuple[int, str], list[Drawn]] = field(default_factory=lambda: defaultdict(list))
+    # by their blocks and layers, and of each mesh and hatch by itself
+    areas: dict[tuple[int, str, str], tuple[Drawn, str, list[Any]]] = field(default_factory=dict)
     entities: int = 0
     blocks: int = 0
     points: int = 0
@@ -355,6 +169,8 @@ class _Reader:
                 reason = self._take_insert(entity, layer, handle, block.depth + 1)
             elif kind in _TEXTS:
                 reason = self._take_text(entity, layer, kind)
+            elif kind in HATCHES or is_mesh(entity):
+                reason = self._take_area(entity, layer, handle, block)
             elif kind in CURVES:
                 reason = self._take_curve(entity, layer, handle, block)
             else:
@@ -373,7 +189,7 @@ class _Reader:
             return found
         points, is_closed = found
         self.points += len(points)
-        _limit(self.points, MAX_CURVE_POINTS, "points of curves")
+        limit(self.points, MAX_CURVE_POINTS, "points of curves")
         own = _own_name(entity)
         line = Drawn(handle=handle, layer=layer, name=own or block.name, points=tuple(points),
                      is_ours=bool(own), heights=block.heights)  # fmt: skip
@@ -384,6 +200,54 @@ class _Reader:
         if points:
             self.opened[block.number, layer.casefold()].append(line)
         return "" if points else f"a {entity.dxftype()} without an area"
+
+    def _take_area(self, entity: Any, layer: str, handle: str, block: _Block) -> str:
+        """Note a hatch, or the faces of a mesh, or return why it is none."""
+        import shapely
+
+        kind = entity.dxftype()
+        is_hatch = kind in HATCHES
+        found = (
+            boundaries(entity, SAGITTA_M / self.unit_m, JOIN_M / self.unit_m)
+            if is_hatch
+            else faces(entity)
+        )
+        if isinstance(found, str):
+            return found
+        if not found and kind != "3DFACE":  # an upright one is a side of the others
+            return f"a {kind} without an area"
+        self.points += sum(len(shapely.get_coordinates(area)) for area in found)
+        limit(self.points, MAX_CURVE_POINTS, "points of curves")
+        own = _own_name(entity)
+        line = Drawn(handle=handle, layer=layer, name=own or block.name, points=(),
+                     is_ours=bool(own), heights=block.heights)  # fmt: skip
+        # Faces that are drawn one by one are those of one body where they touch.
+        key = (block.number, layer.casefold(), "" if kind == "3DFACE" else str(self.entities))
+        self.areas.setdefault(key, (line, kind, []))[2].extend(found)
+        return ""
+
+    def _take_areas(self) -> None:
+        """Add the outlines of hatches, faces and meshes, but for what fills closed lines."""
+        import shapely
+
+        if not self.areas:
+            return
+        lines = self.drawing.lines
+        solids = [shapely.union_all(polygons([line.points])) for line in lines]
+        layers = [line.layer.casefold() for line in lines]
+        tree, gap = shapely.STRtree(solids), JOIN_M / self.unit_m
+        for line, kind, found in self.areas.values():
+            rings, has_holes = outlines(found, gap)
+            for points in rings:
+                (area,) = polygons([points])
+                near = [(solids[k], layers[k]) for k in tree.query(area, predicate="intersects")]
+                if is_fill(area, line.layer.casefold(), near, gap):
+                    self._leave(line.handle, line.layer, f"a {kind} over a closed line")
+                elif reason := self._close(replace(line, points=tuple(points)), kind):
+                    self._leave(line.handle, line.layer, reason)
+            if has_holes or (kind in HATCHES and len(found) > len(rings)):
+                self._leave(line.handle, line.layer, f"holes of a {kind}, whose outline is read")
+        self.areas.clear()
 
     def _close(self, line: Drawn, kind: str) -> str:
         """Add a line as closed, or return why it is none."""
@@ -405,6 +269,7 @@ class _Reader:
             for k, reason in rest.items():
                 self._leave(lines[k].handle, lines[k].layer, reason)
         self.opened.clear()
+        self._take_areas()
 
     def _leave(self, handle: str, layer: str, reason: str) -> None:
         """Note what is not read; after a colon, what of it."""
@@ -459,7 +324,7 @@ class _Reader:
     def _take_text(self, entity: Any, layer: str, kind: str) -> str:
         """Add a text that says something at a place; none is missed that does not."""
         self.letters += len(entity.text if kind == "MTEXT" else entity.dxf.text)
-        _limit(self.letters, MAX_LETTERS, "letters of texts")
+        limit(self.letters, MAX_LETTERS, "letters of texts")
         if kind == "MTEXT":
             # What the library calls fast takes a time that grows as the square of the length.
             found = entity.plain_text(split=True, fast=False)

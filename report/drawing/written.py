@@ -11,7 +11,14 @@ from typing import NamedTuple
 from report.words.units import LENGTHS
 
 _NUMBER = r"\d{1,6}(?:\.\d{1,6})?"
-_KEYWORD = re.compile(r"\b(HT|HEIGHT|ELEV)[.:= ]*(?=\d)", re.IGNORECASE)
+_KEYWORD = re.compile(r"\b(?:(HT|HEIGHT|ELEV)[.:= ]*|(H) ?= ?)(?=\d)", re.IGNORECASE)
+# As sizes of equipment are written: a number with its unit before a lone H.
+_BEFORE = re.compile(
+    r"(?<![\w./'\"-])(?P<value>\d[\d .'/-]{0,16}?(?:['\"]|ft|feet|inches|inch|in|mm|cm|m))"
+    r" ?(?:H|HT|HIGH|TALL)\b(?![.:= ]*\d)",
+    re.IGNORECASE,
+)
+_OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12} ?[WLD]? ?[x×] ?){1,3}$", re.IGNORECASE)
 _VALUE = re.compile(
     rf"(?:(?P<feet>{_NUMBER}) ?(?:'|ft|feet)[ -]*)?"
     rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>\d{{1,2}}/[1-9]\d?))?"
@@ -37,19 +44,22 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     for mark, plain in _MARKS.items():
         text = text.replace(mark, plain)
     word = _KEYWORD.search(text)
-    if not word:
+    if word:
+        found, start, said = _VALUE.match(text, word.end()), word.start(), word[1] or word[2]
+    elif before := _BEFORE.search(text):
+        found, start, said = _VALUE.fullmatch(before["value"]), before.start(), "H"
+    else:
         return text, None
-    found = _VALUE.match(text, word.end())
-    name = text[: word.start()].strip(" ,;:-(@")
-    unclear = Height(math.nan, word[1].upper(), False)
+    name = _OTHER_SIZES.sub("", text[:start]).strip(" ,;:-(@")
+    unclear = Height(math.nan, said.upper(), False)
     if not found or not found[0]:
         return name, unclear
     unit = found["unit"] or ('"' if found["feet"] else "")
-    if not unit and text[found.end() :].lstrip()[:1].isalnum():
+    if word and not unit and text[found.end() :].lstrip()[:1].isalnum():
         return name, unclear  # such as `42 yd` or `42 1/0`
     value = float(found["number"] or 0.0) + float(Fraction(found["share"] or 0))
     value_m = value * _UNITS.get(unit.lower(), unit_m) + float(found["feet"] or 0.0) * _UNITS["ft"]
-    return name, Height(value_m, word[1].upper(), bool(unit))
+    return name, Height(value_m, said.upper(), bool(unit))
 
 
 def first_height(lines: Iterable[str], unit_m: float) -> tuple[Height | None, str]:

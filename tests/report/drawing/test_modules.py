@@ -1,5 +1,7 @@
 """Modules of a layout become the arrays that they make up, with exact outlines."""
 
+import cmath
+import itertools
 import math
 import random
 
@@ -7,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
+from inputs import INCH
 from report.cli.main import main
 from report.drawing.modules import GAP_M
 from report.drawing.plan_read import plan_of
@@ -294,3 +297,21 @@ def test_rows_that_an_earlier_table_grows_by_have_no_formula_that_is_broken(tmp_
     assert len(read(book).draft["arrays"]) == 40
     formulas = [str(at.value) for row in load_workbook(book)["Arrays"] for at in row]
     assert not [text for text in formulas if "#REF!" in text]
+
+
+@pytest.mark.parametrize("angle_deg", [0.0, 17.0])
+@pytest.mark.parametrize(("unit", "decimals"), [("m", 2), ("ft", 2), ("in", 1), ("mm", 0)])
+def test_modules_that_an_export_has_rounded_are_one_array(tmp_path, angle_deg, unit, decimals):
+    """Rows are 20 in apart, the largest gap; each corner is rounded by itself."""
+    sketch = Sketch(unit=unit)
+    turn = cmath.rect(1.0, math.radians(angle_deg))
+    for row, column in itertools.product(range(5), range(8)):
+        x, y = 0.137 + column * 2.12, 0.291 + row * (1.05 + 20 * INCH)
+        corners = (complex(x + dx, y + dy) * turn / sketch.unit_m
+                   for dx, dy in ((0, 0), (2.1, 0), (2.1, 1.05), (0, 1.05)))  # fmt: skip
+        points = [(round(z.real, decimals), round(z.imag, decimals)) for z in corners]
+        sketch.space.add_lwpolyline(points, close=True, dxfattribs={"layer": "ARRAY"})
+    (array,) = plan(sketch.saved(tmp_path)).arrays
+    assert array.modules == 40
+    size = (8 * 2.12 - 0.02) * (5 * 1.05 + 4 * 20 * INCH)
+    assert array.shape.area_m2 == pytest.approx(size, rel=5e-3)

@@ -28,6 +28,16 @@ UNIT_M = 1.0
         ("ELEV 1.2 m", "", 1.2, True),
         ("HT42", "", 42.0, False),
         ("ELEV: 1.2", "", 1.2, False),
+        ('RTU-1 48"H', "RTU-1", 48 * INCH, True),
+        ("RTU-1 (48 in. H=4'-0\")", "RTU-1 (48 in.", 4 * FT, True),
+        ("H=4'-0\"", "", 4 * FT, True),
+        ("H = 42", "", 42.0, False),
+        ("AHU 4'-6\" H", "AHU", 4.5 * FT, True),
+        ("AHU, 4' HIGH", "AHU", 4 * FT, True),
+        ('SKYLIGHT 12 1/2" TALL', "SKYLIGHT", 12.5 * INCH, True),
+        ("TANK 1200 mm high", "TANK", 1.2, True),
+        ('60"W x 48"H', "", 48 * INCH, True),
+        ('RTU-2 96"L x 60"W x 48"H', "RTU-2", 48 * INCH, True),
     ],
 )
 def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value_m, has_unit):
@@ -51,6 +61,14 @@ def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value
         ("WEIGHT 42", False),
         ("ELEVATOR 2", False),
         ("42 in", False),
+        ("H-1", False),
+        ("H 42", False),
+        ("PH=7", False),
+        ("42H", False),
+        ("RTU-12 H", False),
+        ('60x48"H', False),
+        ("480V 60 Hz", False),
+        ("12 HIGH ST", False),
     ],
 )
 def test_a_number_that_is_not_read_whole_is_no_height(text, is_unclear):
