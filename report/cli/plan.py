@@ -305,5 +305,6 @@ def _balance(row: DraftRow, load: Load, ballast_n: float, is_us: bool) -> str:
     what = f"ballast and {modules} modules" if modules_n else "the ballast alone"
     return (
         f"{numbered(load.blocks, 'block')}, {pair(ballast_n, Quantity.WEIGHT, is_us)}; center of"
-        f" gravity of {what} at x {x}, y {y}; from the centroid of the outline {off_x} in x, {off_y} in y"
+        f" gravity of {what} at x {x}, y {y}; from the centroid of the outline {off_x} in x,"
+        f" {off_y} in y"
     )

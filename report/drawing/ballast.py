@@ -5,8 +5,10 @@ Knows no workbook (`report.drawing.fill`). Read `read_map`, then `loads`.
 
 from __future__ import annotations
 
+import codecs
 import csv
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,12 +17,16 @@ from typing import Any
 import numpy as np
 
 from report.drawing.load_dxf import MB
+from report.sheet.reading.typed_text import number_in, separator
 from report.sheet.schema.shapes import Point, Shape, solid
 from report.words.letters import cut
+from report.words.units import LENGTHS
 from solver.model import InputError
 
 MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5 * MB, 20_000, 10_000
 COLUMNS = ("x", "y", "blocks")
+_NAMES = dict.fromkeys(("block count", "number of blocks"), "blocks")
+_HEADING = re.compile(r"(.*?)(?:[\s_]*[\[(]\s*([^\])]*?)\s*[\])]|[\s_]+(in|ft|mm|cm|m))?")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +41,8 @@ class Load:
 def read_map(path: Path, unit_m: float) -> Any:
     """Return the rows of a ballast map: line of the file, x [m], y [m] and number of blocks.
 
-    It is a CSV with the headings x, y and blocks, its unit given in m.
+    It is a CSV with the headings x, y and blocks, or block count, and its unit given in m: with
+    commas, semicolons or tabs, in UTF-8 or UTF-16. A heading may name the unit of x and y.
 
     Raises
     ------
@@ -46,12 +53,22 @@ def read_map(path: Path, unit_m: float) -> Any:
         data = file.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
         raise InputError(f"more than {MAX_BYTES // MB} MB; keep the columns {', '.join(COLUMNS)}")
+    is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
-        lines = csv.reader(data.decode("utf-8-sig").splitlines(), strict=True)
+        text = data.decode("utf-16" if is_utf_16 else "utf-8-sig").splitlines()
+        mark = separator(text)
+        lines = csv.reader(text, delimiter=mark, strict=True)
         rows = [(lines.line_num, row) for row in lines if any(map(str.strip, row))]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError("not a CSV in UTF-8; save it as one") from error
-    heads = [name.strip().casefold() for name in rows[0][1]] if rows else []
+        raise InputError("not a CSV in UTF-8 or UTF-16; save it as one") from error
+    named = [_HEADING.fullmatch(name.strip().casefold()) for name in rows[0][1]] if rows else []
+    heads = [_NAMES.get(name[1], name[1]) if name else "" for name in named]
+    for name in named:
+        unit = name and (name[2] or name[3])
+        if name and unit and name[1] in ("x", "y") and LENGTHS.get(unit) != unit_m:
+            raise InputError(
+                f"line 1: the heading is '{cut(name[0])}', and --units says another unit"
+            )
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
         raise InputError(f"line 1: not one heading {', '.join(missing)}; give x, y and blocks")
     if len(rows) > MAX_ROWS:
@@ -59,7 +76,9 @@ def read_map(path: Path, unit_m: float) -> Any:
     found, wrong = [], []
     for line, row in rows[1:]:
         given = [row[k].strip() if k < len(row) else "" for k in map(heads.index, COLUMNS)]
-        x, y, blocks = map(_number, given)
+        x, y, blocks = (
+            number_in(text.replace(",", ".") if mark == ";" else text) for text in given
+        )
         for name, text, value in zip(COLUMNS, given, (x, y, blocks), strict=True):
             if not math.isfinite(value):
                 wrong.append(f"line {line}: {name} is '{cut(text)}'; give a number")
@@ -70,13 +89,6 @@ def read_map(path: Path, unit_m: float) -> Any:
     if wrong:
         raise InputError(wrong)
     return np.array(found).reshape(-1, 4)
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan
 
 
 def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list[int]]:

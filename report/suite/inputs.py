@@ -76,6 +76,8 @@ def ac156_targets(
         problems.append(f"z/h is {z_over_h:g}; give a number from 0 (ground) to 1 (roof)")
     if problems:
         raise InputError(problems)
+    names = {name.casefold(): key for key, name in CODES.items()}
+    code = names.get(code.casefold(), code)
     if code not in CODES:
         raise InputError(f"--code is {code!r}; give one of {', '.join(CODES)}")
     rules = RULE_SETS[CODES[code]]

@@ -5,6 +5,7 @@ Independent of code rules; `report.sheet.reading.archive` checks the workbook. R
 
 from __future__ import annotations
 
+import codecs
 import csv
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -16,6 +17,7 @@ import numpy as np
 from report.sheet.reading.archive import OpenBook, open_book
 from report.sheet.reading.cells import CellError, Found, check_saved, number
 from report.sheet.reading.positions import CellPosition, found_at
+from report.sheet.reading.typed_text import separator
 from solver.meant import meant
 from solver.model import Floats, InputError, Problem
 from solver.synthesis.target import BAND_HZ
@@ -133,9 +135,8 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
 
 def _text_rows(path: Path) -> _Rows:
     lines = _text(path).splitlines()
-    separator = next((mark for mark in ";\t" if any(mark in line for line in lines)), ",")
     try:
-        rows = list(csv.reader(lines, delimiter=separator, strict=True))
+        rows = list(csv.reader(lines, delimiter=separator(lines), strict=True))
     except csv.Error as error:
         raise InputError(f"{path.name}: not CSV; give {_WANTED}") from error
     if len(rows) > MAX_ROWS + HEADING_ROWS:
@@ -153,7 +154,9 @@ def _text(path: Path) -> str:
             raise InputError(f"{path}: no such file; {meant(path) or wanted}")
         if path.stat().st_size > MAX_BYTES:
             raise InputError(f"{path.name}: larger than 1 MB; give at most {MAX_ROWS} rows")
-        text = path.read_bytes().decode("utf-8-sig")
+        data = path.read_bytes()
+        is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+        text = data.decode("utf-16" if is_utf_16 else "utf-8-sig")
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise

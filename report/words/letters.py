@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 
 UNPRINTABLE = re.compile(
     r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]"
@@ -20,6 +21,11 @@ SHOWN = 60
 _UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + (
     "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
 )
+
+_ALIKE = str.maketrans(
+    "АВЕЅІЈКМНОРСТУХаеѕіјорсухΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABESIJKMHOPCTYXaesijopcyxABEZHIKMNOPTYXo"
+)
+"""Cyrillic and Greek letters that look like Latin ones."""
 
 _LETTERS = {
     "mu": "μ",
@@ -44,6 +50,18 @@ def cut(text: str, maximum: int = SHOWN) -> str:
     """Return a text on one line, shortened."""
     text = UNPRINTABLE.sub("?", text).replace("\n", " ")
     return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
+
+
+def latin(text: str) -> str:
+    """Return a text with Latin letters for those that look like them."""
+    return text.translate(_ALIKE)
+
+
+def foreign_letters(text: str) -> str:
+    """Return which letters of a text only look Latin, with their alphabets; empty for none."""
+    found = dict.fromkeys(letter for letter in text if latin(letter) != letter)
+    said = (f"'{one}' is a {unicodedata.name(one).split()[0].capitalize()} letter" for one in found)
+    return ", ".join(said)
 
 
 def power_of_ten(exponent: int) -> str:

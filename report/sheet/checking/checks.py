@@ -21,7 +21,7 @@ from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where
 from report.sheet.schema.links import coefficients
 from report.sheet.schema.scene import slope_rad
 from report.sheet.schema.shapes import Rectangle, Shape, gap_m
-from report.words.letters import cut
+from report.words.letters import cut, foreign_letters, latin
 from report.words.units import Quantity, pair
 from solver.meant import nearest
 from solver.model import INCH_M
@@ -67,9 +67,14 @@ def _tables(draft: Draft, where: Where) -> Iterator[Finding]:
 def _ids(draft: Draft, where: Where) -> Iterator[Finding]:
     # Arrays come first, so that a duplicate is reported at the object.
     for sections in UNIQUE:
-        for place, value, first in repeated(column(draft, sections, "id"), str.casefold):
-            text = f"ID is '{value}', already used at {where(first)}"
-            yield Finding.error(place, text, "give a unique ID")
+        for place, value, first in repeated(column(draft, sections, "id"), _looks):
+            text, said = f"ID is '{value}', already used at {where(first)}", foreign_letters(value)
+            yield Finding.error(place, text + (f"; {said}" if said else ""), "give a unique ID")
+
+
+def _looks(name: str) -> str:
+    """Return a name as it looks, whatever its letters and capitals are."""
+    return latin(name).casefold()
 
 
 def _arrays(draft: Draft, where: Where) -> Iterator[Finding]:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
 from typing import Any
 
 from report.sheet.schema.fields import Draft, Place
+from report.words.letters import foreign_letters, latin
 from solver.meant import nearest
 
 
@@ -33,6 +34,9 @@ def repeated(
 
 def suggestion(value: str, ids: Collection[str]) -> str:
     """Return in words which id may have been meant, or which there are."""
+    same = next((name for name in ids if latin(name).casefold() == latin(value).casefold()), "")
+    if said := same and (foreign_letters(value) or foreign_letters(same)):
+        return f"it looks like '{same}', but {said}: retype it"
     if close := nearest(value, ids):
         return f"did you mean '{close}'?"
     names = ", ".join(list(ids)[:8])

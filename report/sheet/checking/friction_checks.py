@@ -19,7 +19,7 @@ MU_TOLERANCE = 0.005
 
 
 def friction_faults(draft: Draft, where: Where) -> Iterator[Finding]:
-    """Yield runs given twice, and friction coefficients larger than those tested."""
+    """Yield runs given twice at a velocity, and friction coefficients larger than those tested."""
     yield from _repeated(draft, where)
     tested = _tested(draft)
     if not tested:
@@ -37,11 +37,11 @@ def _report(draft: Draft, row: DraftRow) -> str:
 
 def _repeated(draft: Draft, where: Where) -> Iterator[Finding]:
     given = (
-        (place, (_report(draft, row).casefold(), row["surface"], number))
+        (place, (_report(draft, row).casefold(), row["surface"], row.get("velocity_mps"), number))
         for place, number in column(draft, ("friction_runs",), "number")
         if "surface" in (row := draft["friction_runs"][place.row])
     )
-    for place, (_, surface, number), first in repeated(given):
+    for place, (_, surface, _, number), first in repeated(given):
         text = f"run is {number}, {surface}, already given at {where(first)}"
         yield Finding.error(place, text, "give another number")
 

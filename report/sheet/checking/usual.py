@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from report.sheet.checking.findings import warning
 from report.sheet.schema import SECTIONS, ProjectInput
-from report.sheet.schema.choices import Direction
+from report.sheet.schema.choices import Direction, ObjectKind
 from report.sheet.schema.fields import Entry, Finding, Frozen, Place, SheetSection, entries
 from report.sheet.schema.friction import FrictionTestRow
 from report.sheet.schema.motions import MotionInput
@@ -27,7 +27,7 @@ def unusual(data: ProjectInput) -> Iterator[Finding]:
         for index, row in enumerate(found if section.is_table else (found,)):
             for entry in entries(section.model):
                 value, span = getattr(row, entry.name), entry.expected
-                if entry.cell.usual is None or value is None:
+                if entry.cell.usual is None or value is None or _is_bare_edge(row, value):
                     continue
                 if not span.low * (1.0 - ROUNDING) <= value <= span.high * (1.0 + ROUNDING):
                     yield _warning(section, index, entry, row, is_us)
@@ -41,6 +41,13 @@ def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
     place = Place(section.key, index, entry.name)
     return warning(name, place, f"{text} is usual: correct the value or its unit")
+
+
+def _is_bare_edge(row: Frozen, value: float) -> bool:
+    """Whether a value is the height 0 of an edge without parapet."""
+    return (
+        isinstance(row, RoofObject) and row.kind is ObjectKind.EDGE_WITHOUT_PARAPET and value == 0.0
+    )
 
 
 def _named(row: Frozen) -> str:

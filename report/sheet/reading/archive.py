@@ -47,6 +47,7 @@ OTHER_KINDS = {
 }
 _WORKBOOK = "xl/workbook.xml"
 _RELATIONS = "xl/_rels/workbook.xml.rels"
+_MACROS = re.compile(rb"<Override\b(?=[^<>]*/xl/workbook\.xml)[^<>]*macroEnabled", re.IGNORECASE)
 _DOTTED = re.compile(rb"""(\bTarget\s*=\s*["'])(/[^"']*)(["'])""")
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
 REL = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}id"
@@ -190,7 +191,8 @@ def _check_kind(archive: zipfile.ZipFile) -> None:
         raise InputError(
             "a Strict Open XML workbook; save it as Excel Workbook (.xlsx), not Strict"
         )
-    if b"macroEnabled" in _content(archive, "[Content_Types].xml"):
+    # SheetJS writes such a default for parts that there are none of; what counts is the workbook's.
+    if _MACROS.search(_content(archive, "[Content_Types].xml")):
         raise InputError(f"a workbook with macros; {SAVE_AS}")
 
 

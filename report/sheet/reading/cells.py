@@ -14,23 +14,34 @@ from datetime import date, datetime, time, timedelta
 from enum import StrEnum
 from typing import Any
 
+from openpyxl.utils.datetime import WINDOWS_EPOCH
 from openpyxl.utils.escape import unescape
 from pydantic import ValidationError
 
 from report.sheet.reading.number_format import is_percentage, misleading
-from report.sheet.schema.fields import Entry, YesNo, adapter
+from report.sheet.reading.typed_text import (
+    choice_in,
+    dates_in,
+    in_thousands,
+    inches_in,
+    number_in,
+    remark_in,
+    rise_in,
+)
+from report.sheet.schema.choices import SlopeUnit
+from report.sheet.schema.fields import Entry, YesNo, adapter, entries
 from report.words.letters import SHOWN, UNPRINTABLE, cut, trimmed
-from solver.model import InputError, Problem
+from report.words.units import LENGTHS
+from solver.model import INCH_M, InputError, Problem
 
-_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
-_DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
-_THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]+)?")
 _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*)?\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
 )
 _ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 EARLIEST = date(2000, 1, 1)
 """A date before it is refused, as by the sheet's own check."""
+EARLIEST_DAY, LATEST_DAY = 36526, 73050
+"""Numbers in the cell of a date that are days since 1899-12-30: of the years 2000 to 2099."""
 LARGEST = 1e15
 """Magnitude above which a number is refused, so that no change of units can overflow."""
 
@@ -57,6 +68,7 @@ class Found:
     formula: str = ""
     is_error: bool = False  # the value is one of Excel, such as #DIV/0!
     number_format: str = "General"
+    day_zero: datetime = WINDOWS_EPOCH  # from which the workbook counts days
 
     @property
     def address(self) -> str:
@@ -141,7 +153,7 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") 
     """
     check_saved(cell)
     wanted = wish(entry, unit, si)
-    value = _converted(cell, entry, wanted, unit or shown)
+    value = _converted(cell, entry, wanted, unit or shown, si)
     if isinstance(value, float):
         value *= si
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
@@ -198,8 +210,15 @@ def _quoted(value: object) -> str:
     return f"'{text}'" if isinstance(value, str) else text
 
 
-def _converted(cell: Found, entry: Entry, wanted: str, unit: str) -> Any:
+def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> Any:
     if entry.kind in (int, float):
+        text = trimmed(cell.value) if isinstance(cell.value, str) else ""
+        inches = (
+            inches_in(text) if entry.quantity and entry.quantity.accepted is LENGTHS else math.nan
+        )
+        if math.isfinite(inches):
+            return inches * INCH_M / si
+        _check_remark(text, entry)
         value = number(cell, wanted, unit)
         return int(value) if entry.kind is int and value.is_integer() else value
     if entry.kind is date:
@@ -220,7 +239,7 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
     """
     value = cell.value
     if isinstance(value, str):
-        return _number_in_text(value.strip(), wanted)
+        return _number_in_text(value.strip(), wanted, unit)
     if isinstance(value, bool):
         raise CellError(f"is {plain(value)}, a logical value", wanted)
     if isinstance(value, date | time | timedelta):
@@ -241,14 +260,26 @@ def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
     return float(value)
 
 
-def _number_in_text(text: str, wanted: str) -> float:
-    if _NUMBER.fullmatch(text) and math.isfinite(float(text)):
-        return float(text)
-    if _THOUSANDS.fullmatch(text):
-        whole = text.replace(",", "")
+def _check_remark(text: str, entry: Entry) -> None:
+    """Raise if the remark behind a number is what another column of its row says."""
+    remark = remark_in(text)
+    for other in entries(entry.model) if remark else ():
+        if remark.casefold() in other.choices:
+            wanted = f"write the number alone, and {remark} in the column {other.cell.label}"
+            raise CellError(f"is '{cut(text)}'", wanted)
+
+
+def _number_in_text(text: str, wanted: str, unit: str) -> float:
+    if math.isfinite(value := number_in(text)):
+        return value
+    if math.isfinite(rise := rise_in(text)):
+        if choice_in(unit, SlopeUnit) == SlopeUnit.IN_PER_12:
+            return rise
+        raise CellError(
+            f"is '{cut(text)}'", f"{wanted}, or choose the slope unit {SlopeUnit.IN_PER_12}"
+        )
+    if whole := in_thousands(text):
         raise CellError(f"is '{cut(text)}'", f"write {whole}, without a comma")
-    if match := _DECIMAL_COMMA.fullmatch(text):
-        raise CellError(f"is '{cut(text)}'", f"write {match[1] or '0'}.{match[2]}")
     if _WITH_UNIT.fullmatch(text):
         raise CellError(f"is '{cut(text)}'", f"{wanted}, with no unit in the cell")
     raise CellError(f"is '{cut(text)}'", wanted)
@@ -260,11 +291,15 @@ def _date(cell: Found, wanted: str) -> date:
         found = value.date()
     elif isinstance(value, date):
         found = value
+    elif isinstance(value, int | float) and EARLIEST_DAY <= value <= LATEST_DAY:
+        # SheetJS writes dates without their format.
+        found = (cell.day_zero + timedelta(days=int(value))).date()
     else:
-        try:
-            found = date.fromisoformat(str(value).strip() if isinstance(value, str) else "")
-        except ValueError as error:
-            raise CellError(f"is {_quoted(value)}", wanted) from error
+        meant = dates_in(value.strip()) if isinstance(value, str) else []
+        if len(meant) != 1:
+            either = f"write {' or '.join(map(str, meant))}" if meant else wanted
+            raise CellError(f"is {_quoted(value)}", either)
+        (found,) = meant
     # A spreadsheet shows a small number, such as 3.5, as a day of 1900.
     if found < EARLIEST:
         raise CellError(f"is {found}, before {EARLIEST}", wanted)
@@ -272,12 +307,17 @@ def _date(cell: Found, wanted: str) -> date:
 
 
 def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
-    said = " ".join(str(plain(cell.value)).split()).casefold()
+    said = plain(cell.value)
     if entry.kind is bool:
-        said = {"true": "yes", "false": "no"}.get(said, said)
-    for choice in entry.choices:
-        if choice.casefold() == said:
-            return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
+        said = {"true": "yes", "false": "no"}.get(said.strip().casefold(), said)
+    if choice := choice_in(said, entry.choices):
+        return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
+    try:
+        # What a choice is called otherwise, its own class knows; bool takes anything.
+        if entry.kind is not bool:
+            return entry.kind(said.strip().casefold())  # type: ignore[no-any-return]
+    except ValueError:
+        pass
     raise CellError(f"is {_quoted(cell.value)}", wanted)
 
 

@@ -60,6 +60,7 @@ def found_at(book: OpenBook, position: CellPosition) -> Found:
         formula=book.formula(position.sheet, position.cell),
         is_error=cell.data_type == "e",
         number_format=str(cell.number_format),
+        day_zero=book.book.epoch,
     )
 
 

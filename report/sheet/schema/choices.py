@@ -81,6 +81,10 @@ class RiskCategory(StrEnum):
     III = "III"
     IV = "IV"
 
+    @classmethod
+    def _missing_(cls, value: object) -> RiskCategory | None:
+        return dict(zip(("1", "2", "3", "4"), cls, strict=True)).get(str(value))
+
 
 class SiteClass(StrEnum):
     """Site class, ASCE 7 chapter 20; BC, CD and DE were added in the 2022 edition."""
@@ -114,6 +118,10 @@ class SlopeUnit(StrEnum):
     DEGREES = "degrees"
     PERCENT = "percent"
     IN_PER_12 = "in/12"
+
+    @classmethod
+    def _missing_(cls, value: object) -> SlopeUnit | None:
+        return {"°": cls.DEGREES, "%": cls.PERCENT}.get(str(value))
 
 
 class LayerKind(StrEnum):
@@ -153,6 +161,11 @@ class Direction(StrEnum):
     UP = "up"
     ACROSS = "across"
     ANY = "any"
+
+    @classmethod
+    def _missing_(cls, value: object) -> Direction | None:
+        named = {"downslope": cls.DOWN, "upslope": cls.UP, "cross-slope": cls.ACROSS}
+        return named.get(str(value))
 
 
 class ClearanceSource(StrEnum):

@@ -33,8 +33,10 @@ pytestmark = pytest.mark.quick
             "line 2: blocks is -1; give a whole number from 0 to 10,000",
             "line 3: blocks is 1e+09; give a whole number from 0 to 10,000",
         ]),
-        ('x,y,blocks\n"1,2,3\n', ["not a CSV in UTF-8; save it as one"]),
-        (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8; save it as one"]),
+        ("x [m],y [ft],blocks\n", ["line 1: the heading is 'y [ft]', and --units says another"
+                                   " unit"]),
+        ('x,y,blocks\n"1,2,3\n', ["not a CSV in UTF-8 or UTF-16; save it as one"]),
+        (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8 or UTF-16; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; add up "
                                                "neighboring blocks"]),
         (b" " * (MAX_BYTES + 1), ["more than 5 MB; keep the columns x, y, blocks"]),
@@ -52,6 +54,23 @@ def test_a_map_is_read_in_its_unit_with_any_columns_beside(tmp_path):
     path = tmp_path / "map.csv"
     path.write_text("\ufeffRow, Blocks ,X,y\nR1,2,10,20\n\nR2,0,1.5,-2\n", encoding="utf-8")
     assert read_map(path, FT).tolist() == [[2, 10 * FT, 20 * FT, 2], [4, 1.5 * FT, -2 * FT, 0]]
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "x;y;blocks\n35,125;155;2\n",
+        "x\ty\tblocks\n35.125\t155\t2\n",
+        "X (ft),Y (ft),Block Count\n35.125,155,2\n",
+        "x_ft;y ft;Number of blocks\n35.125;155;2\n",
+        "x,y,blocks\r\n35.125,155,2\r\n".encode("utf-16"),
+        "\ufeffx\ty\tblocks\n35.125\t155\t2\n".encode("utf-16-be"),
+    ],
+)
+def test_a_map_is_read_with_the_separators_of_spreadsheets(tmp_path, content):
+    path = tmp_path / "map.csv"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    assert read_map(path, FT).tolist() == [[2, pytest.approx(35.125 * FT), 155 * FT, 2]]
 
 
 def test_the_center_of_gravity_is_that_of_blocks_and_modules():

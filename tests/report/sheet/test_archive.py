@@ -150,6 +150,15 @@ def test_a_workbook_with_a_spoiled_part_is_refused(tmp_path, case):
     assert problems(rewritten(make(tmp_path), part, change)) == (line,)
 
 
+def test_a_default_type_for_macros_that_are_not_there_is_harmless(tmp_path):
+    """As every workbook of SheetJS has one."""
+    path = make(tmp_path)
+    default = b'<Default Extension="bin" ContentType="application/vnd.ms-excel.sheet.binary.'
+    default += b'macroEnabled.main"/>'
+    rewritten(path, "[Content_Types].xml", replaced(b"<Override", default + b"<Override"))
+    assert same(read_workbook(path).input, project())
+
+
 def test_tags_are_counted_before_anything_is_parsed(tmp_path):
     (line,) = problems(rewritten(make(tmp_path), "xl/no.xml", to(b"<" * MAX_TAGS)))
     assert line.endswith(f" XML tags, more than {MAX_TAGS:,}; {BESIDE}")

@@ -55,7 +55,7 @@ SINGLE_CELLS = [
     ("Arrays/A1/Friction coefficient", "friction coefficient is ", {
         "abc": f"'abc'; {NUMBER}", "0_4": f"'0_4'; {NUMBER}", "٠.٤": f"'٠.٤'; {NUMBER}",
         "  ": f"missing; {NUMBER}",
-        -0.1: f"-0.1; {NUMBER}", ",45": "',45'; write 0.45",
+        -0.1: f"-0.1; {NUMBER}", "0.45 (dry 0.52)": f"'0.45 (dry 0.52)'; {NUMBER}",
         "#DIV/0!": "#DIV/0!; correct the formula, or type a value",
         "=0.4+0.05": "a formula with no saved value (=0.4+0.05); open the workbook in Excel or"
                      " LibreOffice and save it",
@@ -63,7 +63,7 @@ SINGLE_CELLS = [
     ("Arrays/A2/Friction coefficient", "friction coefficient is ", {
         "nan": f"'nan'; {NUMBER}", "1e999": f"'1e999'; {NUMBER}", 1.7: f"1.7; {NUMBER}",
         True: f"TRUE, a logical value; {NUMBER}", None: f"missing; {NUMBER}",
-        "0,45": "'0,45'; write 0.45", "#N/A": "#N/A; correct the formula, or type a value",
+        "0,45,5": f"'0,45,5'; {NUMBER}", "#N/A": "#N/A; correct the formula, or type a value",
     }),
     ("Arrays/A1/Weight", "weight is ", {
         "42,000": "'42,000'; write 42000, without a comma",
@@ -77,6 +77,12 @@ SINGLE_CELLS = [
     ("Arrays/A1/Slope", "slope is a date or time ", {
         dt.datetime(2024, 5, 3): "(2024-05-03); give a number of 0 or more, formatted as a number",
         dt.time(2, 30): "(02:30:00); give a number of 0 or more, formatted as a number",
+    }),
+    ("Arrays/A2/Slope", "slope is ", {
+        "1/2:12": "'1/2:12'; give a number of 0 or more, or choose the slope unit in/12",
+    }),
+    ("Friction tests/1/Kinetic coefficient", "kinetic coefficient is ", {
+        "0.45 (dry)": "'0.45 (dry)'; write the number alone, and dry in the column Surface",
     }),
     ("Arrays/A1/x from", "x from is ", {
         -1e300: "-1e+300; give a number [ft], below 1e+15 in size",
@@ -102,6 +108,7 @@ SINGLE_CELLS = [
                                  " it",
     }),
     ("Project/Date", "date is ", {
+        "3/5/2026": "'3/5/2026'; write 2026-03-05 or 2026-05-03",
         "3/5/26": "'3/5/26'; give a date such as 2026-03-05",
         True: "TRUE; give a date such as 2026-03-05",
         # in a cell that is formatted as a date

@@ -1,6 +1,7 @@
 """User-defined target spectra: sheets and CSV files, and their input errors."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -62,7 +63,10 @@ def test_the_only_sheet_needs_no_name(tmp_path):
 def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
     lines = ["frequency_hz,horizontal_g", "0.1,0.2", "", "1.3,2", "33.3,1.2"]
     content = "\ufeff" + "\r\n".join(lines).replace(",", separator)
-    target = read_target(text(tmp_path, content))
+    path = text(tmp_path, content)
+    target = read_target(path)
+    Path(path).write_bytes(content.encode("utf-16-le"))  # as Excel's Unicode text
+    assert read_target(path).freq_hz.tolist() == target.freq_hz.tolist()
     assert target.freq_hz.tolist() == [0.1, 1.3, 33.3]
     assert target.horizontal_g.tolist() == [0.2, 2.0, 1.2]
     assert not target.has_vertical
@@ -70,14 +74,14 @@ def test_csv_of_frequencies_is_read_without_a_vertical(tmp_path, separator):
 
 def test_every_invalid_cell_is_reported_by_its_address(tmp_path):
     rows = [list(row) for row in ROWS]
-    rows[1][1] = "1,5"
+    rows[1][1] = "1,5,0"
     rows[2][2] = None
     rows[3][0] = 0
     rows[4][1] = True
     rows[5][2] = 250
     assert problems(f"{book(tmp_path, rows)}!Target") == (
         "Target!A4: period is 0; give a number from 0.001 to 1000 [s]",
-        "Target!B2: horizontal is '1,5'; write 1.5",
+        "Target!B2: horizontal is '1,5,0'; give a number greater than 0 [g]",
         "Target!B5: horizontal is TRUE, a logical value; give a number greater than 0 [g]",
         "Target!C3: vertical is blank; give a number greater than 0",
         "Target!C6: vertical is 250; give a number from 1e-06 to 100 [g]",

@@ -1,0 +1,172 @@
+"""Numbers, lengths, dates and choices as people type them, and what has two meanings."""
+
+import datetime as dt
+import math
+
+import pytest
+
+from inputs import FT, INCH
+from report.sheet.reading.read import read
+from report.sheet.reading.typed_text import choice_in, dates_in, inches_in, number_in, rise_in
+from report.sheet.schema.choices import RuleSetName, StructureType
+from sheets import make, type_into
+
+pytestmark = pytest.mark.quick
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0.45", 0.45),
+        ("0,5", 0.5),
+        (",45", 0.45),
+        ("-12,5", -12.5),
+        ("0,500", 0.5),
+        ("1,234.5", 1234.5),
+        ("1,234,567", 1234567.0),
+        ("1e-3", 1e-3),
+        ("0.45 (wet)", 0.45),
+        ("0,45 (Wet)", 0.45),
+        ("36 (typ.)", 36.0),
+    ],
+)
+def test_a_number_with_one_meaning_is_read(text, value):
+    assert number_in(text) == value
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "0,4,5", "1.2.3", "0.45 (0.5)", "0.45 (dry 0.5)", "36 (m)",
+     "42 (kip)", "2 (x 3)", "(wet)", "٣", "1_000", "nan", "inf", "0x1f", "4 5"],
+)  # fmt: skip
+def test_a_number_with_two_meanings_or_none_is_not(text):
+    assert not math.isfinite(number_in(text))
+
+
+@pytest.mark.parametrize("text", ["1,234", "12,345", "-1,234"])
+def test_a_comma_before_three_digits_may_be_either(text):
+    assert math.isnan(number_in(text))
+
+
+@pytest.mark.parametrize(
+    ("text", "inches"),
+    [
+        ("28'-6\"", 342.0),
+        ("4'-0\"", 48.0),
+        ("4'", 48.0),
+        ('48"', 48.0),
+        ("28' 6 1/2\"", 342.5),
+        ("3 1/2''", 3.5),
+        ('1/2"', 0.5),
+        ("28\u2019-6\u201d", 342.0),
+        ("-28'-6\"", -342.0),
+        ("2.5'", 30.0),
+        ("0'-6\"", 6.0),
+        ("28'6\"", 342.0),
+    ],
+)
+def test_a_length_with_marks_is_read(text, inches):
+    assert inches_in(text) == pytest.approx(inches)
+
+
+@pytest.mark.parametrize("text", ["", "'", '"', "28", "28'-6", "6\"-28'", "4'x2'", '1/0"', "9 in"])
+def test_what_is_no_length_with_marks_is_not(text):
+    assert math.isnan(inches_in(text))
+
+
+@pytest.mark.parametrize(
+    ("text", "rise"),
+    [("1/2:12", 0.5), ("1/4 : 12", 0.25), ("1 1/2:12", 1.5), ("0.5 in 12", 0.5), ("2:12", 2.0)],
+)
+def test_a_rise_in_12_is_read(text, rise):
+    assert rise_in(text) == rise
+
+
+@pytest.mark.parametrize("text", ["1/2", "1:20", "1/2:1", "2/12", ":12", "-1/2:12", "1/0:12"])
+def test_another_ratio_is_no_rise_in_12(text):
+    assert math.isnan(rise_in(text))
+
+
+DAY = dt.date(2026, 11, 20)
+
+
+@pytest.mark.parametrize(
+    ("text", "dates"),
+    [
+        ("Nov 20, 2026", [DAY]),
+        ("November 20, 2026", [DAY]),
+        ("nov 20 2026", [DAY]),
+        ("Nov. 20, 2026", [DAY]),
+        ("20 Nov 2026", [DAY]),
+        ("20-Nov-2026", [DAY]),
+        ("2026/11/20", [DAY]),
+        ("2026-11-20", [DAY]),
+        ("11/20/2026", [DAY]),
+        ("20.11.2026", [DAY]),
+        ("3/3/2026", [dt.date(2026, 3, 3)]),
+        ("3/5/2026", [dt.date(2026, 3, 5), dt.date(2026, 5, 3)]),
+        ("3/5/26", []),
+        ("Nov 2026", []),
+        ("Feb 30, 2026", []),
+        ("30/30/2026", []),
+        ("tomorrow", []),
+    ],
+)
+def test_a_date_has_the_meanings_that_it_may_have(text, dates):
+    assert dates_in(text) == dates
+
+
+KINDS = ("fixed object", "unlike array", "edge with parapet", "edge without parapet")
+
+
+@pytest.mark.parametrize(
+    ("text", "choices", "choice"),
+    [
+        ("fixed", KINDS, "fixed object"),
+        ("  Fixed   OBJECT ", KINDS, "fixed object"),
+        ("edge", KINDS, ""),
+        ("edge with", KINDS, "edge with parapet"),
+        ("parapet", KINDS, ""),
+        ("f", KINDS, ""),
+        ("", KINDS, ""),
+        ("ASCE7-16", RuleSetName, "ASCE 7-16"),
+        ("ASCE/SEI 7-16", RuleSetName, "ASCE 7-16"),
+        ("asce 7-16", RuleSetName, "ASCE 7-16"),
+        ("ASCE 7", RuleSetName, ""),
+        ("SEAOC PV1", RuleSetName, ""),
+        ("PV1-2012", RuleSetName, ""),
+        ("cm/s", ("g", "cm/s2"), ""),
+        ("D default", ("D", "D (default)"), "D (default)"),
+        ("steel", StructureType, ""),
+    ],
+)
+def test_a_choice_is_told_by_its_first_words(text, choices, choice):
+    assert choice_in(text, choices) == choice
+
+
+@pytest.mark.parametrize(
+    ("cell", "typed", "section", "row", "field", "value"),
+    [
+        ("Arrays/A1/x to", "28'-6\"", "arrays", 0, "x_to_m", 28.5 * FT),
+        ("Arrays/A1/CG height", "4'-0\"", "arrays", 0, "cg_height_m", 48 * INCH),
+        ("Arrays/A1/Slope", "0,5", "arrays", 0, "slope_value", 0.5),
+        ("Arrays/A1/Friction coefficient", "0.45 (wet)", "arrays", 0, "mu", 0.45),
+        ("Project/Date", "Nov 20, 2026", "project", 0, "date", DAY),
+        ("Project/Date", (DAY - dt.date(1899, 12, 30)).days, "project", 0, "date", DAY),
+        ("Site/Risk category", 2, "site", 0, "risk_category", "II"),
+        ("Site/Rule set", "ASCE7-16", "site", 0, "rule_set", "ASCE 7-16"),
+        ("Objects/RTU-1/Kind", "fixed", "objects", 0, "kind", "fixed object"),
+        ("Clearances/1/Direction", "downslope", "clearances", 0, "direction", "down"),
+        ("Arrays/A1/Slope unit", "%", "arrays", 0, "slope_unit", "percent"),
+    ],
+)
+def test_a_cell_is_read_as_it_is_typed(tmp_path, cell, typed, section, row, field, value):
+    draft = read(type_into(make(tmp_path), {cell: typed})).draft
+    assert draft[section][row][field] == (
+        pytest.approx(value) if isinstance(value, float) else value
+    )
+
+
+def test_a_slope_in_12_is_read_where_the_slope_unit_says_so(tmp_path):
+    path = type_into(make(tmp_path), {"Arrays/A1/Slope": "1/2:12", "Arrays/A1/Slope unit": "in/12"})
+    assert read(path).draft["arrays"][0]["slope_value"] == 0.5
