@@ -26,8 +26,8 @@ from report.sheet.schema.fields import Entry, entries
 HERE = Path(__file__).resolve().parent
 
 EXAMPLES = (
-    "slip", "two_axes", "design_curves", "least_friction", "workbook", "suite", "ground_to_roof",
-    "fragility", "own_method", "newmark",
+    "slip", "two_axes", "design_curves", "least_friction", "workbook", "varied", "suite",
+    "ground_to_roof", "fragility", "own_method", "newmark",
 )  # fmt: skip
 
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from report.assessment.project import Assessment
+    from report.sheet.reading.read import Sheet
 
-__all__ = ["assess_project"]
+__all__ = ["assess_project", "read_project"]
 
 # openpyxl asks once, as it is loaded. Through lxml, where that is installed, it would write other
 # workbooks. Through defusedxml it reads them in half as much time again; by then
@@ -17,13 +18,43 @@ __all__ = ["assess_project"]
 os.environ |= {"OPENPYXL_LXML": "False", "OPENPYXL_DEFUSEDXML": "False"}
 
 
-def assess_project(source: str | Path) -> Assessment:
-    """Run a project and return its assessment, without a package.
+def read_project(source: str | Path) -> Sheet:
+    """Read the workbook of a project; run nothing.
 
     Parameters
     ----------
     source : str or Path
         An input workbook, or a folder with `input.xlsx`.
+
+    Returns
+    -------
+    Sheet
+        The workbook as data: `project` has every input, and `with_` gives it other ones.
+
+    Raises
+    ------
+    InputError
+        If there is no workbook to read; `project` raises the problems within it.
+
+    Examples
+    --------
+    >>> from report import read_project
+    >>> workbook = read_project("projects/conditions")
+    >>> [array.mu for array in workbook.project.arrays]
+    [0.5, 0.5]
+    """
+    from report.sheet.reading.read import read
+
+    return read(Path(source))
+
+
+def assess_project(source: str | Path | Sheet) -> Assessment:
+    """Run a project and return its assessment, without a package.
+
+    Parameters
+    ----------
+    source : str, Path or Sheet
+        An input workbook, or a folder with `input.xlsx`, or what `read_project` returns.
 
     Returns
     -------
@@ -46,7 +77,6 @@ def assess_project(source: str | Path) -> Assessment:
     """
     from report.assessment.assess import assess
     from report.motions.prepare import prepare
-    from report.sheet.reading.read import read
 
-    sheet = read(Path(source))
+    sheet = read_project(source) if isinstance(source, str | Path) else source
     return assess(sheet, prepare(sheet))

@@ -11,7 +11,7 @@ from nightly import nightly
 from places import ROOT
 
 EXAMPLES = ROOT / "docs" / "examples"
-LONG = {"suite", "workbook", "own_method"}
+LONG = {"suite", "workbook", "varied", "own_method"}
 
 
 def listed():

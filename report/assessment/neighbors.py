@@ -228,7 +228,7 @@ class PlanNeighbor(ComparedGap):
             what = (
                 "add the edge as an object, and a clearance to it"
                 if self.kind is NearbyKind.BARE_EDGE
-                else "add a row with their clearance"
+                else "add a row with their clearance, or run roofslip plan clearances"
             )
             within = "twice the design displacement"
             if math.isnan(self.required_m):

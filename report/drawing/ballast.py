@@ -55,20 +55,21 @@ def read_map(path: Path, unit_m: float) -> Any:
         raise InputError(f"more than {MAX_BYTES // MB} MB; keep the columns {', '.join(COLUMNS)}")
     is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
-        text = data.decode("utf-16" if is_utf_16 else "utf-8-sig").splitlines()
-        mark = separator(text)
-        lines = csv.reader(text, delimiter=mark, strict=True)
+        content = data.decode("utf-16" if is_utf_16 else "utf-8-sig").splitlines()
+        mark = separator(content)
+        lines = csv.reader(content, delimiter=mark, strict=True)
         rows = [(lines.line_num, row) for row in lines if any(map(str.strip, row))]
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError("not a CSV in UTF-8 or UTF-16; save it as one") from error
-    named = [_HEADING.fullmatch(name.strip().casefold()) for name in rows[0][1]] if rows else []
-    heads = [_NAMES.get(name[1], name[1]) if name else "" for name in named]
-    for name in named:
-        unit = name and (name[2] or name[3])
-        if name and unit and name[1] in ("x", "y") and LENGTHS.get(unit) != unit_m:
-            raise InputError(
-                f"line 1: the heading is '{cut(name[0])}', and --units says another unit"
-            )
+    heads = []
+    for heading in rows[0][1] if rows else ():
+        words = _HEADING.fullmatch(" ".join(heading.split()).casefold())
+        name, *units = words.groups(default="") if words else ("",)
+        heads.append(_NAMES.get(name, name))
+        unit = "".join(units)
+        if name in ("x", "y") and unit and LENGTHS.get(unit) != unit_m:
+            text = f"line 1: the heading is '{cut(heading)}'"
+            raise InputError(f"{text}, and --units says another unit")
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
         raise InputError(f"line 1: not one heading {', '.join(missing)}; give x, y and blocks")
     if len(rows) > MAX_ROWS:

@@ -75,13 +75,15 @@ class Sweep:
     def to_frame(self) -> pd.DataFrame:
         """Return the results as a table with one row per combination and the status in words.
 
-        Index: `slope_rad`, `mu`, `scale`; columns: `prd_m`, `residual_m`, `status`.
+        Index: `slope_rad`, `mu`, `scale`; columns: `slope_deg`, `prd_m`, `residual_m`, `status`.
         """
         import pandas as pd
 
+        slopes_deg = np.degrees(self.slopes_rad)[:, None, None]
         axes = (self.slopes_rad, self.mus, self.scales)
         words = np.array([status.value for status in STATUSES])[self.status]
-        columns = {"prd_m": self.prd_m, "residual_m": self.residual_m, "status": words}
+        columns = {"slope_deg": np.broadcast_to(slopes_deg, self.prd_m.shape)}
+        columns |= {"prd_m": self.prd_m, "residual_m": self.residual_m, "status": words}
         return pd.DataFrame(
             {name: values.ravel() for name, values in columns.items()},
             index=pd.MultiIndex.from_product(axes, names=("slope_rad", "mu", "scale")),

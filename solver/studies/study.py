@@ -18,6 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, InputError, Motion, Status
+from solver.records.record import Record
+from solver.sliding.checked import motion
 from solver.sliding.least_model import Model
 from solver.sliding.sweep import axis
 from solver.studies.campaign import Campaign, grid
@@ -119,15 +121,17 @@ class StudyRuns:
     def to_frame(self) -> pd.DataFrame:
         """Return the runs as a table with one row each.
 
-        Index: `slope_rad`, `mu`, `intensity`, `motion`, `orientation`; columns: `prd_m`, `down_m`,
-        `up_m`, `across_m`, `residual_m`, `status`, `model`.
+        Index: `slope_rad`, `mu`, `intensity`, `motion`, `orientation`; columns: `slope_deg`,
+        `prd_m`, `down_m`, `up_m`, `across_m`, `residual_m`, `status`, `model`.
         """
         import pandas as pd
 
         axes = (self.slopes_rad.tolist(), self.mus.tolist(), self.intensities.tolist(), self.runs)
         rows = [(*case, *run) for *case, run in product(*axes)]
         names = ("slope_rad", "mu", "intensity", "motion", "orientation")
-        columns = dict(zip(LENGTHS, self.lengths, strict=True)) | {
+        slopes_deg = np.degrees(self.slopes_rad)[:, None, None, None]
+        columns = {"slope_deg": np.broadcast_to(slopes_deg, self.status.shape)}
+        columns |= dict(zip(LENGTHS, self.lengths, strict=True)) | {
             "status": np.array([status.value for status in STATUSES])[self.status],
             "model": np.array([model.title for model in Model])[self.model],
         }
@@ -138,7 +142,7 @@ class StudyRuns:
 
 
 def study(
-    motions: Sequence[Motion],
+    motions: Sequence[Motion | Record],
     *,
     slopes_rad: ArrayLike,
     mus: ArrayLike,
@@ -151,8 +155,8 @@ def study(
 
     Parameters
     ----------
-    motions : sequence of Motion
-        With different names.
+    motions : sequence of Motion or Record
+        With different names. A record is a motion of one component, in both polarities.
     slopes_rad : array_like, shape (p,)
         Increasing roof slopes [rad], |slope| < pi/2.
     mus : array_like, shape (q,)
@@ -180,8 +184,9 @@ def study(
     >>> runs.minimum_friction(0.002).round(3)
     array([[0.256]])
     """
-    problems = [] if motions else ["motions is empty; give one or more"]
-    if len({motion.id for motion in motions}) < len(motions):
+    given = [motion(each) if isinstance(each, Record) else each for each in motions]
+    problems = [] if given else ["motions is empty; give one or more"]
+    if len({each.id for each in given}) < len(given):
         problems.append("two motions have one name; give solver.motion an id")
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
@@ -192,13 +197,13 @@ def study(
         problems.append("slopes_rad, mus, intensities: give each value once, in increasing order")
     if problems:
         raise InputError(problems)
-    campaign = _campaign(motions, *axes)
+    campaign = _campaign(given, *axes)
     with ThreadPoolExecutor(THREADS) as pool:
         parts = list(pool.map(partial(run_part, Runner(campaign)), campaign.parts))
     shape = (*(values.size for values in axes), len(campaign.columns))
-    names = ((motions[number].id, each.name) for number, each in campaign.columns)
+    names = ((given[number].id, each.name) for number, each in campaign.columns)
     return StudyRuns(
-        motions=tuple(motions),
+        motions=tuple(given),
         slopes_rad=axes[0],
         mus=axes[1],
         intensities=axes[2],

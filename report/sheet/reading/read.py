@@ -10,9 +10,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 from openpyxl.utils import coordinate_to_tuple
+from pydantic import ValidationError
 
 from report.sheet.checking.checks import faults
 from report.sheet.reading.archive import OpenBook, open_book
@@ -90,6 +91,7 @@ class SheetOf(Generic[Whole]):
     unfound: frozenset[str]  # sections
     unseen: tuple[Unseen, ...]
     warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
+    check: Callable[[Draft, Where], Iterable[Finding]] = faults
     documents: tuple[Document, ...] = ()  # beside it, that the package attaches
 
     @cached_property
@@ -107,6 +109,39 @@ class SheetOf(Generic[Whole]):
             rows = tuple(part.model(**row) for row in self.draft[part.key])
             given[part.key] = rows if part.is_table else rows[0]
         return self.whole(**given)
+
+    def with_(self, **parts: Frozen | Iterable[Frozen]) -> Self:
+        """Return the same with other inputs, checked as those of a workbook.
+
+        Parameters
+        ----------
+        **parts : Frozen or iterable of Frozen
+            Fields of `project`: a block, or all rows of a table, such as
+            `arrays=[row.model_copy(update={"mu": 0.4}) for row in workbook.project.arrays]`.
+
+        Raises
+        ------
+        InputError
+            For a part or a value that a workbook may not have, and for each problem of this one.
+        """
+        self.refuse(())
+        sections, draft = {part.key: part for part in sections_of(self.whole)}, dict(self.draft)
+        if unknown := [key for key in parts if key not in sections]:
+            raise InputError(f"no input {', '.join(unknown)}; give some of {', '.join(sections)}")
+        for key, given in parts.items():
+            rows = [given] if isinstance(given, Frozen) else list(given)
+            try:
+                checked = [sections[key].model.model_validate(dict(row)) for row in rows]
+            except ValidationError as error:
+                wrong = (
+                    f"{key}: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()
+                )
+                raise InputError(list(wrong)) from error
+            draft[key] = [dict(row) for row in checked]
+        found = _located(self.check(draft, self.where), self.addresses, self.unfound)
+        other = replace(self, draft=draft, problems=tuple(found))
+        other.refuse(())
+        return other
 
     def where(self, place: Place) -> str:
         """Return the address of a place; that of its table or sheet if it has no cell."""
@@ -176,6 +211,7 @@ def read_as(
         sha256=book.sha256,
         book=book,
         whole=whole,
+        check=check,
         draft=gathered.draft,
         echo=tuple(
             replace(row, unseen=marks.get(row.address, ""))

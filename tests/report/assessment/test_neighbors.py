@@ -130,7 +130,7 @@ def test_a_missing_clearance_is_named_with_both_lengths_and_the_sheet(done):
     assert neighbor.shortcomings(True) == (
         "Clearances: A1 and A2 are 240.0 in (6096 mm) apart in plan, within twice the design "
         "displacement (252.0 in (6401 mm)), and no clearance is given; add a row with their "
-        "clearance",
+        "clearance, or run roofslip plan clearances",
     )
 
 

@@ -28,7 +28,7 @@ CYRILLIC, GREEK = "\u0410", "\u0391"  # both look like A
     [
         (f"{CYRILLIC}1", ["A1"], f"it looks like 'A1', but '{CYRILLIC}' is a Cyrillic letter"),
         ("a1", [f"{GREEK}1"], f"it looks like '{GREEK}1', but '{GREEK}' is a Greek letter"),
-        ("Aray", ["Array"], "did you mean 'Array'?"),
+        ("RTU-11", ["RTU-1"], "did you mean 'RTU-1'?"),
         ("\u03b2-1", ["A1"], "give one of A1"),
     ],
 )

@@ -552,5 +552,6 @@ def test_results_are_short_to_read_and_tables_where_they_are_rows():
     assert frame.index.tolist() == history.t_s.tolist()
     assert "across_m" in both.to_frame()
     table = sweep.to_frame()
+    assert table.loc[(0.1, 0.2, 2.0), "slope_deg"] == pytest.approx(math.degrees(0.1))
     assert table.loc[(0.1, 0.2, 2.0), "prd_m"] == sweep.prd_m[1, 0, 1]
     assert set(table["status"]) <= {"ok", "sliding_at_end", "uplift"}

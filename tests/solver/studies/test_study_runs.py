@@ -1,5 +1,6 @@
 """A study in memory is every single run, and its numbers follow from them."""
 
+import math
 from dataclasses import replace
 from itertools import product
 
@@ -100,9 +101,20 @@ def test_a_table_has_a_row_for_each_run(runs):
     assert len(frame) == runs.status.size
     row = frame.loc[(0.25, 0.3, 1.0, "both", "transverse −")]
     at = (1, 1, 1, runs.runs.index(("both", "transverse −")))
+    assert row["slope_deg"] == pytest.approx(math.degrees(0.25))
     assert row["prd_m"] == runs.lengths[0][at]
     assert row["status"] == tuple(Status)[runs.status[at]].value
     assert row["model"] == Model(runs.model[at]).title
+
+
+def test_a_record_is_a_motion_of_its_name():
+    pulse = solver.record_from_values("pulse", [0.0, 4.0, -4.0, 0.0, 0.0], units="m/s2", dt_s=0.1)
+    found, wanted = (
+        solver.study([given], slopes_rad=[0.0], mus=[0.2])
+        for given in (pulse, solver.motion(pulse))
+    )
+    assert found.motions[0].id == "pulse"
+    assert found.to_frame().equals(wanted.to_frame())
 
 
 def test_what_is_no_study_is_refused(motions):
