@@ -79,9 +79,10 @@ def read(
     """
     from report.drawing.fill import changes
     from report.drawing.matched import matched
-    from report.drawing.plan_read import check_size, plan_of
+    from report.drawing.plan_read import check_size, known_layers, plan_of
     from report.sheet.checking.plan_checks import us_first
     from report.sheet.reading.read import read_book
+    from report.sheet.schema.choices import LayerKind
     from report.sheet.writing.filled import changing, withdrawn
     from report.words.units import LENGTHS
     from solver.model import InputError
@@ -97,6 +98,9 @@ def read(
             drawn, turn = _turned(drawn, rotate)
             layers = choose(drawn, named, given, accept)
             found = plan_of(drawn, unit_m, {**named, **layers}, gap_m, is_us)
+            known_now = known_layers({**named, **layers})
+            unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known_now]
+            layers |= dict.fromkeys(unknown, LayerKind.NOT_READ)
         if not (found.roof or found.arrays or found.objects):
             if drawn.layouts and not drawn.lines:
                 names = ", ".join(drawn.layouts)
@@ -125,7 +129,7 @@ def read(
         ),
         *_unread(found),
         *(f"layer {name}: {kind.value}" for name, kind in layers.items()),
-        f"{change.book.path}: the plan is filled in.",
+        f"{change.book.path}: the plan is filled in: {change.areas}",
         *told.lines(replace=replace),
         *more,
     )
@@ -150,6 +154,8 @@ def clearances(project: Path) -> None:
         lines = [*_add_clearances(change), *withdrawn(change)]
     for line in lines:
         click.echo(plain(line))
+    if change.written:
+        click.echo(plain(f"{change.book.path}: written: {change.areas}"))
     say_next(project, change.has_formulas)
 
 
@@ -288,7 +294,7 @@ def ballast(
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
         click.echo(f"outside of every array: {lines}")
-    click.echo(f"{sheet.path}: the ballast weights are filled in.")
+    click.echo(f"{sheet.path}: the ballast weights are filled in: {change.areas}")
     say_next(project, change.has_formulas)
 
 

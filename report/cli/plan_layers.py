@@ -72,7 +72,7 @@ def choose(
             " add --accept to take what is proposed, or --layer NAME=KIND for a layer, where KIND"
             f" is one of {', '.join(LayerKind)}"
         )
-    return {**given, **{layer: kind or LayerKind.NOT_READ for layer, kind in kinds.items()}}
+    return {**given, **{layer: kind for layer, kind in kinds.items() if kind}}
 
 
 def _table(

@@ -11,6 +11,7 @@ import posixpath
 import re
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence, Set
+from types import MappingProxyType
 from typing import Any
 
 from lxml import etree
@@ -46,6 +47,7 @@ def changed(
     changes: Mapping[CellPosition, Value],
     stale: Set[CellPosition] = frozenset(),
     *,
+    looks: Mapping[CellPosition, CellPosition] = MappingProxyType({}),
     recalculates: bool = True,
 ) -> bytes:
     """Return a workbook with other contents of some cells; formulas are computed when it is opened.
@@ -56,6 +58,8 @@ def changed(
         None leaves a cell blank. Each keeps its format.
     stale : set of CellPosition, optional
         Formulas that lose their values: LibreOffice would keep them.
+    looks : mapping of CellPosition to CellPosition, optional
+        Cells that take the format of another one of their sheet.
     recalculates : bool
         Not where no formula refers to the cells.
 
@@ -69,7 +73,7 @@ def changed(
         members = archive.infolist()
         files = {member.filename: archive.read(member) for member in members}
     has_formula = any(isinstance(value, Formula) for value in changes.values())
-    for title in dict.fromkeys(position.sheet for position in (*changes, *stale)):
+    for title in dict.fromkeys(position.sheet for position in (*changes, *stale, *looks)):
         if title not in titles:
             raise InputError(f"{title}: the sheet is missing")
         part = titles[title]
@@ -77,6 +81,7 @@ def changed(
         cells = {(p.row, p.column): value for p, value in changes.items() if p.sheet == title}
         has_formula |= _fill(title, sheet, cells)
         _forget(sheet, {(p.row, p.column) for p in stale if p.sheet == title} - cells.keys())
+        _look_alike(sheet, {at: like for at, like in looks.items() if at.sheet == title})
         files[part] = _written(sheet)
         files |= _longer_tables(files, part, cells)
     book = _parsed("xl/workbook.xml", files["xl/workbook.xml"])
@@ -228,6 +233,21 @@ def _show(columns: _Columns, filled: set[int]) -> None:
             for after, mark in columns:  # where a group ends, its mark would fold it again
                 if after.start == at.stop:
                     mark.attrib.pop("collapsed", None)
+
+
+def _look_alike(sheet: Any, looks: Mapping[CellPosition, CellPosition]) -> None:
+    """Give cells the format of others, also those that have no content, for their borders."""
+    at = _cells_of(sheet) if looks else {}
+    rows = {int(row.get("r")): row for row in sheet.iterfind("{*}sheetData/{*}row")}
+    for position, like in looks.items():
+        shown = at.get((like.row, like.column))
+        if shown is None or position.row not in rows:
+            continue
+        cell = at.get((position.row, position.column))
+        if cell is None:
+            cell = _added(rows[position.row], position.cell, (), position.column)
+        if style := shown.get("s"):
+            cell.set("s", style)
 
 
 def _forget(sheet: Any, stale: set[_Place]) -> None:

@@ -17,7 +17,7 @@ from openpyxl.utils import coordinate_to_tuple
 
 from report.sheet.reading.archive import OpenBook, book_of, located, open_book
 from report.sheet.reading.formula_text import references
-from report.sheet.reading.locate_tables import table_area
+from report.sheet.reading.locate_tables import TableArea, table_area
 from report.sheet.reading.parts import Formula, Value, changed
 from report.sheet.reading.positions import CellPosition, bounds_of
 from report.sheet.reading.read import Sheet, read_book
@@ -43,6 +43,7 @@ class WorkbookChange:
     book: OpenBook
     files: dict[str, bytes] = field(default_factory=dict)
     before: OpenBook = field(init=False)
+    written: set[CellPosition] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.before = self.book
@@ -50,10 +51,27 @@ class WorkbookChange:
     def fill(self, cells: Mapping[CellPosition, Value]) -> None:
         """Change cells; raises as `filled`."""
         self.book = filled(self.book, cells)
+        self.written |= cells.keys()
 
     def note(self, cells: Mapping[CellPosition, Value]) -> None:
         """Change cells that no formula refers to."""
         self.book = book_of(self.book.path, changed(self.book.data, cells, recalculates=False))
+
+    @property
+    def areas(self) -> str:
+        """The cells that were written, by runs of rows: `Arrays!A7:W9, Outlines!A8:D19`."""
+        found = []
+        for sheet in self.book.scans:
+            cells = [each for each in self.written if each.sheet == sheet]
+            rows = sorted({each.row for each in cells})
+            starts = [row for row in rows if row - 1 not in rows]
+            ends = [row for row in rows if row + 1 not in rows]
+            for start, end in zip(starts, ends, strict=True):
+                columns = [each.column for each in cells if start <= each.row <= end]
+                first = CellPosition(sheet, start, min(columns))
+                last = CellPosition(sheet, end, max(columns))
+                found.append(first.address + (f":{last.cell}" if last != first else ""))
+        return ", ".join(found)
 
     @property
     def has_formulas(self) -> bool:
@@ -100,15 +118,31 @@ def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
     after = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
     grown = dict(_in_grown_rows(book, after))
-    return book_of(book.path, changed(after.data, grown)) if grown else after
+    looks = dict(_looks_of_grown_rows(book, after))
+    return book_of(book.path, changed(after.data, grown, looks=looks)) if grown or looks else after
+
+
+def _looks_of_grown_rows(
+    before: OpenBook, after: OpenBook
+) -> Iterator[tuple[CellPosition, CellPosition]]:
+    """Yield the cells of the rows that each table has grown by, with those of its last row."""
+    for was, now in _tables(before, after):
+        for heading in was.headings.values():
+            last = CellPosition(was.sheet, was.last, heading.column)
+            for row in range(was.last + 1, now.last + 1):
+                yield CellPosition(was.sheet, row, heading.column), last
+
+
+def _tables(before: OpenBook, after: OpenBook) -> Iterator[tuple[TableArea, TableArea]]:
+    for section in (section for section in SECTIONS if section.is_table):
+        was, now = table_area(before, section), table_area(after, section)
+        if was is not None and now is not None:
+            yield was, now
 
 
 def _in_grown_rows(before: OpenBook, after: OpenBook) -> Iterator[tuple[CellPosition, Formula]]:
     """Yield the formulas of the last row that each table had for the rows that it has grown by."""
-    for section in (section for section in SECTIONS if section.is_table):
-        was, now = table_area(before, section), table_area(after, section)
-        if was is None or now is None:
-            continue
+    for was, now in _tables(before, after):
         for heading in was.headings.values():
             last = CellPosition(was.sheet, was.last, heading.column)
             formula = before.formula(last.sheet, last.cell)

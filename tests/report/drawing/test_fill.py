@@ -5,6 +5,7 @@ import re
 import pytest
 from click.testing import CliRunner
 from openpyxl import load_workbook
+from openpyxl.utils import range_boundaries
 
 from architect import ARRAYS, roof_plan
 from cells import cell
@@ -129,15 +130,27 @@ def test_formulas_and_all_other_parts_stay(tmp_path):
 
 
 @pytest.mark.parametrize("units", by_day(UnitsFirst, 1))
-def test_rows_that_a_table_grows_by_have_their_formulas(tmp_path, units):
-    path = new(tmp_path, units)
+def test_rows_that_a_table_grows_by_have_its_formulas_and_formats(tmp_path, units):
+    def format_last(book):
+        left, _, right, last = range_boundaries(book["Arrays"].tables["arrays_table"].ref)
+        for column in range(left, right + 1):
+            book["Arrays"].cell(last, column).number_format = "0.0000"
+
+    path = edit(new(tmp_path, units), format_last)
     sketch = Sketch("R2018")
     for number in range(30):
         box = ((x + 20 * number, y) for x, y in ((0, 0), (10, 0), (10, 10), (0, 10)))
         sketch.ring("ARRAY", tuple(box), f"A{number}")
-    run(sketch.saved(tmp_path), path)
+    output = run(sketch.saved(tmp_path), path)
     sheet = read(path)
     assert len(sheet.draft["arrays"]) == 30
+    written = load_workbook(sheet.path)
+    first, last = (cell(written, f"Arrays/{name}/ID") for name in ("A0", "A29"))
+    assert f"{first.parent.title}!{first.coordinate}:" in output
+    table = range_boundaries(first.parent.tables["arrays_table"].ref)
+    formats = [first.parent.cell(last.row, column).number_format for column in
+               range(table[0], table[2] + 1)]  # fmt: skip
+    assert formats == ["0.0000"] * len(formats)
     assert overwritten(sheet.book) == ()
     last = cell(load_workbook(sheet.path), "Arrays/A29/Slope in degrees")
     assert str(last.value).startswith("=IFERROR(")
@@ -172,11 +185,23 @@ def test_a_drawing_without_a_unit_asks_for_it(tmp_path):
 @pytest.mark.quick
 def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     sketch = Sketch()
-    ring = sketch.ring("MODULES", BOX_FT)
+    ring = sketch.ring("STRUCTURE", BOX_FT)
     output = run(sketch.saved(tmp_path), new(tmp_path), "--accept", exit_code=2)
     assert "nothing to fill in: give the layers on the sheet Layers" in output
-    listed = f"a closed line on a layer that is not in Layers: 1 on MODULES ({ring.dxf.handle})"
+    listed = f"a closed line on a layer that is not in Layers: 1 on STRUCTURE ({ring.dxf.handle})"
     assert listed in output
+
+
+def test_a_layer_without_a_proposal_is_remembered_as_not_read(tmp_path):
+    sketch = Sketch()
+    sketch.ring("STRUCTURE", BOX_FT)
+    sketch.ring("PANELS", BOX_FT, "A1")
+    path, drawn = new(tmp_path), sketch.saved(tmp_path)
+    output = run(drawn, path, "--accept")
+    assert "not read: a closed line on a layer that is not in Layers: 1 on STRUCTURE" in output
+    assert "layer STRUCTURE: not read" in output
+    assert layers_of(path) == [("PANELS", "array"), ("STRUCTURE", "not read")]
+    assert "STRUCTURE" not in run(drawn, path, "--replace")
 
 
 def layers_of(path):
