@@ -54,7 +54,8 @@ TEXTS = [
     "ft²", "../../x.csv", "/etc/passwd", "records/x.csv", "records/x.csv | 2", "records", "\0",
     "C:\\x.csv", "a\nb", "\u202eabc", "\u2028", "屋上", "x" * 400, "9" * 400, "é\u0301", "<b>",
     "&amp;", "2026-02-30", "31/12/2026", "X, Y", "0.2, 0.3, 0.4", "rule set", "SEAOC PV1-2012",
-    "ASCE 7-16", "S7", "(0,0) (1,1)",
+    "ASCE 7-16", "S7", "(0,0) (1,1)", "28'-6\"", "4'", "1/2:12", "Nov 20, 2026", "3/5/2026", "0,5",
+    "0.45 (wet)", "fixed", "2", "1/0:12", "1/0\"", "\u0410\u0031",
 ]  # fmt: skip
 """Texts of cells; what no cell of a file can hold is replaced where it is written."""
 NUMBERS = [

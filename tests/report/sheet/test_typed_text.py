@@ -4,8 +4,11 @@ import datetime as dt
 import math
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from inputs import FT, INCH
+from nightly import nightly
 from report.sheet.reading.read import read
 from report.sheet.reading.typed_text import choice_in, dates_in, inches_in, number_in, rise_in
 from report.sheet.schema.choices import RuleSetName, StructureType
@@ -170,3 +173,36 @@ def test_a_cell_is_read_as_it_is_typed(tmp_path, cell, typed, section, row, fiel
 def test_a_slope_in_12_is_read_where_the_slope_unit_says_so(tmp_path):
     path = type_into(make(tmp_path), {"Arrays/A1/Slope": "1/2:12", "Arrays/A1/Slope unit": "in/12"})
     assert read(path).draft["arrays"][0]["slope_value"] == 0.5
+
+
+TYPED = st.text(
+    st.sampled_from("0123456789.,:;'\"/ -+()eEinfwetdry\u2019\u201d\u0661"), max_size=14
+)
+
+
+@pytest.mark.parametrize("count", [100, nightly(10_000)])
+def test_any_text_is_one_number_or_none(count):
+    """Oracle of numbers: Python's own, for a text of digits with at most one point or comma."""
+
+    @settings(max_examples=count, deadline=None)
+    @given(TYPED)
+    def holds(text):
+        for found in (number_in(text), inches_in(text), rise_in(text)):
+            assert isinstance(found, float)
+        assert all(isinstance(day, dt.date) for day in dates_in(text))
+        assert choice_in(text, KINDS) in ("", *KINDS)
+
+    @settings(max_examples=count, deadline=None)
+    @given(st.integers(0, 10**9), st.integers(0, 99), st.sampled_from("+-"))
+    def is_read(whole, hundredths, sign):
+        value = float(f"{sign}{whole}.{hundredths:02}")
+        for text in (f"{sign}{whole}.{hundredths:02}", f"{sign}{whole},{hundredths:02}",
+                     f"{sign}{whole}.{hundredths:02} (wet)"):  # fmt: skip
+            assert number_in(text) == value
+        if whole:
+            assert number_in(f"{sign}{whole:,}.{hundredths:02}") == value
+        feet, inches = divmod(whole, 12)
+        assert inches_in(f"{sign}{feet}'-{inches}\"") == float(f"{sign}{whole}")
+
+    holds()
+    is_read()
