@@ -25,7 +25,9 @@ from report.sheet.schema.choices import PlanPaper
 from report.typeset.pdf import lay_out
 from stand_in import FOOT
 
-SHIPPED = sorted({path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"study"})
+SHIPPED = sorted(
+    {path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"curves", "study"}
+)
 ROWS, COLUMNS = 6, 5
 WIDE, DEEP, LANE = 52, 24, 4  # ft
 

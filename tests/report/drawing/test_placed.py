@@ -21,7 +21,9 @@ from report.drawing.dxf import write_dxf
 from report.drawing.plan import plan_drawing
 from sketch import plan
 
-SHIPPED = sorted({path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"study"})
+SHIPPED = sorted(
+    {path.parent.name for path in (ROOT / "projects").glob("*/make.py")} - {"curves", "study"}
+)
 
 
 @cache
