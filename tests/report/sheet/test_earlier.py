@@ -62,7 +62,7 @@ def test_a_workbook_that_was_confirmed_stays_so_but_for_its_records(tmp_path):
     # The records beside it were made again since; nothing else is another than was confirmed.
     assert outdated(data, hashes).outdated == {"options": "sheet Motions"}
     later = data.model_copy(update={"target": data.target.model_copy(update={"t_l_s": 6.0})})
-    assert outdated(later, hashes).outdated == {"options": "sheets Motions and Options"}
+    assert outdated(later, hashes).outdated == {"options": "sheets Motions, Options"}
 
 
 @pytest.mark.quick
