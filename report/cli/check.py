@@ -19,6 +19,7 @@ from report.cli.terminal import (
     Progress,
     document,
     input_errors,
+    no_collections,
     print_json,
     say,
 )
@@ -49,6 +50,7 @@ def check(source: Path, quiet: bool, as_json: bool) -> None:
     with (
         input_errors(source, as_json=as_json),
         Progress(STEPS, quiet=quiet or as_json) as progress,
+        no_collections(),
     ):
         sheet, shaking, found = checked(source, progress)
     if as_json:
@@ -69,18 +71,20 @@ def checked(
     ------
     InputError
     """
+    from report.sheet.reading.read import read
+
+    progress("reading the workbook")
+    sheet = read(source)
+    # They load the compiler of the solver: an error in the workbook does not wait for it.
     from report.assessment.precheck import findings, limits_before_runs, missing_clearances
     from report.motions.prepare import prepare
     from report.results.sources import other_sources
     from report.sheet.checking.findings import in_order
-    from report.sheet.reading.read import read
     from report.sheet.writing.legacy_notes import what_is_new
     from report.sheet.writing.live import findings as formula_findings
     from report.sheet.writing.live import overwritten
     from report.typeset.letters import check_letters
 
-    progress("reading the workbook")
-    sheet = read(source)
     check_letters(sheet)
     progress("reading the records")
     shaking = prepare(sheet)

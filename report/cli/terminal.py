@@ -286,7 +286,7 @@ def show_warnings() -> None:
 
 @contextmanager
 def no_collections() -> Iterator[None]:
-    """Suspend the cyclic garbage collector: layout keeps about a million objects alive.
+    """Suspend the cyclic garbage collector: it searches all that is alive, and finds little.
 
     What is left is exempt from later collections, that at the exit of the process included.
     """

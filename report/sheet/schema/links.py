@@ -6,7 +6,7 @@ Read `report.sheet.schema` first; `report.assessment.links` runs them.
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field, model_validator
 
@@ -14,7 +14,9 @@ from report.sheet.schema.choices import Id, Positive, decimals
 from report.sheet.schema.fields import Cell, Frozen
 from report.words.units import G_MPS2, Quantity
 from solver.friction_tests import MOST_MU
-from solver.sliding.row import BlockRow
+
+if TYPE_CHECKING:
+    from solver.sliding.row import BlockRow
 
 BLOCKS = (2, 20)
 """Fewest and most blocks of a row."""
@@ -54,6 +56,8 @@ class Links(Frozen):
 
     def row(self, weight_n: float) -> BlockRow:
         """Return the row of an array of some weight [N]."""
+        from solver.sliding.row import BlockRow  # loads the compiler, and a workbook needs none
+
         stiffness = self.stiffness_n_per_m * len(self.mus) * G_MPS2 / weight_n
         damping = 2.0 * self.damping_ratio * math.sqrt(stiffness)
         return BlockRow(mus=self.mus, stiffness_per_s2=stiffness, damping_per_s=damping)

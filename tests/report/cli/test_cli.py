@@ -36,6 +36,15 @@ def test_help_names_the_commands_and_imports_nothing_heavy():
         assert f"\n  {command} " in told
 
 
+@pytest.mark.quick
+def test_an_error_in_the_workbook_waits_for_no_compiler(tmp_path):
+    code = f"from report.cli.main import main; main(['check', {str(tmp_path)!r}])"
+    code = f"import contextlib\nwith contextlib.suppress(SystemExit): {code}\nprint()"
+    told, loaded = loaded_by(code)
+    assert loaded
+    assert not loaded & {"numba", "pandas", "matplotlib"}
+
+
 @pytest.mark.nightly
 def test_what_only_the_second_process_needs_is_not_loaded_with_the_tasks_for_it():
     _, loaded = loaded_by("import report.drawing.dxf, report.package.html, report.results.xlsx")
