@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import combinations
+from typing import TYPE_CHECKING
 
-from report.assessment.arrays import ArrayAssessment
 from report.assessment.verdict import Verdict
 from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import DistanceBasis, ObjectKind
@@ -22,6 +22,9 @@ from report.sheet.schema.scene import Array, Clearance
 from report.sheet.schema.shapes import Point, Polygon, Rectangle, Shape, gap_m, sides, spans_near
 from report.words.units import Quantity, beside, no_less, pair, ratio
 from solver.model import INCH_M
+
+if TYPE_CHECKING:
+    from report.assessment.arrays import ArrayAssessment
 
 REACH_FACTOR = 2.0
 """An array's neighbors are within this many design displacements."""

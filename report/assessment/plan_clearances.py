@@ -16,10 +16,10 @@ from report.assessment.overrides import rule_set_of
 from report.sheet.reading.growing import DIGITS, GrowingTable
 from report.sheet.reading.parts import Value
 from report.sheet.reading.positions import CellPosition
-from report.sheet.reading.read import Sheet
-from report.sheet.schema import SECTION, ProjectInput
+from report.sheet.reading.read import Sheet, without_motions
+from report.sheet.schema import ProjectInput
 from report.sheet.schema.choices import ClearanceSource, Direction
-from report.sheet.schema.fields import Place, entries
+from report.sheet.schema.fields import Place
 from report.words.counts import numbered
 from report.words.units import Quantity, pair, round_down
 from solver.model import INCH_M
@@ -88,7 +88,7 @@ def missing_rows(
     InputError
         For what is wrong elsewhere than in motions and clearances, or if the rows have no place.
     """
-    data = _without_motions(sheet)
+    data = without_motions(sheet)
     us_first = data.us_first
     pairs = pairs_before_runs(data, sheet.addresses, arrays)
     missing = [near for near in pairs if near.is_missing]
@@ -140,20 +140,6 @@ def direction_of(near: PlanNeighbor, downslope_deg: float) -> Direction:
         if min(far) - max(own) >= near.gap_m - _NOISE_M > 0.0:
             return direction
     return Direction.ANY
-
-
-def _without_motions(sheet: Sheet) -> ProjectInput:
-    """Return the input whatever its motions are, and with clearances that contradict the plan."""
-    fields, rows = len(entries(SECTION["clearances"].model)), sheet.draft["clearances"]
-    # A contradiction has all of its cells.
-    passed = {"motions"} | ({"clearances"} if all(len(row) == fields for row in rows) else set())
-    problems = (
-        (place, problem)
-        for place, problem in sheet.problems
-        if place.section not in passed or place == Place("clearances")  # of its headings
-    )
-    draft = {**sheet.draft, "motions": ()}
-    return replace(sheet, draft=draft, problems=tuple(problems)).project
 
 
 def _size(value_m: float, us_first: bool) -> str:

@@ -14,7 +14,7 @@ import click
 
 from report.cli.groups import SectionedGroup
 from report.cli.plan_layers import choose, given_kinds
-from report.cli.terminal import SOURCE, Progress, input_errors, plain, say_next
+from report.cli.terminal import SOURCE, Progress, input_errors, no_collections, plain, say_next
 from report.cli.values import Number
 from report.words.command import command
 from report.words.counts import grouped_by, numbered
@@ -88,7 +88,7 @@ def read(
     from solver.model import InputError
 
     gap_m = gap[0] * LENGTHS[gap[1]]
-    with input_errors(project), changing(project) as change:
+    with input_errors(project), no_collections(), changing(project) as change:
         draft = read_book(change.book).draft
         is_us = us_first(draft)
         known = (row for row in draft["layers"] if {"layer", "kind"} <= row.keys())
@@ -150,7 +150,7 @@ def clearances(project: Path) -> None:
     """
     from report.sheet.writing.filled import changing, withdrawn
 
-    with input_errors(project), changing(project) as change:
+    with input_errors(project), no_collections(), changing(project) as change:
         lines = [*_add_clearances(change), *withdrawn(change)]
     for line in lines:
         click.echo(plain(line))
@@ -161,13 +161,15 @@ def clearances(project: Path) -> None:
 
 def _add_clearances(change: WorkbookChange) -> Sequence[str]:
     """Add the rows of clearances that a workbook lacks; return what to print of them."""
-    from report.assessment.assess import assess
-    from report.assessment.plan_clearances import missing_rows, without_clearances
-    from report.motions.prepare import prepare
-    from report.sheet.reading.read import read_book
+    from report.sheet.reading.read import read_book, without_motions
     from solver.model import InputError
 
     sheet, not_run = read_book(change.book), []
+    without_motions(sheet)  # an error in it does not wait for the compiler, which these load
+    from report.assessment.assess import assess
+    from report.assessment.plan_clearances import missing_rows, without_clearances
+    from report.motions.prepare import prepare
+
     arrays: Sequence[ArrayAssessment] = ()
     with Progress(1) as progress:
         try:

@@ -32,7 +32,7 @@ from report.sheet.reading.locate import added_later, beside, cell_as_column, fin
 from report.sheet.reading.locate_tables import FieldColumn, TableFound, find_table
 from report.sheet.reading.positions import FRESH, CellPosition, found_at
 from report.sheet.reading.unseen import Unseen, by_cell, unseen
-from report.sheet.schema import SECTIONS, ProjectInput
+from report.sheet.schema import SECTION, SECTIONS, ProjectInput
 from report.sheet.schema.fields import (
     Draft,
     Entry,
@@ -194,6 +194,26 @@ def read_book(book: OpenBook) -> Sheet:
     documents, wrong = read_documents(book, sheet.draft)
     problems = (*sheet.problems, *_located(wrong, sheet.addresses, sheet.unfound))
     return replace(sheet, documents=documents, problems=problems)
+
+
+def without_motions(sheet: Sheet) -> ProjectInput:
+    """Return the input whatever its motions are, and with clearances that contradict the plan.
+
+    Raises
+    ------
+    InputError
+        For what is wrong elsewhere.
+    """
+    fields, rows = len(entries(SECTION["clearances"].model)), sheet.draft["clearances"]
+    # A contradiction has all of its cells.
+    passed = {"motions"} | ({"clearances"} if all(len(row) == fields for row in rows) else set())
+    problems = (
+        (place, problem)
+        for place, problem in sheet.problems
+        if place.section not in passed or place == Place("clearances")  # of its headings
+    )
+    draft = {**sheet.draft, "motions": ()}
+    return replace(sheet, draft=draft, problems=tuple(problems)).project
 
 
 def read_as(

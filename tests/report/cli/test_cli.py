@@ -40,7 +40,7 @@ def test_help_names_the_commands_and_imports_nothing_heavy():
 def test_an_error_in_the_workbook_waits_for_no_compiler(tmp_path):
     code = f"from report.cli.main import main; main(['check', {str(tmp_path)!r}])"
     code = f"import contextlib\nwith contextlib.suppress(SystemExit): {code}\nprint()"
-    told, loaded = loaded_by(code)
+    _, loaded = loaded_by(code)
     assert loaded
     assert not loaded & {"numba", "pandas", "matplotlib"}
 
