@@ -13,6 +13,7 @@ import warnings
 from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryFile
+from typing import Any
 
 from numba import config, njit
 
@@ -87,10 +88,10 @@ def _is_kept() -> bool:
     return False
 
 
-def is_compiled() -> bool:
-    """Whether compiled kernels are kept, so that none or few are to be compiled."""
-    folder = njit(cache=True)(_nothing).stats.cache_path if KEPT else None
-    return folder is not None and any(Path(folder).glob("*.nbi"))
+def is_compiled(kernel: Any) -> bool:
+    """Whether compiled code of a kernel is kept, so that its first call does not compile it."""
+    folder = kernel.stats.cache_path if KEPT else None
+    return folder is not None and any(Path(folder).glob(f"*.{kernel.__name__}-*.nbi"))
 
 
 KEPT = _is_kept()

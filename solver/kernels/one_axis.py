@@ -291,7 +291,9 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
     up = (c_up * g, c_up * scale, (mu * sn - cs) * scale)
     c, sigma, band = down, DOWN, _resting_band(down, up)
     s = w = s_max = s_min = t_max = t_min = w_max = 0.0
-    i = n_stops = n_events = 0
+    # np.int64, because for a literal numba would compile a second version of what takes it.
+    i, n_events = np.int64(0), np.int64(0)
+    n_stops = 0
     last, rate = ax.size - 1, 1.0 / dt
     while i < last:
         # At rest at sample i: go to the interval in which slip begins.

@@ -66,7 +66,9 @@ STOP = 0.0
 
 ORDER = 20
 CREEP_ORDER = 12
-VA, VS, EA, ES, W, Q, E, SHARE, ROOTS, RISE = range(10)
+# np.int64, because for literals numba compiles what takes a row once for each of them.
+VA, VS, EA, ES, W, Q, E, SHARE, ROOTS, RISE = map(np.int64, range(10))
+ONE, MOST = np.int64(1), np.int64(ORDER)
 
 # Samples in a block of `kernels.bounds`.
 SHIFT = 4
@@ -759,7 +761,7 @@ def _rate(b, order, along, across, ux, uy, cs, h):
 @jit()
 def _see_zeros(b, order, degree, ux, uy, cs, sx, sy, h, t, top):
     """Update `top` with the positions where the series in row E changes sign."""
-    for k in range(_changes(b, E, degree, ORDER)):
+    for k in range(_changes(b, E, degree, MOST)):
         at = b[ROOTS, k]
         _, _, way, aside = _place(b, order, at)
         way, aside = h * at * (b[VA, 0] + way), h * at * (b[VS, 0] + aside)
@@ -776,7 +778,7 @@ def _see_speed(b, order, w, after, moved, top):
             for j in range(k + 1):
                 m, n = np.uintp(j), np.uintp(k + 1 - j)
                 b[E, k] += (k + 1 - j) * (b[VA, m] * b[VA, n] + b[VS, m] * b[VS, n])
-        for k in range(_changes(b, E, order - 1, ORDER)):
+        for k in range(_changes(b, E, order - 1, MOST)):
             va, vs, _, _ = _rates(b, order, b[ROOTS, k])
             top[6] = max(top[6], math.sqrt(va * va + vs * vs))
 
@@ -1033,7 +1035,7 @@ def slide_plane(
                 w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, maximum_degree, slow, law, b
             )
             along, across, way, aside, va_rate, vs_rate, moved = _scale(b, order, part)
-            stops = rubs and moved >= w and _changes(b, W, order, 1) > 0
+            stops = rubs and moved >= w and _changes(b, W, order, ONE) > 0
             if part < 1.0 and not stops and w > 0.0:
                 slack = CLOSE * tolerance * far
                 rest, back, sides, miss = _close(

@@ -63,6 +63,17 @@ def test_an_edited_kernel_is_compiled_again(copied):
     assert run() == 2.0
 
 
+def test_one_kernel_that_is_kept_does_not_stand_for_the_others(copied):
+    _, run = copied
+    run()
+    kept = "compiler.is_compiled({})".format
+    program = (
+        "from solver.kernels import compiler, one_axis, two_axes; "
+        f"print({kept('one_axis.minimum_normal')} - 2 * {kept('two_axes.slide_plane')})"
+    )
+    assert run(program=program) == 1.0
+
+
 @pytest.mark.parametrize("kept", [0.0, 0.3, 0.5, 0.999])
 @pytest.mark.parametrize("suffix", ["nbi", "nbc"])
 def test_compiled_code_that_is_empty_or_cut_is_compiled_again(copied, suffix, kept):
