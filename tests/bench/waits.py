@@ -1,0 +1,69 @@
+"""Claim: how long a user waits for each command, as processor time of all of its processes.
+
+Medians of repeats; set-up is that of a fresh clone, whose packages are in the cache.
+"""
+
+from __future__ import annotations
+
+import statistics
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from measure import ROOT, SMOKE, command, figure, finished
+
+from sketch import Sketch
+
+REPEATS = 1 if SMOKE else 3
+PROJECTS = ROOT / "projects"
+COLUMNS, ROWS, FIELDS = 10, 20, 20
+"""Modules of an array, and arrays of a roof: 4,000 modules."""
+
+
+def roof_of_modules(folder: Path) -> Path:
+    """Draw a roof with a closed line for each module [ft]; return its drawing."""
+    sketch = Sketch()
+    sketch.ring("A-ROOF-OTLN", ((0, 0), (400, 0), (400, 400), (0, 400)))
+    for field in range(FIELDS):
+        west, south = 10 + 75 * (field % 5), 10 + 95 * (field // 5)
+        for k in range(COLUMNS * ROWS):
+            x, y = west + 5.7 * (k % COLUMNS), south + 3.6 * (k // COLUMNS)
+            corners = ((x, y), (x + 5.6, y), (x + 5.6, y + 3.4), (x, y + 3.4))
+            sketch.ring("E-SOLR-PANL", corners)
+    return sketch.saved(folder)
+
+
+def waits(top: Path) -> Iterator[tuple[str, list[str]]]:
+    """Yield what a user waits for, and its command; each may run again."""
+    yield "--help", command("--help")
+    yield "check of the example", command("check", str(PROJECTS / "example"), "--quiet")
+    if SMOKE:
+        return
+    drawing, job = roof_of_modules(top), str(top / "job")
+    finished(command("new", job))
+    fill = command("plan", "read", str(drawing), job, "--replace", "--accept")
+    yield f"plan read of {COLUMNS * ROWS * FIELDS:,} modules", fill
+    for name in ("example", "campus"):
+        words = ("report", str(PROJECTS / name), "--out", str(top / name), "--quiet")
+        yield f"report of {name}", command(*words)
+    # Without its parts, from which it would go on.
+    anew = ["sh", "-c", 'rm -rf "$0"; exec "$@"', str(top / "study")]
+    study = command("study", str(PROJECTS / "study"), "--out", str(top / "study"), "--quiet")
+    yield "study of projects/study", [*anew, *study]
+    clone = str(top / "clone")
+    subprocess.run(["git", "clone", "--quiet", str(ROOT), clone], check=True)
+    set_up = 'rm -rf "$0/.venv"; "$0/roofslip" report "$0/projects/example" --quiet'
+    yield "set-up and first report after clone", ["sh", "-c", set_up, clone]
+
+
+def main() -> None:
+    """Measure each wait."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, words in waits(Path(folder)):
+            taken = [finished(words)[0] for _ in range(REPEATS)]
+            figure(name, statistics.median(taken), "s")
+
+
+if __name__ == "__main__":
+    main()
