@@ -55,4 +55,4 @@ def test_an_example_is_cells_of_words_and_code(name):
 @pytest.mark.quick
 def test_every_example_is_listed():
     assert {path.stem for path in EXAMPLES.glob("*.py")} == set(listed())
-    assert len(listed()) == 10
+    assert len(listed()) == 11

@@ -15,7 +15,7 @@ records = Path(solver.__file__).parents[1] / "projects/example/records"
 motions = [
     solver.motion(
         solver.read_record(records / f"RM{k}-x.csv"),
-        z=solver.read_record(records / f"RM{k}-z.csv"),
+        az_mps2=solver.read_record(records / f"RM{k}-z.csv"),
         id=f"RM{k}",
     )
     for k in range(1, 8)

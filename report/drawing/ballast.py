@@ -26,7 +26,9 @@ from solver.model import InputError
 MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5 * MB, 20_000, 10_000
 COLUMNS = ("x", "y", "blocks")
 _NAMES = dict.fromkeys(("block count", "number of blocks"), "blocks")
-_HEADING = re.compile(r"(.*?)(?:[\s_]*[\[(]\s*([^\])]*?)\s*[\])]|[\s_]+(in|ft|mm|cm|m))?")
+_HEADING = re.compile(  # of one blank between its words
+    r"(.{0,60}?)(?:[ _]{0,2}[\[(] ?([^\])]{0,20}?) ?[\])]|[ _]{1,2}(in|ft|mm|cm|m))?"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -20,11 +20,11 @@ _BEFORE = re.compile(
 )
 _OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12} ?[WLD]? ?[x×] ?){1,3}$", re.IGNORECASE)
 _VALUE = re.compile(
-    rf"(?:(?P<feet>{_NUMBER}) ?(?:'|ft|feet)[ -]*)?"
+    rf"(?:(?P<feet>{_NUMBER}) ?(?:'|ft|feet)[ -]{{0,3}})?"
     rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>\d{{1,2}}/[1-9]\d?))?"
     r" ?(?P<unit>\"|inches|inch|in|mm|cm|m)?)?"
     # Nothing of the number is left: neither `42x60` nor `42-48` is a height of 42.
-    r"(?![\w./'\"]|\s*[-/]\s*\d)",
+    r"(?![\w./'\"]|\s{0,3}[-/]\s{0,3}\d)",
     re.IGNORECASE,
 )
 _MARKS = {"\u2019": "'", "\u2032": "'", "\u201d": '"', "\u2033": '"', "''": '"'}

@@ -17,7 +17,9 @@ _NUMBER = re.compile(rf"[+-]?{_DIGITS}(?:[eE][+-]?[0-9]+)?")
 _DECIMAL_COMMA = re.compile(r"([+-]?[0-9]*),([0-9]+)")
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+(?:\.[0-9]+)?")
 _REMARK = re.compile(
-    r"(.*?)\s*\(\s*(wet|dry|tested|measured|mean|average|avg\.?|typ\.?|typical)\s*\)", re.IGNORECASE
+    r"(.{0,40}?)\s{0,3}\(\s{0,3}(wet|dry|tested|measured|mean|average|avg\.?|typ\.?|typical)"
+    r"\s{0,3}\)",
+    re.IGNORECASE,
 )
 _FEET = re.compile(
     rf"(?P<sign>[+-]?)(?:(?P<feet>{_DIGITS})\s*')?[\s-]*"

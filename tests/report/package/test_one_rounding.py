@@ -7,6 +7,7 @@ import pytest
 
 import scenes
 from printed import IDS, printed
+from report.assessment.assess import reassess
 from report.pages.summary import summary
 from report.web.answers import answer
 
@@ -22,7 +23,14 @@ PAGES = (
 
 @pytest.fixture(scope="module")
 def example():
-    return scenes.package_data(scenes.shipped("example"))
+    """The example with a slope of A3 whose displacement would be less, rounded to the nearest."""
+    given = scenes.shipped("example")
+    arrays = (
+        array.model_copy(update={"slope_value": 2.8}) if array.id == "A3" else array
+        for array in given.project.arrays
+    )
+    data = given.project.model_copy(update={"arrays": tuple(arrays)})
+    return scenes.package_data(reassess(given, data))
 
 
 def test_no_page_rounds_the_design_displacement_down(example):

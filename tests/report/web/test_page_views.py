@@ -205,7 +205,8 @@ CLEARANCES = """async (cells) => {
   table.style.width = '352px'; // beside the plan, on a screen of 1280 pixels
   const { showTable } = await import('/static/results.js');
   const heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"];
-  showTable(table, { caption: "Clearances", heads, rows: [cells] }, { named: 1 });
+  const how = { named: 1, key: () => null, dim: [] };
+  showTable(table, { caption: "Clearances", heads, rows: [cells] }, how);
   await document.fonts.ready;
   return table.getBoundingClientRect().width;
 }"""
@@ -215,7 +216,7 @@ CLEARANCES = """async (cells) => {
 def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(page, verdict):
     cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
     cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]
-    cells[1]["note"] = "across"
+    cells[1] |= {"from": "ARRAY-NW-01", "to": "PV existing 2014", "note": "across"}
     assert page.evaluate(CLEARANCES, cells) <= 352
 
 
