@@ -9,8 +9,8 @@ from places import ROOT, TESTS
 
 CODE = """
 import json
-from numba.core.dispatcher import Dispatcher
 from solver.kernels import fixed_steps, one_axis, oscillator, rivals, row, two_axes
+from numba.core.dispatcher import Dispatcher
 from solver.sliding.compiled import PARTS
 
 def compiled():
