@@ -1,0 +1,212 @@
+"""Annual rates of displacement from a hazard curve and runs at many intensities.
+
+Runs nothing. Read `HazardCurve`, then `contributions`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.model import Floats
+
+LEAST_RATE = 1e-6
+"""Annual rate beyond which no intensity is run: they count as exceedances."""
+
+BAND = (0.16, 0.84)
+REPEATS = 1000
+"""Realizations from which the band follows."""
+
+_GRID = 4000
+_NODES = 64
+_FAR = 4.0
+"""Deviations of the intensity beyond the end of a curve that are looked at."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HazardCurve:
+    """Annual rate at which intensities are exceeded: a power law between its points.
+
+    Below its first point no event is known. Beyond its last the rate is that of events of unknown
+    intensity, which are never left out: it does not decrease.
+
+    Attributes
+    ----------
+    intensity, rate : array, shape (m,)
+        Intensities, increasing, and their rates [1/year], decreasing; all above 0.
+    beta : float
+        Standard deviation of the logarithm of a factor of median 1 on the intensity of each event.
+    """
+
+    intensity: Floats
+    rate: Floats
+    beta: float = 0.0
+
+    @cached_property
+    def factors(self) -> tuple[Floats, Floats]:
+        """The factor in Gauss-Hermite nodes, with their probabilities."""
+        if not self.beta:
+            return np.ones(1), np.ones(1)
+        z, weights = np.polynomial.hermite_e.hermegauss(_NODES)
+        return np.exp(self.beta * z), weights / weights.sum()
+
+    def plain_at(self, intensity: Floats) -> Floats:
+        """Return the rate of the curve itself, without the factor."""
+        x, y = np.log(self.intensity), np.log(self.rate)
+        return np.asarray(np.exp(np.interp(np.log(intensity), x, y)))
+
+    def at(self, intensity: Floats) -> Floats:
+        """Return the rate at which the intensity times its factor is exceeded."""
+        factors, weights = self.factors
+        return np.asarray(self.plain_at(np.divide.outer(intensity, factors)) @ weights)
+
+    @cached_property
+    def _grid(self) -> tuple[Floats, Floats]:
+        ends = self.intensity[[0, -1]] * np.exp(_FAR * self.beta * np.array([-1.0, 1.0]))
+        intensity = np.geomspace(ends[0], ends[1], _GRID)
+        return intensity, self.at(intensity)
+
+    @property
+    def is_ended(self) -> bool:
+        """Whether the curve ends above `LEAST_RATE`."""
+        return bool(self.rate[-1] > LEAST_RATE)
+
+    @property
+    def top(self) -> float:
+        """The greatest intensity to run: where the rate is `LEAST_RATE`, or the curve ends."""
+        if self.is_ended:
+            return float(self.intensity[-1])
+        return float(self.intensity_of(np.array([LEAST_RATE]))[0])
+
+    def intensity_of(self, rate: Floats) -> Floats:
+        """Return the intensities that are exceeded at rates [1/year], within the curve."""
+        intensity, rates = self._grid
+        return np.asarray(np.exp(np.interp(-np.log(rate), -np.log(rates), np.log(intensity))))
+
+
+def contributions(curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: float) -> Floats:
+    """Return the annual rate at which runs exceed a limit, by the interval of intensities.
+
+    The PRD is linear between the levels; one that is NaN exceeds every limit, from the level below
+    on.
+
+    Parameters
+    ----------
+    levels : array, shape (m,)
+        Increasing intensities.
+    prd_m : array, shape (..., m)
+
+    Returns
+    -------
+    array, shape (..., m)
+        The last one is of intensities beyond the levels, which exceed every limit.
+    """
+    rate, prd = curve.at(levels), np.where(np.isnan(prd_m), np.inf, prd_m)
+    low, high = prd[..., :-1], prd[..., 1:]
+    below, above = np.broadcast_to(rate[:-1], low.shape), np.broadcast_to(rate[1:], low.shape)
+    rises, falls = (low <= limit_m) & (high > limit_m), (low > limit_m) & (high <= limit_m)
+    crosses = rises | falls
+    share = np.ones(low.shape)
+    known = crosses & np.isfinite(low)
+    share[known] = (limit_m - low[known]) / (high[known] - low[known])
+    crossing = below.copy()
+    crossing[crosses] = curve.at((levels[:-1] + share * np.diff(levels))[crosses])
+    found = np.where(low > limit_m, below - crossing * falls - above * ~falls, 0.0)
+    found = np.where(rises, crossing - above, found)
+    beyond = np.broadcast_to(rate[-1:], (*found.shape[:-1], 1))
+    return np.concatenate([found, beyond], axis=-1)
+
+
+def exceedance_rates(curve: HazardCurve, levels: Floats, prd_m: Floats, limits_m: Floats) -> Floats:
+    """Return the annual rate at which each run exceeds each limit, shape (limits, ...)."""
+    return np.array([contributions(curve, levels, prd_m, d).sum(axis=-1) for d in limits_m])
+
+
+def deaggregated(
+    curve: HazardCurve, levels: Floats, prd_m: Floats, limit_m: float, edges: Floats
+) -> Floats:
+    """Return the shares of a rate of exceedance by the intensity at the site.
+
+    Parameters
+    ----------
+    edges : array, shape (n + 1,)
+        Bounds of the intensities; the last bin has those beyond.
+
+    Returns
+    -------
+    array, shape (n,)
+        Their sum is 1; zeros where the limit is never exceeded.
+    """
+    found = np.zeros(edges.size - 1)
+    middles = np.append(np.sqrt(levels[:-1] * levels[1:]), levels[-1])
+    for factor, weight in zip(*curve.factors, strict=True):
+        shifted = HazardCurve(intensity=factor * curve.intensity, rate=curve.rate)
+        rates = contributions(shifted, levels, prd_m, limit_m)
+        inside = np.clip(middles / factor, edges[0], edges[-1])
+        by_level = rates.reshape(-1, middles.size).mean(axis=0)
+        found += weight * np.histogram(inside, edges, weights=by_level)[0]
+    return found / (found.sum() or 1.0)
+
+
+def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
+    """Return the displacements of mean recurrence intervals, shape (years, ...) [m].
+
+    Parameters
+    ----------
+    limits_m : array, shape (m,)
+        Increasing, from 0.
+    rates : array, shape (m, ...)
+        At which they are exceeded.
+
+    Returns
+    -------
+    array
+        0 where the block slips less often, and inf where every limit is exceeded more often.
+    """
+    flat = rates.reshape(limits_m.size, -1)
+    found = np.empty((years.size, flat.shape[1]))
+    with np.errstate(divide="ignore"):
+        logs, x = np.log(flat), np.log(np.maximum(limits_m, 0.5 * limits_m[1]))
+    for column in range(flat.shape[1]):
+        found[:, column] = np.exp(np.interp(np.log(years), -logs[:, column], x, right=np.inf))
+    return np.where(flat[0] * years[:, None] < 1.0, 0.0, found).reshape(
+        years.size, *rates.shape[1:]
+    )
+
+
+def realizations(rates: Floats, *, seed: int) -> Floats:
+    """Return rates for friction coefficients and sets of motions as they might have been.
+
+    Each has one of the coefficients, equally likely, and as many motions, drawn with replacement.
+
+    Parameters
+    ----------
+    rates : array, shape (limits, frictions, motions)
+
+    Returns
+    -------
+    array, shape (limits, `REPEATS`)
+    """
+    _, frictions, motions = rates.shape
+    rng = np.random.default_rng(seed)
+    friction = rng.integers(frictions, size=REPEATS)
+    drawn: NDArray[np.int64] = rng.integers(motions, size=(REPEATS, motions))
+    counts = np.array([np.bincount(row, minlength=motions) for row in drawn]) / motions
+    return np.asarray(np.einsum("lrm,rm->lr", rates[:, friction], counts))
+
+
+def band(values: Floats) -> Floats:
+    """Return the quantiles of `BAND` over the last axis, first; never between two values.
+
+    One of the values is taken, as a mean with a value that is inf would be none.
+    """
+    return np.quantile(values, BAND, axis=-1, method="inverted_cdf")
+
+
+def probability(rate: float, years: float) -> float:
+    """Return the probability of one or more Poisson events in a number of years."""
+    return -math.expm1(-rate * years)
