@@ -1,0 +1,66 @@
+"""Lives of a roof: the events of each follow one another, jitted.
+
+Draws nothing and runs no record: both are given. numpy and numba only.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from solver.kernels.compiler import KEPT
+
+PRD, DOWN, UP, ACROSS, RESIDUAL, RESIDUAL_ACROSS = range(6)
+
+
+@njit(cache=KEPT, nogil=True)
+def live(first, friction, run, level, weight, side, responses, recenter, out):
+    """Follow lives of events: the largest distance from the installed place, and the last.
+
+    During an event the array is at most its PRD farther than before, and nowhere beyond the
+    rectangle of its excursions: the smaller distance counts. In one axis and from the installed
+    place that is the exact one; otherwise an upper bound.
+
+    Parameters
+    ----------
+    first : array of int, shape (lives + 1,)
+        Events of life i: from first[i] to first[i + 1].
+    friction : array of int, shape (lives,)
+        Index of the friction coefficient of a life.
+    run, level : array of int, shape (events,)
+        Index of the run, and of the level below the intensity; a level of -1 has no response.
+    weight : array, shape (events,)
+        Place of the intensity between that level and the next, 0 to 1.
+    side : array, shape (events,)
+        Sign of the cross-slope component, +1 or -1.
+    responses : array, shape (frictions, runs, levels, 6)
+        PRD, excursions downslope, upslope and cross-slope, residuals downslope and cross-slope
+        [m]; NaN for none.
+    recenter : float
+        Distance above which the array is put back after an event [m]; inf: never.
+    out : array, shape (2, lives)
+        Filled with the largest and the last distance [m]; inf where an event has no response.
+    """
+    at = np.empty(6)
+    for life in range(friction.size):
+        x = y = largest = 0.0
+        for event in range(first[life], first[life + 1]):
+            low = level[event]
+            if low < 0:
+                largest = math.inf
+                break
+            of_run = responses[friction[life], run[event]]
+            for k in range(6):
+                at[k] = of_run[low, k] + weight[event] * (of_run[low + 1, k] - of_run[low, k])
+            if math.isnan(at[PRD]):
+                largest = math.inf
+                break
+            along = max(abs(x + at[DOWN]), abs(x - at[UP]))
+            corner = math.hypot(along, abs(y) + at[ACROSS])
+            largest = max(largest, min(math.hypot(x, y) + at[PRD], corner))
+            x += at[RESIDUAL]
+            y += side[event] * at[RESIDUAL_ACROSS]
+            if math.hypot(x, y) > recenter:
+                x = y = 0.0
+        out[0, life] = largest
+        out[1, life] = math.inf if math.isinf(largest) else math.hypot(x, y)

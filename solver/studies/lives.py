@@ -1,0 +1,225 @@
+"""What a roof sees in its life: events by Poisson, whose displacements accumulate.
+
+The responses are runs of their own, as `solver.solve` makes them. Read `draw`, then `distances`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solver.kernels import lives as kernel
+from solver.kernels.compiler import THREADS
+from solver.model import Floats, Status
+from solver.sliding import least_model
+from solver.studies.rates import HazardCurve
+from solver.studies.runs import Track, scene_of
+
+Indices = NDArray[np.int64]
+
+RESPONSES = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")
+"""What an event does, in the order of the kernel."""
+
+FIRST_STEPS, MOST_STEPS = 16, 512
+"""Intervals of intensity to begin with, and at most."""
+
+SETTLED = 0.005
+"""Change of the results, relative to them, below which no more intensities are run."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Responses:
+    """What events of increasing intensity do to an array.
+
+    Attributes
+    ----------
+    levels : array, shape (m,)
+        Intensities, equally spaced in their logarithm.
+    values : array, shape (frictions, runs, m, 6)
+        `RESPONSES` of a motion in an orientation [m]; NaN without a final value.
+    """
+
+    levels: Floats
+    values: Floats
+
+    @property
+    def prd_m(self) -> Floats:
+        """PRD, shape (frictions, runs, m) [m]."""
+        return self.values[..., kernel.PRD]
+
+
+def run_levels(
+    tracks: Sequence[Track], slope_rad: float, mus: Sequence[float], levels: Floats
+) -> Floats:
+    """Run tracks at friction coefficients and intensities; return `Responses.values`."""
+
+    def run(case: tuple[float, Track]) -> list[list[float]]:
+        mu, track = case
+        scenes = [(slope_rad, mu, track.scene.scale * x) for x in levels.tolist()]
+        return [_response(track, np.array(scene)) for scene in scenes]
+
+    with ThreadPoolExecutor(THREADS) as pool:
+        rows = list(pool.map(run, product(mus, tracks)))
+    return np.array(rows).reshape(len(mus), len(tracks), levels.size, len(RESPONSES))
+
+
+def _response(track: Track, slope_mu_scale: Floats) -> list[float]:
+    result = least_model.solve(scene_of(track.scene, slope_mu_scale)).result
+    is_final = result.status is Status.OK
+    return [getattr(result, name) if is_final else np.nan for name in RESPONSES]
+
+
+def settled_responses(
+    run: Callable[[Floats], Floats],
+    low: float,
+    top: float,
+    measured: Callable[[Responses], Floats],
+) -> tuple[Responses, float]:
+    """Return responses at intensities so close that halving their steps changes little.
+
+    Parameters
+    ----------
+    run : callable
+        From levels to `Responses.values`.
+    low, top : float
+        The first and the last intensity.
+    measured : callable
+        From responses to the results that must settle; inf for none.
+
+    Returns
+    -------
+    Responses
+    float
+        Largest change of a result in the last halving, relative to it.
+    """
+    levels = np.geomspace(low, top, FIRST_STEPS + 1)
+    coarse = Responses(levels=levels, values=run(levels))
+    before = measured(coarse)
+    while True:
+        levels = np.geomspace(low, top, 2 * coarse.levels.size - 1)
+        values = np.empty((*coarse.values.shape[:2], levels.size, len(RESPONSES)))
+        values[:, :, ::2], values[:, :, 1::2] = coarse.values, run(levels[1::2])
+        fine = Responses(levels=levels, values=values)
+        after = measured(fine)
+        moved = (before != after) & (after > 0.0)
+        change = np.abs(before[moved] / after[moved] - 1.0).max(initial=0.0)
+        if change < SETTLED or levels.size > MOST_STEPS:
+            return fine, float(change)
+        coarse, before = fine, after
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Draws:
+    """The events of lives.
+
+    Attributes
+    ----------
+    first : array of int, shape (lives + 1,)
+        Events of life i: from first[i] to first[i + 1].
+    friction : array of int, shape (lives,)
+        Index of its friction coefficient, the same in all of its events.
+    run : array of int, shape (events,)
+        Index of the motion and its orientation.
+    side : array, shape (events,)
+        Sign of the cross-slope component.
+    intensity : array, shape (events,)
+        inf beyond the greatest that is run.
+    """
+
+    first: Indices
+    friction: Indices
+    run: Indices
+    side: Floats
+    intensity: Floats
+
+
+def draw(
+    rng: np.random.Generator,
+    curve: HazardCurve,
+    *,
+    low: float,
+    runs: int,
+    frictions: int,
+    years: float,
+    lives: int,
+) -> Draws:
+    """Draw lives: Poisson events above an intensity, with the rates of a hazard curve.
+
+    Motions, orientations and friction coefficients are equally likely.
+    """
+    rate = float(curve.at(np.array([low]))[0])
+    counts = rng.poisson(rate * years, lives)
+    first = np.concatenate([[0], np.cumsum(counts)])
+    events = int(first[-1])
+    rates = rate * (1.0 - rng.random(events))
+    is_beyond = rates <= float(curve.at(np.array([curve.top]))[0])
+    return Draws(
+        first=first,
+        friction=rng.integers(frictions, size=lives),
+        run=rng.integers(runs, size=events),
+        side=rng.choice([-1.0, 1.0], size=events),
+        intensity=np.where(is_beyond, np.inf, curve.intensity_of(rates)),
+    )
+
+
+def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
+    """Return the largest distance from the installed place and the last one of each life.
+
+    Parameters
+    ----------
+    recenter_m : float
+        Distance above which the array is put back after an event [m]: inf for never, 0 for always.
+
+    Returns
+    -------
+    array, shape (2, lives)
+        In two axes the largest is an upper bound (`solver.kernels.lives`) [m]; inf for a life with
+        an event without a final value.
+    """
+    levels, x = responses.levels, draws.intensity
+    level = np.clip(np.searchsorted(levels, x, side="right") - 1, 0, levels.size - 2)
+    weight = np.clip((np.minimum(x, levels[-1]) - levels[level]) / np.diff(levels)[level], 0, 1)
+    level[np.isinf(x)] = -1
+    out = np.empty((2, draws.friction.size))
+    kernel.live(
+        draws.first, draws.friction, draws.run, level, weight, draws.side, responses.values,
+        recenter_m, out,
+    )  # fmt: skip
+    return out
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LifeStatistics:
+    """Statistics of a distance over lives.
+
+    Attributes
+    ----------
+    mean_m : float
+        Of the lives that have one [m].
+    p95_m : float
+        95th percentile, where a life without a distance is beyond all others [m]; inf for none.
+    beyond, without_value : float
+        Shares of the lives beyond a clearance, and of those without a distance, which count as
+        beyond.
+    """
+
+    mean_m: float
+    p95_m: float
+    beyond: float
+    without_value: float
+
+
+def life_statistics(distances_m: Floats, clearance_m: float) -> LifeStatistics:
+    """Return the statistics of distances of lives; inf for none."""
+    known = distances_m[np.isfinite(distances_m)]
+    return LifeStatistics(
+        mean_m=float(known.mean()) if known.size else np.inf,
+        p95_m=float(np.quantile(distances_m, 0.95, method="inverted_cdf")),
+        beyond=float((distances_m > clearance_m).mean()),
+        without_value=1.0 - known.size / distances_m.size,
+    )

@@ -1,0 +1,194 @@
+"""Lives of a roof: four independent checks, and single runs behind the responses."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from solver import solve
+from solver.kernels import lives as kernel
+from solver.model import coulomb
+from solver.studies.campaign import Campaign, grid
+from solver.studies.lives import (
+    RESPONSES,
+    Draws,
+    Responses,
+    distances,
+    draw,
+    life_statistics,
+    run_levels,
+    settled_responses,
+)
+from solver.studies.rates import HazardCurve, exceedance_rates
+from solver.studies.runs import Runner
+from studied import motion
+
+LEVELS = np.geomspace(0.2, 8.0, 65)
+CURVE = HazardCurve(intensity=np.array([0.01, 100.0]), rate=0.02 * np.array([0.01, 100.0]) ** -2.0)
+YEARS = 25.0
+
+
+def responses(frictions=2, runs=6, *, is_plane=True):
+    """Displacements that grow with intensity, in several directions."""
+    rng = np.random.default_rng(3)
+    size = rng.uniform(0.5, 1.5, (frictions, runs, 1)) * 0.1 * (LEVELS - 0.2) ** 1.3
+    values = np.zeros((frictions, runs, LEVELS.size, 6))
+    angle = rng.uniform(-np.pi, np.pi, (frictions, runs, 1)) if is_plane else 0.0
+    down, up = size * rng.uniform(0.3, 1.0, (2, frictions, runs, 1))
+    values[..., kernel.DOWN], values[..., kernel.UP] = down, up
+    values[..., kernel.ACROSS] = size * np.abs(np.sin(angle))
+    values[..., kernel.RESIDUAL] = 0.8 * down * np.cos(angle) - (0.5 * up if not is_plane else 0.0)
+    values[..., kernel.RESIDUAL_ACROSS] = 0.7 * size * np.sin(angle)
+    # The PRD of a path is at most the distance of a corner of the rectangle around it.
+    corner = np.hypot(np.maximum(down, up), values[..., kernel.ACROSS])
+    values[..., kernel.PRD] = 0.9 * corner if is_plane else np.maximum(down, up)
+    return Responses(levels=LEVELS, values=values)
+
+
+def drawn(rng=None, *, runs=6, frictions=2, lives=100_000, years=YEARS):
+    rng = rng or np.random.default_rng(1)
+    return draw(rng, CURVE, low=LEVELS[0], runs=runs, frictions=frictions, years=years, lives=lives)
+
+
+def in_numpy(draws, given, recenter_m):
+    """The largest and the last distance of each life, event by event over all lives at once."""
+    counts = np.diff(draws.first)
+    place, largest = np.zeros((counts.size, 2)), np.zeros(counts.size)
+    for number in range(counts.max()):
+        alive = np.flatnonzero(counts > number)
+        event = draws.first[alive] + number
+        of = given.values[draws.friction[alive], draws.run[event]]
+        at = np.array(
+            [
+                [np.interp(x, given.levels, rows[:, k]) for k in range(6)]
+                for x, rows in zip(draws.intensity[event], of, strict=True)
+            ]
+        )
+        prd, down, up, across, along, sideways = at.T
+        here = place[alive]
+        box = np.stack([np.abs(here[:, 0] + down), np.abs(here[:, 0] - up)]).max(axis=0)
+        corner = np.sqrt(box**2 + (np.abs(here[:, 1]) + across) ** 2)
+        far = np.minimum(np.sqrt((here**2).sum(axis=1)) + prd, corner)
+        far[~np.isfinite(draws.intensity[event])] = np.inf
+        largest[alive] = np.maximum(largest[alive], far)
+        here = here + np.stack([along, draws.side[event] * sideways], axis=1)
+        here[np.sqrt((here**2).sum(axis=1)) > recenter_m] = 0.0
+        place[alive] = here
+    last = np.sqrt((place**2).sum(axis=1))
+    last[np.isinf(largest)] = np.inf
+    return np.stack([largest, last])
+
+
+@pytest.mark.parametrize("recenter_m", [math.inf, 0.15, 0.0])
+def test_a_simulation_in_numpy_has_the_same_lives(recenter_m):
+    draws = drawn(lives=600)
+    assert np.isinf(draws.intensity).any() or np.diff(draws.first).max() > 10
+    expected = in_numpy(draws, responses(), recenter_m)
+    assert distances(draws, responses(), recenter_m) == pytest.approx(expected, rel=1e-12)
+
+
+def test_one_event_alone_has_the_displacements_of_the_hazard_curve():
+    given = responses()
+    limits = np.array([0.05, 0.2, 0.6])
+    rates = exceedance_rates(CURVE, LEVELS, given.prd_m, limits).mean(axis=(1, 2))
+    draws = drawn()
+    one = np.arange(draws.intensity.size + 1)
+    each = Draws(
+        first=one,
+        friction=np.repeat(draws.friction, np.diff(draws.first)),
+        run=draws.run,
+        side=draws.side,
+        intensity=draws.intensity,
+    )
+    for recenter_m in (math.inf, 0.0):
+        largest, _ = distances(each, given, recenter_m)
+        share = (largest[:, None] > limits).mean(axis=0)
+        expected = rates / CURVE.at(LEVELS[:1])[0]
+        assert (np.abs(share - expected) < 4.0 * np.sqrt(expected / largest.size)).all()
+
+
+def test_equal_events_have_the_mean_of_a_renewal_process():
+    """Put back after every third event: by the roots of unity of a Poisson number modulo 3."""
+    values = np.zeros((1, 1, LEVELS.size, 6))
+    values[..., [kernel.PRD, kernel.DOWN, kernel.RESIDUAL]] = 0.1
+    draws = drawn(runs=1, frictions=1, lives=400_000, years=2.0)
+    _, last = distances(draws, Responses(levels=LEVELS, values=values), 0.25)
+    mean_events = 2.0 * CURVE.at(LEVELS[:1])[0]
+    roots = np.exp(2j * np.pi * np.arange(3) / 3)
+    of_rest = [(np.exp(mean_events * (roots - 1.0)) * roots**-j).mean().real for j in range(3)]
+    # What is beyond the levels counts as without a value, once in 40,000 events.
+    known = np.isfinite(last)
+    assert last[known].mean() == pytest.approx(0.1 * of_rest[1] + 0.2 * of_rest[2], rel=5e-3)
+    # Without re-centering each event adds its residual (Wald).
+    _, last = distances(draws, Responses(levels=LEVELS, values=values), math.inf)
+    assert last[known].mean() == pytest.approx(0.1 * mean_events, rel=5e-3)
+
+
+@pytest.mark.parametrize("generator", [np.random.MT19937, np.random.Philox])
+def test_another_generator_has_the_same_distribution(generator):
+    given = responses()
+    first, _ = distances(drawn(), given, math.inf)
+    other, _ = distances(drawn(np.random.Generator(generator(7))), given, math.inf)
+    for share in (0.5, 0.84, 0.95):
+        low, high = np.quantile(first, [share - 0.004, share + 0.004])
+        assert low < np.quantile(other, share) < high
+
+
+def test_in_one_axis_the_largest_distance_is_that_of_the_excursions():
+    given = responses(runs=2, is_plane=False)
+    draws = drawn(runs=2, lives=4000)
+    largest, last = distances(draws, given, math.inf)
+    for life in (np.diff(draws.first) > 2).nonzero()[0][:20]:
+        place, far = 0.0, 0.0
+        for event in range(draws.first[life], draws.first[life + 1]):
+            rows = given.values[draws.friction[life], draws.run[event]]
+            at = [np.interp(draws.intensity[event], LEVELS, row) for row in rows.T]
+            far = max(far, abs(place + at[kernel.DOWN]), abs(place - at[kernel.UP]))
+            place += at[kernel.RESIDUAL]
+        assert (largest[life], last[life]) == pytest.approx((far, abs(place)), rel=1e-12)
+
+
+def test_an_event_without_a_value_leaves_its_life_without_a_distance():
+    given = responses()
+    given.values[0, :, 40:] = np.nan
+    draws = drawn()
+    found = distances(draws, given, 0.0)
+    has_event = np.diff(draws.first) > 0
+    worst = np.maximum.reduceat(np.append(draws.intensity, 0.0), draws.first[:-1])
+    lost = has_event & (draws.friction == 0) & (worst > LEVELS[39])
+    assert np.isinf(found[:, lost & np.isfinite(worst)]).all()
+    statistics = life_statistics(found[0], 0.1)
+    assert statistics.without_value == pytest.approx(np.isinf(found[0]).mean(), abs=1e-12)
+    assert statistics.beyond >= statistics.without_value > 0.0
+    assert statistics.mean_m == found[0][np.isfinite(found[0])].mean()
+
+
+def test_responses_are_those_of_single_runs():
+    given = Campaign(motions=((motion(1, "xyz"),),), cases=grid(1, [0.0], [0.3], [1.0]))
+    tracks, levels = Runner(given).tracks[0], np.array([0.4, 0.9])
+    found = run_levels(tracks, 0.03, [0.3, 0.4], levels)
+    assert found.shape == (2, 4, 2, 6)
+    orientation = given.motions[0][0].orientations[2]
+    one = dataclasses.replace(given.motions[0][0], scale=0.9)
+    single = solve(one.scene(orientation, slope_rad=0.03, friction=coulomb(0.4))).result
+    assert found[1, 2, 1].tolist() == [getattr(single, name) for name in RESPONSES]
+    assert np.abs(found[..., kernel.RESIDUAL_ACROSS]).max() > 0.0
+
+
+def test_levels_are_halved_until_the_results_settle():
+    calls = []
+
+    def run(levels):
+        calls.append(levels.size)
+        return np.repeat((levels**3)[None, None, :, None], 6, axis=3)
+
+    def measured(given):
+        middle = np.interp(2.345, given.levels, given.prd_m[0, 0])
+        return np.array([middle, 0.0, math.inf])
+
+    given, change = settled_responses(run, 0.01, 100.0, measured)
+    assert calls == [17, 16, 32]
+    assert given.levels.size == 65
+    assert change < 0.005
+    assert given.prd_m[0, 0] == pytest.approx(given.levels**3, rel=1e-12)
