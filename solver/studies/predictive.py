@@ -1,0 +1,115 @@
+"""The friction coefficient of a roof that was not tested, from the runs of tests.
+
+Reads no files; `solver.friction_tests` groups the runs. Read `Predictive`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import f_oneway
+from scipy.stats import t as student
+
+from solver.friction_tests import Series
+from solver.model import InputError
+
+QUANTILES = (0.1, 0.3, 0.5, 0.7, 0.9)
+"""Of the predictive distribution, the middles of five equal probabilities."""
+
+MOST_RUNS = 1000
+"""More runs than anybody makes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Predictive:
+    """Predictive distribution of the friction coefficient, Student t.
+
+    For one more run on the surface with the least mean: mean, and scatter s sqrt(1 + 1/n) with the
+    scatter and the degrees of freedom of all surfaces (Gelman et al. 2013, Bayesian Data Analysis,
+    3rd ed., section 3.2, with the noninformative prior).
+
+    Attributes
+    ----------
+    mean : float
+        Of the runs on that surface.
+    runs, freedom : int
+        On that surface; degrees of freedom: of all runs, less one for each surface.
+    within, between : float
+        Standard deviation of runs on one surface, and of the means of the surfaces without what
+        the runs alone scatter (analysis of variance); 0 for one surface.
+    p_value : float
+        Of equal means of the surfaces (F test); NaN for one surface or without any scatter.
+    """
+
+    mean: float
+    runs: int
+    freedom: int
+    within: float
+    between: float
+    p_value: float
+
+    @property
+    def scale(self) -> float:
+        """Scale of the distribution."""
+        return self.within * math.sqrt(1.0 + 1.0 / self.runs)
+
+    def quantile(self, chance: float) -> float:
+        """Return the coefficient that is not exceeded with a probability between 0 and 1."""
+        return self.mean + self.scale * float(student.ppf(chance, self.freedom))
+
+    @property
+    def quantiles(self) -> tuple[float, ...]:
+        """Coefficients at `QUANTILES`, equally likely."""
+        return tuple(map(self.quantile, QUANTILES))
+
+    def more_runs(self, required_mu: float) -> float:
+        """Return how many more runs make the lowest of `QUANTILES` a required coefficient.
+
+        With the same mean and scatter, on the same surface: 0 if it is one already, inf if
+        `MOST_RUNS` are too few.
+        """
+        for more in range(MOST_RUNS + 1):
+            then = replace(self, runs=self.runs + more, freedom=self.freedom + more)
+            if then.quantile(QUANTILES[0]) >= required_mu:
+                return more
+        return math.inf
+
+
+def predictive(surfaces: Sequence[Series]) -> Predictive:
+    """Return the predictive distribution from runs by surface.
+
+    Raises
+    ------
+    InputError
+        If they have fewer than two degrees of freedom, or reach 0 at the lowest of `QUANTILES`.
+    """
+    groups = [np.array([run.mu for run in surface.runs]) for surface in surfaces]
+    sizes = np.array([group.size for group in groups])
+    total, count = int(sizes.sum()), len(groups)
+    freedom = total - count
+    if freedom < 2:
+        raise InputError(f"{total} friction runs on {count} surfaces; give two more than surfaces")
+    squares = sum(float(((group - group.mean()) ** 2).sum()) for group in groups)
+    between, p_value = 0.0, math.nan
+    if count > 1:
+        every = np.concatenate(groups)
+        among = float(((every - every.mean()) ** 2).sum()) - squares
+        size = (total - float((sizes**2).sum()) / total) / (count - 1)
+        excess = among / (count - 1) - squares / freedom
+        between = math.sqrt(max(0.0, excess / size))
+        p_value = float(f_oneway(*groups).pvalue) if squares > 0.0 else math.nan
+    least = min(groups, key=lambda group: float(group.mean()))
+    found = Predictive(
+        mean=float(least.mean()),
+        runs=least.size,
+        freedom=freedom,
+        within=math.sqrt(squares / freedom),
+        between=between,
+        p_value=p_value,
+    )
+    if found.quantiles[0] <= 0.0:
+        raise InputError("the friction runs scatter so much that the coefficient may be 0")
+    return found
