@@ -5,6 +5,7 @@ The responses are runs of their own, as `solver.solve` makes them. Read `draw`, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.forces import normal_mps2
 from solver.kernels import lives as kernel
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, Status
@@ -28,8 +30,8 @@ RESPONSES = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_acro
 FIRST_STEPS, MOST_STEPS = 16, 512
 """Intervals of intensity to begin with, and at most."""
 
-SETTLED = 0.005
-"""Change of the results, relative to them, below which no more intensities are run."""
+SETTLED, SETTLED_M = 0.005, 1e-4
+"""Change of the results, relative to them or in meters, below which no more intensities are run."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,6 +55,17 @@ class Responses:
         return self.values[..., kernel.PRD]
 
 
+def uplift_intensity(track: Track, slope_rad: float) -> float:
+    """Return the intensity above which the block lifts off; inf for none.
+
+    The normal force at a sample is linear in the intensity.
+    """
+    scene = scene_of(track.scene, np.array([slope_rad, 0.0, track.scene.scale]))
+    at_rest = scene.g_mps2 * math.cos(slope_rad)
+    lost = at_rest - float(normal_mps2(scene).min())
+    return at_rest / lost if lost > 0.0 else math.inf
+
+
 def run_levels(
     tracks: Sequence[Track], slope_rad: float, mus: Sequence[float], levels: Floats
 ) -> Floats:
@@ -60,8 +73,13 @@ def run_levels(
 
     def run(case: tuple[float, Track]) -> list[list[float]]:
         mu, track = case
-        scenes = [(slope_rad, mu, track.scene.scale * x) for x in levels.tolist()]
-        return [_response(track, np.array(scene)) for scene in scenes]
+        most = uplift_intensity(track, slope_rad)
+        return [
+            _response(track, np.array([slope_rad, mu, track.scene.scale * x]))
+            if x < most
+            else [math.nan] * len(RESPONSES)
+            for x in levels.tolist()
+        ]
 
     with ThreadPoolExecutor(THREADS) as pool:
         rows = list(pool.map(run, product(mus, tracks)))
@@ -71,7 +89,7 @@ def run_levels(
 def _response(track: Track, slope_mu_scale: Floats) -> list[float]:
     result = least_model.solve(scene_of(track.scene, slope_mu_scale)).result
     is_final = result.status is Status.OK
-    return [getattr(result, name) if is_final else np.nan for name in RESPONSES]
+    return [getattr(result, name) if is_final else math.nan for name in RESPONSES]
 
 
 def settled_responses(
@@ -89,13 +107,13 @@ def settled_responses(
     low, top : float
         The first and the last intensity.
     measured : callable
-        From responses to the results that must settle; inf for none.
+        From responses to the displacements that must settle [m]; inf for none.
 
     Returns
     -------
     Responses
     float
-        Largest change of a result in the last halving, relative to it.
+        Largest change of a result by more than `SETTLED_M` in the last halving, relative to it.
     """
     levels = np.geomspace(low, top, FIRST_STEPS + 1)
     coarse = Responses(levels=levels, values=run(levels))
@@ -106,7 +124,8 @@ def settled_responses(
         values[:, :, ::2], values[:, :, 1::2] = coarse.values, run(levels[1::2])
         fine = Responses(levels=levels, values=values)
         after = measured(fine)
-        moved = (before != after) & (after > 0.0)
+        with np.errstate(invalid="ignore"):
+            moved = np.abs(after - before) > SETTLED_M
         change = np.abs(before[moved] / after[moved] - 1.0).max(initial=0.0)
         if change < SETTLED or levels.size > MOST_STEPS:
             return fine, float(change)
@@ -143,6 +162,7 @@ def draw(
     curve: HazardCurve,
     *,
     low: float,
+    top: float,
     runs: int,
     frictions: int,
     years: float,
@@ -150,14 +170,15 @@ def draw(
 ) -> Draws:
     """Draw lives: Poisson events above an intensity, with the rates of a hazard curve.
 
-    Motions, orientations and friction coefficients are equally likely.
+    Those above the top intensity have none that is run: inf. Motions, orientations and friction
+    coefficients are equally likely.
     """
     rate = float(curve.at(np.array([low]))[0])
     counts = rng.poisson(rate * years, lives)
     first = np.concatenate([[0], np.cumsum(counts)])
     events = int(first[-1])
     rates = rate * (1.0 - rng.random(events))
-    is_beyond = rates <= float(curve.at(np.array([curve.top]))[0])
+    is_beyond = rates <= float(curve.at(np.array([top]))[0])
     return Draws(
         first=first,
         friction=rng.integers(frictions, size=lives),
@@ -221,5 +242,5 @@ def life_statistics(distances_m: Floats, clearance_m: float) -> LifeStatistics:
         mean_m=float(known.mean()) if known.size else np.inf,
         p95_m=float(np.quantile(distances_m, 0.95, method="inverted_cdf")),
         beyond=float((distances_m > clearance_m).mean()),
-        without_value=1.0 - known.size / distances_m.size,
+        without_value=float(np.isinf(distances_m).mean()),
     )

@@ -19,6 +19,7 @@ from solver.studies.lives import (
     life_statistics,
     run_levels,
     settled_responses,
+    uplift_intensity,
 )
 from solver.studies.rates import HazardCurve, exceedance_rates
 from solver.studies.runs import Runner
@@ -48,7 +49,10 @@ def responses(frictions=2, runs=6, *, is_plane=True):
 
 def drawn(rng=None, *, runs=6, frictions=2, lives=100_000, years=YEARS):
     rng = rng or np.random.default_rng(1)
-    return draw(rng, CURVE, low=LEVELS[0], runs=runs, frictions=frictions, years=years, lives=lives)
+    low, top = LEVELS[0], LEVELS[-1]
+    return draw(
+        rng, CURVE, low=low, top=top, runs=runs, frictions=frictions, years=years, lives=lives
+    )
 
 
 def in_numpy(draws, given, recenter_m):
@@ -174,6 +178,25 @@ def test_responses_are_those_of_single_runs():
     single = solve(one.scene(orientation, slope_rad=0.03, friction=coulomb(0.4))).result
     assert found[1, 2, 1].tolist() == [getattr(single, name) for name in RESPONSES]
     assert np.abs(found[..., kernel.RESIDUAL_ACROSS]).max() > 0.0
+
+
+def test_a_block_lifts_off_from_its_intensity_on():
+    given = Campaign(motions=((motion(1, "xz"),),), cases=grid(1, [0.0], [0.3], [1.0]))
+    track = Runner(given).tracks[0][0]
+    most = uplift_intensity(track, 0.05)
+    runs = [
+        solve(
+            dataclasses.replace(given.motions[0][0], scale=share * most).scene(
+                given.motions[0][0].orientations[0], slope_rad=0.05, friction=coulomb(0.3)
+            )
+        ).result.status.name
+        for share in (0.999, 1.001)
+    ]
+    assert runs[0] != "UPLIFT"
+    assert runs[1] == "UPLIFT"
+    assert np.isnan(run_levels([track], 0.05, [0.3], np.array([1.001 * most]))).all()
+    level = Campaign(motions=((motion(1, "x"),),), cases=grid(1, [0.0], [0.3], [1.0]))
+    assert uplift_intensity(Runner(level).tracks[0][0], 0.0) == math.inf
 
 
 def test_levels_are_halved_until_the_results_settle():
