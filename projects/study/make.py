@@ -10,9 +10,18 @@ from pathlib import Path
 
 from projects.rows import write_motions
 from report.sheet.schema.choices import UnitsFirst
-from report.study.schema import Intensity, Mat, Study, StudyArray, StudyInput
+from report.study.schema import (
+    Hazard,
+    Intensity,
+    Mat,
+    Study,
+    StudyArray,
+    StudyFrictionRun,
+    StudyInput,
+)
 from report.study.template import write_study
 from report.suite.inputs import ac156_targets
+from solver.friction_tests import Surface
 from solver.rules.spectra import Tail
 from solver.synthesis.suite import make_suite
 
@@ -20,6 +29,7 @@ HERE = Path(__file__).resolve().parent
 INCH = 0.0254
 S_DS_G = 1.0
 COUNT, SEED = 7, 15
+RUNS = {Surface.DRY: (0.55, 0.57, 0.54), Surface.WET: (0.49, 0.50, 0.51)}
 
 
 def main() -> None:
@@ -57,6 +67,24 @@ def study() -> StudyInput:
         ),
         study_arrays=(
             StudyArray(id="A1", mat="EPDM", slope_deg=2.0, clearance_m=24 * INCH, reaches="RTU-1"),
+        ),
+        hazard=Hazard(
+            file="hazard-pga.csv",
+            site="Los Angeles, 34.05, -118.25",
+            source="U.S. Geological Survey, test outputs of nshmp-haz; public domain, provisional",
+            edition="National Seismic Hazard Model 2018, western US",
+            vs30_mps=760.0,
+            site_vs30_mps=530.0,
+            site_factor=1.2,
+            site_basis="Example: F_PGA of ASCE 7-16 Table 11.8-1, site class C",
+            roof_factor=3.0,
+            roof_basis="Example: 1 + 2 z/h of ASCE 7-16 13.3.1 at z/h = 1",
+            recenter_m=6 * INCH,
+        ),
+        friction_runs=tuple(
+            StudyFrictionRun(mat="EPDM", surface=surface, number=number, mu=mu)
+            for surface, values in RUNS.items()
+            for number, mu in enumerate(values, start=1)
         ),
     )
 

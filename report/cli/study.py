@@ -95,6 +95,7 @@ def make(
 
     Options are those of `report.study.run.run_study`.
     """
+    from report.entities.years import FILE as YEARS
     from report.results.publish import publish
     from report.study.exports import EXPORTS
     from report.study.files import study_files
@@ -110,7 +111,7 @@ def make(
             progress("writing the report")
             files = study_files(results)
             publish(files, folder)
-            for name in EXPORTS:
+            for name in (*EXPORTS, YEARS):
                 if name not in files:
                     (folder / name).unlink(missing_ok=True)
         undo.pop_all()

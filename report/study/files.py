@@ -8,6 +8,7 @@ from markupsafe import Markup
 
 from report.document.sections import Section, filled, section
 from report.document.templates import rendered
+from report.entities.years import FILE as YEARS
 from report.study.allowed import allowed
 from report.study.array_page import fragility
 from report.study.basis import basis, limits
@@ -18,6 +19,7 @@ from report.study.prescribed import compare, prescribed
 from report.study.results import StudyResults
 from report.study.tables import curves_csv, study_xlsx
 from report.study.words import context, headline
+from report.study.years_page import sheets, years, years_json
 from report.typeset.pdf import TEMPLATES, lay_out
 
 TABLE = "study.xlsx"
@@ -34,7 +36,8 @@ def study_files(results: StudyResults) -> Mapping[str, bytes]:
     return {
         "study.pdf": lay_out(study_html(results)),
         "curves.csv": curves_csv(results),
-        TABLE: study_xlsx(results),
+        TABLE: study_xlsx(results, sheets(results) if results.years else ()),
+        **({YEARS: years_json(results)} if results.years else {}),
         **export_files(results),
     }
 
@@ -61,4 +64,5 @@ def sections(results: StudyResults) -> tuple[Section, ...]:
         found.append(formula(results, b))
         found += [prescribed(results, b, one) for one in compare(results, b)]
     found += [fragility(results, one) for one in results.arrays]
+    found += [years(results, one) for one in results.years]
     return (*found, limits(results))

@@ -14,6 +14,7 @@ from typing import Any
 from report.sheet.reading.unseen import warnings
 from report.sheet.schema.fields import Finding, Place
 from report.study.design import DesignRule, design_rule
+from report.study.hazard import hazard_curves
 from report.study.motions import StudyMotions
 from report.study.read import StudySheet
 from report.study.schema import (
@@ -25,7 +26,10 @@ from report.study.schema import (
     StudyArray,
     StudyInput,
 )
+from solver.model import InputError
 from solver.studies.campaign import Campaign, Cases, cases_of, grid, joined
+from solver.studies.predictive import Predictive, predictive
+from solver.studies.rates import HazardCurve
 from solver.studies.uncertainty import (
     Spread,
     all_combinations,
@@ -74,6 +78,10 @@ class StudyPlan:
         Name of its file.
     campaign : Campaign
         The first cases are the grid of building, slope, friction and intensity.
+    hazard : tuple of HazardCurve
+        Of the intensity of the motions; empty for none.
+    predicted : mapping of str to Predictive
+        By the folded ID of each mat with tests.
     warnings : tuple of (str, str)
         Cell and text of each warning on the workbook.
     """
@@ -83,6 +91,8 @@ class StudyPlan:
     motions: StudyMotions
     campaign: Campaign
     arrays: tuple[ArrayPlan, ...]
+    hazard: tuple[HazardCurve, ...]
+    predicted: Mapping[str, Predictive]
     warnings: tuple[tuple[str, str], ...]
 
     @property
@@ -152,8 +162,24 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
         motions=motions,
         campaign=campaign,
         arrays=tuple(arrays),
+        hazard=hazard_curves(sheet),
+        predicted=_predicted(sheet),
         warnings=tuple((one.cell or sheet.where(one.place), one.text) for one in found),
     )
+
+
+def _predicted(sheet: StudySheet) -> Mapping[str, Predictive]:
+    """Return the predictive distributions of the mats with tests."""
+    given, found = sheet.project, {}
+    has_use = bool(given.friction_runs or given.hazard.file or given.hazard_points)
+    for row, mat in enumerate(given.mats if has_use else ()):
+        if surfaces := given.surfaces(mat.id):
+            try:
+                found[mat.id.casefold()] = predictive(surfaces)
+            except InputError as error:
+                place = Place("mats", row, "id")
+                sheet.refuse([Finding.error(place, p.found, p.remedy) for p in error.parts])
+    return found
 
 
 def _too_many(campaign: Campaign) -> Iterator[Finding]:

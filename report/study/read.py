@@ -13,10 +13,19 @@ from report.sheet.reading.archive import open_book
 from report.sheet.reading.locate import is_absent
 from report.sheet.reading.read import SheetOf, read_as
 from report.sheet.schema.choices import RecordedAt
-from report.sheet.schema.fields import Draft, DraftRow, Finding, Place, Where, sections_of
+from report.sheet.schema.fields import (
+    Draft,
+    DraftRow,
+    Finding,
+    Place,
+    Where,
+    entries,
+    sections_of,
+)
 from report.study.schema import (
     MOST_CASES,
     MOST_VALUES,
+    Hazard,
     Intensity,
     Sampling,
     StudyInput,
@@ -85,6 +94,7 @@ def _faults(draft: Draft, where: Where) -> Iterator[Finding]:
     for row, mat in enumerate(draft["mats"]):
         yield from _about_mat(row, mat)
     yield from _about_arrays(study, draft)
+    yield from _about_hazard(study, draft)
 
 
 def _at(field: str, found: str, remedy: str = "") -> Finding:
@@ -144,7 +154,7 @@ def _about_mat(row: int, mat: DraftRow) -> Iterator[Finding]:
 
 def _about_arrays(study: DraftRow, draft: Draft) -> Iterator[Finding]:
     names = {name.casefold() for _, name in column(draft, ("mats",), "id")}
-    for place, mat in column(draft, ("study_arrays",), "mat"):
+    for place, mat in column(draft, ("study_arrays", "friction_runs"), "mat"):
         if mat.casefold() not in names:
             yield Finding.error(place, f"mat '{mat}' is not on the sheet Mats", "add it")
     if study.get("site_intensity") and not draft["study_arrays"]:
@@ -154,3 +164,53 @@ def _about_arrays(study: DraftRow, draft: Draft) -> Iterator[Finding]:
     if is_combined and study.get("site_intensity") and study.get("intensity_beta"):
         text = "all combinations take the median intensity"
         yield _at("intensity_beta", text, "choose Latin hypercube, or leave it blank")
+
+
+_OF_CURVE = ("site", "source", "edition", "vs30_mps", "site_vs30_mps")
+
+
+def _about_hazard(study: DraftRow, draft: Draft) -> Iterator[Finding]:
+    """Yield what a hazard curve lacks, and what is given without one."""
+    hazard = draft["hazard"][0] if draft["hazard"] else {}
+    labels = {entry.name: entry.spoken for entry in entries(Hazard)}
+
+    def at(field: str, found: str, remedy: str) -> Finding:
+        return Finding.error(Place("hazard", 0, field), f"{labels[field]} {found}", remedy)
+
+    has_points = bool(draft["hazard_points"])
+    if not (hazard.get("file") or has_points):
+        if alone := [name for name, value in hazard.items() if value not in ("", None)]:
+            yield at(alone[0], "is given without a hazard curve", "give a curve, or clear it")
+        return
+    if hazard.get("file") and has_points:
+        yield at("file", "is named and the table of the curve has rows", "keep one")
+    for field in _OF_CURVE:
+        if field in hazard and hazard[field] in ("", None):
+            yield at(field, "is missing", "a hazard curve needs it")
+    is_ground = study.get("recorded_at") is RecordedAt.GROUND
+    is_elsewhere = hazard.get("vs30_mps") != hazard.get("site_vs30_mps")
+    for where, is_needed in (("site", is_elsewhere), ("roof", not is_ground)):
+        factor, basis = f"{where}_factor", f"{where}_basis"
+        has_factor, has_basis = (hazard.get(name) not in ("", None) for name in (factor, basis))
+        if is_needed and not has_factor and factor in hazard:
+            yield at(factor, "is missing", f"{_NEEDED[where]}; there is no default")
+        elif has_factor and not is_needed:
+            yield at(factor, "is given", f"clear it: {_NEEDLESS[where]}")
+        if has_factor and not has_basis and basis in hazard:
+            yield at(basis, "is missing", "the factor needs it")
+    measures = (Intensity.PGA, Intensity.SA1) if is_ground else (Intensity.PPA, Intensity.SA1)
+    if study.get("intensity") not in (*measures, None):
+        wanted = " or ".join(measure.letters for measure in measures)
+        yield _at("intensity", "has no hazard curve", f"choose {wanted}, or clear the hazard")
+    if not draft["study_arrays"]:
+        yield at("file", "is given, but no array is", "fill in a row of the sheet Arrays")
+
+
+_NEEDED = {
+    "site": "the curve is for another Vs30 than that of the site",
+    "roof": "the motions are roof motions",
+}
+_NEEDLESS = {
+    "site": "the curve is for the Vs30 of the site",
+    "roof": "the ground motions are carried through the buildings",
+}

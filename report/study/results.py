@@ -19,6 +19,7 @@ from report.study.parts import Done, peaks, read_part
 from report.study.plan import ArrayPlan, StudyPlan
 from report.study.schema import NoValue
 from report.study.spread import SpectralSpread, spectral_spread
+from report.study.years import ArrayYears, years_of
 from report.words.units import G_MPS2, round_down, round_up
 from solver.model import Floats, InputError
 from solver.studies.curves import Statistics, first_allowed, statistics
@@ -96,6 +97,8 @@ class StudyResults:
         Mean peak horizontal acceleration at the roof for an intensity of 1 [g].
     fits : tuple of Fit or str
         By building; a text says why there is none.
+    years : tuple of ArrayYears
+        In the order of the arrays; empty without a hazard curve.
     allow_matched : bool
         Whether fragilities without a record-to-record dispersion are exported, with a warning.
     """
@@ -109,6 +112,7 @@ class StudyResults:
     ppa_g: Floats
     fits: tuple[Fit | str, ...]
     arrays: tuple[ArrayStudyResult, ...]
+    years: tuple[ArrayYears, ...]
     allow_matched: bool
 
     @property
@@ -202,6 +206,9 @@ def results_of(
         ppa_g=ppa,
         fits=tuple(_fit(plan, analysis[b], float(ppa[b])) for b in range(plan.shape[0])),
         arrays=tuple(_array(plan, array, runner, prd, slip, on_grid) for array in plan.arrays),
+        years=tuple(
+            years_of(plan, curve, array, runner) for curve in plan.hazard for array in plan.arrays
+        ),
         allow_matched=allow_matched,
     )
 

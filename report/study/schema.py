@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import datetime as dt
 import itertools
+import math
 import re
 from enum import StrEnum
 from functools import lru_cache
@@ -27,7 +28,9 @@ from report.sheet.schema.choices import (
     UnitsFirst,
 )
 from report.sheet.schema.fields import Cell, Frozen, OnSheet
+from report.sheet.schema.friction import FrictionTestRow
 from report.words.units import Quantity
+from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 
 MOST_VALUES = 500
@@ -39,6 +42,9 @@ MOST_CASES = 2_000_000
 
 MOST_SAMPLES = 30_000_000
 """Most samples of all records, which are held in memory."""
+
+ROCK_VS30_MPS = 760.0
+"""From here on a site is rock: the boundary of site classes B and C (ASCE 7-22, Table 20.2-1)."""
 
 _STEPS = re.compile(r"(\S+)\s+to\s+(\S+)\s+by\s+(\S+)")
 
@@ -244,6 +250,62 @@ class StudyBuilding(Frozen):
     """Of equal height."""
 
 
+class Hazard(Frozen):
+    """The hazard at the site, from which rates in years follow."""
+
+    file: Annotated[Text, Cell("Hazard curve file", "hazard-pga.csv")] = ""
+    """CSV beside this workbook: intensity and annual rate of exceedance in two columns, or as saved
+    by the USGS hazard tool. Blank: the table below, or no hazard."""
+    site: Annotated[Text, Cell("Site", "Los Angeles, 34.05, -118.25")] = ""
+    """Of the curve: name and coordinates. Required with a curve."""
+    source: Annotated[Text, Cell("Source of the curve", "USGS, nshmp-haz")] = ""
+    """Who computed it. Required with a curve."""
+    edition: Annotated[Text, Cell("Hazard model", "NSHM 2018, western US")] = ""
+    """Name and edition. Required with a curve."""
+    vs30_mps: Annotated[float | None, Field(gt=0), Cell("Vs30 of the curve", 760, "m/s")] = None
+    """Required with a curve."""
+    site_vs30_mps: Annotated[float | None, Field(gt=0), Cell("Vs30 of the site", 260, "m/s")] = None
+    """Required with a curve."""
+    site_factor: Annotated[Positive | None, Cell("Factor to the site", 1.2)] = None
+    """Intensity at the site / that of the curve. Required where their Vs30 differ."""
+    site_basis: Annotated[Text, Cell("Basis of this factor", "ASCE 7-16 Table 11.8-1")] = ""
+    """Required with the factor."""
+    roof_factor: Annotated[Positive | None, Cell("Factor to the roof", 3.0)] = None
+    """Intensity at the roof / that at the site. Required with roof motions; ground motions are
+    carried through the buildings."""
+    roof_basis: Annotated[Text, Cell("Basis of that factor", "ASCE 7-16 13.3.1, z/h = 1")] = ""
+    """Required with the factor."""
+    recenter_m: Annotated[Positive | None, Cell("Re-centering above", 6.0, Quantity.SIZE)] = None
+    """Distance above which an array is put back after an event, beside never and always. Blank:
+    those alone."""
+
+    @property
+    def factor(self) -> float:
+        """From the intensity of the curve to that of the motions."""
+        return (self.site_factor or 1.0) * (self.roof_factor or 1.0)
+
+    @property
+    def is_rock(self) -> bool:
+        """Whether the curve is for rock: the boundary of site classes B and C, or stiffer."""
+        return (self.vs30_mps or 0.0) >= ROCK_VS30_MPS
+
+
+class HazardPoint(Frozen):
+    """A point of the hazard curve."""
+
+    intensity: Annotated[Positive, Cell("Intensity", 0.5)]
+    """PGA or Sa(1 s) [g]: as the intensity measure."""
+    annual_rate: Annotated[float, Field(ge=0), Cell("Annual rate", 0.0021)]
+    """At which it is exceeded [1/year]."""
+
+
+class StudyFrictionRun(FrictionTestRow):
+    """One run of a friction test of a mat."""
+
+    mat: Annotated[Id, Cell("Mat", "EPDM pad")]
+    """ID on the sheet Mats."""
+
+
 class StudyInput(Frozen):
     """The complete input of a study workbook."""
 
@@ -257,6 +319,20 @@ class StudyInput(Frozen):
     """One row for each motion; leave blank if the sheet Study names a folder."""
     buildings: Annotated[tuple[StudyBuilding, ...], OnSheet("Buildings", "Buildings")] = ()
     """Only for ground motions: one row each."""
+    hazard: Annotated[Hazard, OnSheet("Hazard", "Hazard at the site", may_be_absent=True)] = (
+        Hazard()
+    )
+    """Optional: gives rates in years and the displacement of 25 years."""
+    hazard_points: Annotated[
+        tuple[HazardPoint, ...], OnSheet("Hazard", "Hazard curve", may_be_absent=True)
+    ] = ()
+    """In place of a file, from the smallest intensity."""
+    friction_runs: Annotated[
+        tuple[StudyFrictionRun, ...],
+        OnSheet("Friction runs", "Runs of the friction tests", may_be_absent=True),
+    ] = ()
+    """Optional: as on the sheet Friction tests of a project, for each mat. With a hazard they take
+    the place of the tested values."""
 
     @property
     def slopes_deg(self) -> tuple[float, ...]:
@@ -287,6 +363,19 @@ class StudyInput(Frozen):
         """Return the tested values of a mat, or its coefficient alone."""
         mat = self._mat(mat_id)
         return tested(mat.tested) or (float(mat.mu or 0.0),)
+
+    def surfaces(self, mat_id: str) -> tuple[Series, ...]:
+        """Return the runs of a mat by report and surface; without any, its tested values."""
+        mat = self._mat(mat_id)
+        runs = [one for one in self.friction_runs if one.mat.casefold() == mat_id.casefold()]
+        if runs:
+            return series(one.run(mat.report) for one in runs)
+        nan = math.nan
+        return series(
+            FrictionRun(report=mat.report, surface=Surface.DRY, velocity_mps=nan, mu=mu,
+                        mu_static=nan)
+            for mu in tested(mat.tested)
+        )  # fmt: skip
 
     def _mat(self, mat_id: str) -> Mat:
         return next(row for row in self.mats if row.id.casefold() == mat_id.casefold())

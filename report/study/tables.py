@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import product
 from typing import Any
 
@@ -15,6 +15,7 @@ import numpy as np
 
 from report.entities.columns import UnitFormat
 from report.entities.marks import UNVERIFIED
+from report.entities.years import SUPPORTING
 from report.results.sheets import text_workbook
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
@@ -55,8 +56,14 @@ def length_unit(results: StudyResults) -> Unit:
     return UnitFormat(results.plan.input.study.units_first.is_us).units()[0]
 
 
-def study_xlsx(results: StudyResults) -> bytes:
-    """Return the summaries as a workbook: never a row for each run."""
+def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Row]]] = ()) -> bytes:
+    """Return the summaries as a workbook: never a row for each run.
+
+    Parameters
+    ----------
+    more : iterable of tuple
+        Title, heading and rows of further sheets.
+    """
     buffer = io.BytesIO()
     unit, given = length_unit(results), results.plan.input
     book = text_workbook(buffer, given.study.date, given.study.title)
@@ -78,13 +85,17 @@ def study_xlsx(results: StudyResults) -> bytes:
         ("Fragility", _FRAGILITY, _fragilities(results, unit)),
         ("Probabilities", _EXCEEDANCES, _exceedances(results, unit)),
         ("Formula", ("Building", "What", "Value"), _formula(results)),
+        *more,
     ):
         sheet = book.add_worksheet(title)
+        sheet.set_header(f"&R{SUPPORTING}" if results.years else "")
         sheet.write_row(0, 0, head, head_format)
         for number, row in enumerate(rows, start=1):
             for column, value in enumerate(row):
                 is_none = isinstance(value, float) and not math.isfinite(value)
                 sheet.write(number, column, "none" if is_none else value)
+        if results.years:
+            sheet.write(sheet.dim_rowmax + 2, 0, SUPPORTING)
         sheet.set_column(0, len(head) - 1, 16)
         sheet.freeze_panes(1, 0)
     book.close()

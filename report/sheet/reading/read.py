@@ -258,7 +258,12 @@ def _where(place: Place, addresses: Mapping[Place, str]) -> str:
     return addresses.get(place, whole)
 
 
-_SOURCES = {"clearances": {"arrays", "objects"}, "links": {"arrays"}, "study_arrays": {"mats"}}
+_SOURCES = {
+    "clearances": {"arrays", "objects"},
+    "links": {"arrays"},
+    "study_arrays": {"mats"},
+    "friction_runs": {"mats"},
+}
 
 
 def _located(

@@ -295,11 +295,13 @@ def entries(model: type[Frozen]) -> tuple[Entry, ...]:
 
 @cache
 def docstrings(model: type[BaseModel]) -> Mapping[str, str]:
-    """Return the docstrings of the fields that a model itself has."""
+    """Return the docstrings of the fields that a model and those it extends have."""
     # As `use_attribute_docstrings` of pydantic, which takes its time whenever a model is imported.
     (definition,) = ast.parse(inspect.getsource(model)).body
     assert isinstance(definition, ast.ClassDef)
-    found = {}
+    found: dict[str, str] = {}
+    for base in model.__bases__:
+        found |= docstrings(base) if getattr(base, "model_fields", None) else {}
     for field, text in pairwise(definition.body):
         match field, text:
             case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=said)):

@@ -1,0 +1,119 @@
+"""The hazard curve of a study: typed, or from a file of two columns or of the USGS hazard tool.
+
+Computes no rates (`solver.studies.rates` does). Read `hazard_curves`.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from report.sheet.reading.beside import path_beside
+from report.sheet.schema.fields import Finding, Place
+from report.study.read import StudySheet
+from report.study.schema import Intensity
+from solver.model import Floats, InputError
+from solver.studies.rates import HazardCurve
+
+MAX_BYTES = 1_000_000
+
+_NAMES: Mapping[bool, str] = {
+    False: r"\bPGA\b|peak ground",
+    True: r"\bSA1P0\b|\b1(\.0+)?[ -]?s(ec|econd)?\b",
+}
+"""By which a file of several curves names PGA and Sa(1 s)."""
+
+_TWO = "give intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
+
+
+def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
+    """Return the curve for the intensity of the motions; empty if none is given.
+
+    Raises
+    ------
+    InputError
+        At the cell of the file, or at the row of the table.
+    """
+    given, hazard = sheet.project, sheet.project.hazard
+    if not (hazard.file or given.hazard_points):
+        return ()
+    place, points = (
+        Place("hazard_points"),
+        [(point.intensity, point.annual_rate) for point in given.hazard_points],
+    )
+    try:
+        if hazard.file:
+            place = Place("hazard", 0, "file")
+            path = path_beside(sheet.path.parent, hazard.file, MAX_BYTES, "hazard-pga.csv")
+            points = points_of(
+                path.read_text(encoding="utf-8-sig", errors="replace"),
+                is_spectral=given.study.intensity is Intensity.SA1,
+            )
+        x, rate = _checked(points)
+    except InputError as error:
+        sheet.refuse([Finding.error(place, p.found, p.remedy) for p in error.parts])
+        raise
+    return (
+        HazardCurve(intensity=hazard.factor * x, rate=rate, beta=given.study.record_beta or 0.0),
+    )
+
+
+def points_of(text: str, *, is_spectral: bool) -> list[tuple[float, float]]:
+    """Return the points of a file, intensity and annual rate.
+
+    The USGS hazard tool saves for each curve a line with its name, one that begins with a label and
+    has the intensities, and one with the rates (`D3SaveLineData` of nshmp-haz-ws).
+
+    Raises
+    ------
+    InputError
+        If it has neither, or no single curve of the measure.
+    """
+    rows = [row for row in csv.reader(text.splitlines()) if any(cell.strip() for cell in row)]
+    if curves := list(_saved_curves(rows)):
+        names = [name for name, _ in curves]
+        pattern = re.compile(_NAMES[is_spectral], re.IGNORECASE)
+        fits = [points for name, points in curves if pattern.search(name)]
+        if len(fits) != 1:
+            wanted = "Sa(1 s)" if is_spectral else "PGA"
+            raise InputError(f"has {len(fits)} curves of {wanted} ({'; '.join(names)}); keep one")
+        return fits[0]
+    columns = [_numbers(row) for row in rows]
+    first = next((k for k, values in enumerate(columns) if values), len(rows))
+    wrong = [k for k, values in enumerate(columns) if k >= first and len(values) != 2]
+    if wrong or first == len(rows):
+        shown = ",".join(rows[wrong[0]])[:60] if wrong else text[:60].strip()
+        raise InputError(f"has '{shown}'; {_TWO}")
+    return [(values[0], values[1]) for values in columns[first:]]
+
+
+def _saved_curves(rows: Sequence[Sequence[str]]) -> Iterator[tuple[str, list[tuple[float, float]]]]:
+    """Yield name and points of each curve of the USGS hazard tool."""
+    for k in range(1, len(rows) - 1):
+        x, y = _numbers(rows[k][1:]), _numbers(rows[k + 1][1:])
+        if len(x) > 1 and len(x) == len(y) and not (_numbers(rows[k][:1]) or _numbers(rows[k - 1])):
+            yield ", ".join(cell.strip() for cell in rows[k - 1]), list(zip(x, y, strict=True))
+
+
+def _numbers(cells: Sequence[str]) -> list[float]:
+    """Return the numbers of cells; empty unless all are."""
+    try:
+        return [float(cell) for cell in cells]
+    except ValueError:
+        return []
+
+
+def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
+    """Return intensities and rates, without the points of rate 0 at the end."""
+    x, rate = np.array(points, dtype=float).reshape(-1, 2).T
+    known = int(np.count_nonzero(rate))
+    wrong = not np.isfinite(points).all() or (x <= 0.0).any() or (np.diff(x) <= 0.0).any()
+    if wrong or (np.diff(rate[:known]) >= 0.0).any() or (rate[:known] <= 0.0).any() or known < 2:
+        raise InputError(
+            f"the curve has {len(points)} points; give two or more, with intensities that increase"
+            " and rates that decrease, above 0 but for the last ones"
+        )
+    return x[:known], rate[:known]

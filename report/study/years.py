@@ -1,0 +1,208 @@
+"""What an array sees in its life: rates in years, and the displacement of 25 years.
+
+Supporting analysis, from which no value of a code follows. Read `years_of`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from report.study.array_capacities import curves_of
+from report.study.plan import ArrayPlan, StudyPlan
+from solver.model import Floats
+from solver.studies.lives import (
+    Draws,
+    LifeStatistics,
+    Responses,
+    distances,
+    draw,
+    life_statistics,
+    run_levels,
+    settled_responses,
+    uplift_intensity,
+)
+from solver.studies.predictive import Predictive
+from solver.studies.rates import (
+    HazardCurve,
+    band,
+    deaggregated,
+    displacements_at,
+    exceedance_rates,
+    realizations,
+)
+from solver.studies.runs import Runner
+
+RECURRENCES = (72.0, 475.0, 700.0, 975.0, 2475.0)
+"""Mean recurrence intervals [years]."""
+
+VERDICT_YEARS = 700.0
+"""Recurrence of the PRD that is compared with the clearance: as permit packages promise it."""
+
+SPANS = (25.0, 50.0)
+LIFE_YEARS = 25.0
+LIVES = 100_000
+
+NEVER, ALWAYS, ABOVE = "never", "after every event", "above a distance"
+"""When an array is put back where it was installed."""
+
+_LIMITS, _LEAST_LIMIT_M = 300, 1e-4
+_BINS = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrayYears:
+    """The rates and the lives of an array on a building.
+
+    Attributes
+    ----------
+    predicted : tuple of Predictive
+        Distribution of the friction coefficient; empty without tests.
+    mus : tuple of float
+        Coefficients, equally likely.
+    slip : float
+        Intensity at which the first motion slips with the least of them.
+    responses : Responses
+    change : float
+        Of the results, by halving the steps of intensity.
+    limits_m, rates : array, shape (m,)
+        Displacements [m] and the annual rates at which a PRD exceeds them.
+    rates_band : array, shape (2, m)
+        Quantiles of `rates.BAND`.
+    prd_m, prd_band_m : array, shape (5,), (2, 5)
+        PRD of `RECURRENCES`, and its quantiles [m]; inf for none.
+    prd_by_mu_m : array, shape (frictions, 5)
+        The same for each coefficient alone.
+    edges, shares : array, shape (n + 1,), (n,)
+        Intensities, and shares of the rate at which the clearance is exceeded.
+    lives : mapping of str to array, shape (2, `LIVES`)
+        The largest and the last distance [m], by when the array is put back.
+    required_mu, more_runs : float
+        Friction coefficient with which the PRD of `VERDICT_YEARS` is the clearance, and how many
+        more runs make it the lowest of the predictive distribution; NaN without tests.
+    """
+
+    plan: ArrayPlan
+    predicted: tuple[Predictive, ...]
+    mus: tuple[float, ...]
+    slip: float
+    responses: Responses
+    change: float
+    limits_m: Floats
+    rates: Floats
+    rates_band: Floats
+    prd_m: Floats
+    prd_band_m: Floats
+    prd_by_mu_m: Floats
+    edges: Floats
+    shares: Floats
+    lives: Mapping[str, Floats]
+    required_mu: float
+    more_runs: float
+
+    @property
+    def runs(self) -> int:
+        """Runs of its own."""
+        return math.prod(self.responses.values.shape[:3])
+
+    @property
+    def clearance_rates(self) -> Floats:
+        """Annual rate at which the clearance is exceeded, and its quantiles, shape (3,)."""
+        at = int(np.searchsorted(self.limits_m, self.plan.array.clearance_m))
+        return np.array([self.rates[at], *self.rates_band[:, at]])
+
+    @property
+    def statistics(self) -> Mapping[str, tuple[LifeStatistics, LifeStatistics]]:
+        """Of the largest and the last distance, by when the array is put back."""
+        of = partial(life_statistics, clearance_m=self.plan.array.clearance_m)
+        return {name: (of(found[0]), of(found[1])) for name, found in self.lives.items()}
+
+
+def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runner) -> ArrayYears:
+    """Return the rates and the lives of an array."""
+    predicted = tuple(plan.predicted[key] for key in [array.array.mat.casefold()]
+                      if key in plan.predicted)  # fmt: skip
+    mus = predicted[0].quantiles if predicted else (array.mu,)
+    slope_deg, motions = array.array.slope_deg, len(runner.campaign.motions[0])
+    curves = [one for mu in mus for one in curves_of(runner, array, mu, slope_deg)]
+    slip = min(one.first_slip() for one in curves)
+    tracks = runner.tracks[array.building]
+    lifted = max(uplift_intensity(track, math.radians(slope_deg)) for track in tracks)
+    top = min(curve.top, lifted)
+    low = min(max(slip, float(curve.intensity[0])), 0.5 * top)
+    draws = draw(
+        np.random.default_rng(array.seed), curve, low=low, top=top, runs=len(tracks),
+        frictions=len(mus), years=LIFE_YEARS, lives=LIVES,
+    )  # fmt: skip
+    responses, change = settled_responses(
+        partial(run_levels, tracks, math.radians(slope_deg), mus),
+        low,
+        top,
+        partial(_measured, curve, array, draws),
+    )
+    limits_m, by_run = _by_run(curve, array, responses)
+    rates, years = by_run.mean(axis=(1, 2)), np.array(RECURRENCES)
+    drawn = realizations(by_run.reshape(*by_run.shape[:2], motions, -1).mean(axis=-1),
+                         seed=array.seed)  # fmt: skip
+    by_mu = displacements_at(limits_m, by_run.mean(axis=-1), years).T
+    clearance_m = array.array.clearance_m
+    edges = np.geomspace(low, top, _BINS + 1)
+    required = _required_mu(mus, by_mu[:, RECURRENCES.index(VERDICT_YEARS)], clearance_m)
+    recenter = {NEVER: math.inf, ABOVE: plan.input.hazard.recenter_m, ALWAYS: 0.0}
+    return ArrayYears(
+        plan=array,
+        predicted=predicted,
+        mus=mus,
+        slip=slip,
+        responses=responses,
+        change=change,
+        limits_m=limits_m,
+        rates=rates,
+        rates_band=band(drawn),
+        prd_m=displacements_at(limits_m, rates, years),
+        prd_band_m=band(displacements_at(limits_m, drawn, years)),
+        prd_by_mu_m=by_mu,
+        edges=edges,
+        shares=deaggregated(curve, responses.levels, responses.prd_m, clearance_m, edges),
+        lives={
+            name: distances(draws, responses, above)
+            for name, above in recenter.items()
+            if above is not None
+        },
+        required_mu=required,
+        more_runs=predicted[0].more_runs(required) if predicted else math.nan,
+    )
+
+
+def _by_run(curve: HazardCurve, array: ArrayPlan, responses: Responses) -> tuple[Floats, Floats]:
+    """Return limits, and the rates at which each run exceeds them, shape (limits, mus, runs)."""
+    clearance_m = array.array.clearance_m
+    top = max(float(np.nanmax(responses.prd_m, initial=0.0)), 2.0 * clearance_m)
+    limits_m = np.concatenate([[0.0], np.geomspace(_LEAST_LIMIT_M, top, _LIMITS)])
+    limits_m = np.union1d(limits_m, clearance_m)
+    return limits_m, exceedance_rates(curve, responses.levels, responses.prd_m, limits_m)
+
+
+def _measured(curve: HazardCurve, array: ArrayPlan, draws: Draws, responses: Responses) -> Floats:
+    """Return what must settle: the PRDs of the recurrences, and the 95 % values of the lives."""
+    limits_m, by_run = _by_run(curve, array, responses)
+    prd_m = displacements_at(limits_m, by_run.mean(axis=(1, 2)), np.array(RECURRENCES))
+    found = distances(draws, responses, math.inf)
+    return np.append(prd_m, [life_statistics(one, 0.0).p95_m for one in found])
+
+
+def _required_mu(mus: tuple[float, ...], prd_m: Floats, clearance_m: float) -> float:
+    """Return the coefficient at which the PRD is the clearance; inf or 0 beyond those run."""
+    if prd_m[0] <= clearance_m:
+        return 0.0
+    if not prd_m[-1] <= clearance_m:
+        return math.inf
+    last = int(np.flatnonzero(~(prd_m <= clearance_m))[-1])
+    share = 1.0
+    if math.isfinite(prd_m[last]):
+        share = float((prd_m[last] - clearance_m) / (prd_m[last] - prd_m[last + 1]))
+    return mus[last] + share * (mus[last + 1] - mus[last])

@@ -1,0 +1,214 @@
+"""Rates in years and the displacement of 25 years: pages, sheets of study.xlsx, and years.json.
+
+Computes nothing but units and probabilities. Read `years`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from report.document.sections import Section, section
+from report.entities.years import (
+    SUPPORTING,
+    LifeYears,
+    RecurrenceYears,
+    StudyYears,
+    YearsOfArray,
+)
+from report.study import figures
+from report.study import years as rates
+from report.study.page_parts import axis, design_length
+from report.study.results import StudyResults
+from report.study.tables import length_unit
+from report.study.words import on_building
+from report.study.years import ArrayYears
+from report.words.formats import slug
+from solver.studies import lives, predictive
+from solver.studies.rates import LEAST_RATE, probability
+
+Row = Sequence[Any]
+
+
+def years(results: StudyResults, one: ArrayYears) -> Section:
+    """Return the section on the rates and the lives of an array."""
+    name = f"{one.plan.array.id}{on_building(results, one.plan.building, ', building ')}"
+    (curve,), unit = results.plan.hazard, length_unit(results)
+    prd_m = [finite(value) for value in one.prd_m]
+    return section(
+        "study/years",
+        f"Rates and {rates.LIFE_YEARS:g} years of {name}",
+        id=f"years-{slug(name)}",
+        one=one,
+        array=one.plan.array,
+        hazard=results.plan.input.hazard,
+        curve=curve,
+        first=float(curve.intensity[0]),
+        end=float(curve.intensity[-1]),
+        end_years=1.0 / float(curve.rate[-1]),
+        top=float(one.responses.levels[-1]),
+        recurrences=[*zip(rates.RECURRENCES, prd_m, *map(finites, one.prd_band_m), strict=True)],
+        of_friction=[
+            (mu, [design_length(results, finite(value)) for value in row])
+            for mu, row in zip(one.mus, one.prd_by_mu_m, strict=True)
+        ],
+        recurrence_heads=[
+            (f"{span:g} years", 1, "right", unit.symbol) for span in rates.RECURRENCES
+        ],
+        first_motion=results.plan.motions.motions[0][0],
+        SUPPORTING=SUPPORTING,
+        chances=[[probability(rate, span) for rate in one.clearance_rates] for span in rates.SPANS],
+        bins=[*zip(one.edges[:-1], one.edges[1:], one.shares, strict=True)],
+        statistics=one.statistics,
+        surfaces=results.plan.input.surfaces(one.plan.array.mat),
+        verdict_m=prd_m[rates.RECURRENCES.index(rates.VERDICT_YEARS)],
+        finite=finite,
+        LEAST_RATE=LEAST_RATE,
+        lives=lives,
+        predictive=predictive,
+        rates=rates,
+        charts={
+            "rates": figures.rates(one, curve, unit, axis(results)),
+            "lives": figures.lives(one, unit),
+        },
+    )
+
+
+def finite(value: float) -> float:
+    """Return a value, NaN for inf, which no table shows as a number."""
+    return float(value) if math.isfinite(value) else math.nan
+
+
+def finites(values: Iterable[float]) -> list[float]:
+    """Return `finite` of values."""
+    return [finite(value) for value in values]
+
+
+def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:
+    """Yield the sheets of study.xlsx: title, heading and rows."""
+    unit, many = length_unit(results), results.years
+    yield "Hazard", ("What", "Value", "Unit"), list(_hazard(results))
+    quantiles = ("16 %", "84 %")
+    yield (
+        "Displacement hazard",
+        ("Building", "Array", f"PRD [{unit.symbol}]", "Annual rate", *quantiles),
+        [
+            (*_who(results, one), d / unit.si, rate, *band)
+            for one in many
+            for d, rate, band in zip(one.limits_m, one.rates, one.rates_band.T, strict=True)
+        ],
+    )
+    yield (
+        "25 years",
+        ("Building", "Array", "What", "Case", "Value", *quantiles, "Unit"),
+        [(*_who(results, one), *row) for one in many for row in _values(results, one)],
+    )
+
+
+def _who(results: StudyResults, one: ArrayYears) -> Row:
+    return results.plan.motions.buildings[one.plan.building], one.plan.array.id
+
+
+def _hazard(results: StudyResults) -> Iterator[Row]:
+    hazard, measure = results.plan.input.hazard, results.plan.input.study.intensity
+    yield "Site", hazard.site
+    yield "Source of the curve", hazard.source
+    yield "Hazard model", hazard.edition
+    yield "Vs30 of the curve", hazard.vs30_mps, "m/s, rock" if hazard.is_rock else "m/s"
+    yield "Vs30 of the site", hazard.site_vs30_mps, "m/s"
+    yield "Factor to the site", hazard.site_factor or 1.0, hazard.site_basis
+    yield "Factor to the roof", hazard.roof_factor or 1.0, hazard.roof_basis
+    for curve in results.plan.hazard:
+        for x, rate in zip(curve.intensity, curve.rate, strict=True):
+            yield f"Annual rate above {x / hazard.factor:g} {measure.unit}", float(rate), "1/year"
+
+
+def _values(results: StudyResults, one: ArrayYears) -> Iterator[Row]:
+    """Yield what, case, value, its quantiles and its unit."""
+    unit, none = length_unit(results), ("", "")
+    for span, prd_m, band_m in zip(rates.RECURRENCES, one.prd_m, one.prd_band_m.T, strict=True):
+        yield "PRD", f"{span:g} years", prd_m / unit.si, *band_m / unit.si, unit.symbol
+    yield "Clearance exceeded", "annual rate", *one.clearance_rates, "1/year"
+    for span in rates.SPANS:
+        chances = [probability(rate, span) for rate in one.clearance_rates]
+        yield "Clearance exceeded", f"in {span:g} years", *chances, "probability"
+    for low, high, share in zip(one.edges[:-1], one.edges[1:], one.shares, strict=True):
+        yield "Clearance exceeded", f"{low:.3g} to {high:.3g}", share, *none, "share of the rate"
+    for name, distances in one.statistics.items():
+        for which, found in zip(("Largest", "Last"), distances, strict=True):
+            case = f"put back {name}"
+            yield f"{which} distance, mean", case, found.mean_m / unit.si, *none, unit.symbol
+            yield f"{which} distance, 95 %", case, found.p95_m / unit.si, *none, unit.symbol
+            yield f"{which} distance beyond clearance", case, found.beyond, *none, "share of lives"
+    for mu, of_mu in zip(one.mus, one.prd_by_mu_m, strict=True):
+        for span, prd_m in zip(rates.RECURRENCES, of_mu, strict=True):
+            yield f"PRD with μ = {mu:.4g}", f"{span:g} years", prd_m / unit.si, *none, unit.symbol
+    for of_mat in one.predicted:
+        yield "Friction, mean", f"{of_mat.runs} runs", of_mat.mean, *none, ""
+        yield "Friction, scatter within surfaces", "s", of_mat.within, *none, ""
+        yield "Friction, scatter between surfaces", "s", of_mat.between, *none, ""
+        yield "Friction, Student t scale", f"{of_mat.freedom} degrees", of_mat.scale, *none, ""
+        yield "Friction, more runs", f"{rates.VERDICT_YEARS:g} years", one.more_runs, *none, "runs"
+
+
+def years_json(results: StudyResults) -> bytes:
+    """Return years.json, which a package may show."""
+    given, manifest = results.plan.input, results.manifest
+    hazard = given.hazard
+    found = StudyYears(
+        note=SUPPORTING,
+        title=given.study.title,
+        date=given.study.date.isoformat(),
+        study=manifest["identity"],
+        program=manifest["program"]["roofslip"],
+        site=hazard.site,
+        source=hazard.source,
+        edition=hazard.edition,
+        vs30_mps=hazard.vs30_mps or 0.0,
+        site_vs30_mps=hazard.site_vs30_mps or 0.0,
+        site_factor=hazard.site_factor or 1.0,
+        roof_factor=hazard.roof_factor or 1.0,
+        life_years=rates.LIFE_YEARS,
+        arrays=tuple(_of_array(results, one) for one in results.years),
+    )
+    return found.model_dump_json(indent=1).encode() + b"\n"
+
+
+def _of_array(results: StudyResults, one: ArrayYears) -> YearsOfArray:
+    building, array = _who(results, one)
+    return YearsOfArray(
+        array=array,
+        building=building,
+        slope_deg=one.plan.array.slope_deg,
+        mu=one.predicted[0].mean if one.predicted else one.plan.mu,
+        clearance_m=one.plan.array.clearance_m,
+        clearance_rate=float(one.clearance_rates[0]),
+        recurrences=tuple(
+            RecurrenceYears(
+                years=span, prd_m=_or_none(prd), prd_16_m=_or_none(low), prd_84_m=_or_none(high)
+            )
+            for span, prd, low, high in zip(
+                rates.RECURRENCES, one.prd_m, *one.prd_band_m, strict=True
+            )
+        ),
+        lives=tuple(
+            LifeYears(
+                put_back=name,
+                largest_mean_m=_or_none(largest.mean_m),
+                largest_p95_m=_or_none(largest.p95_m),
+                largest_beyond_clearance=largest.beyond,
+                last_mean_m=_or_none(last.mean_m),
+                last_p95_m=_or_none(last.p95_m),
+                last_beyond_clearance=last.beyond,
+                without_value=largest.without_value,
+            )
+            for name, (largest, last) in one.statistics.items()
+        ),
+    )
+
+
+def _or_none(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
