@@ -30,8 +30,9 @@ from report.figures.base import (
     svg_text,
 )
 from report.figures.scales import decades
+from report.sheet.schema.years import ALWAYS
 from report.study.results import LimitState
-from report.study.years import ALWAYS, LIVES, RECURRENCES, ArrayYears
+from report.study.years import LIVES, RECURRENCES, ArrayYears
 from report.words.units import Quantity, Unit, digits_down, measured
 from solver.model import Floats
 from solver.studies.rates import HazardCurve

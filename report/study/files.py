@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from report.document.sections import Section, filled, section
 from report.document.templates import rendered
-from report.entities.years import FILE as YEARS
+from report.sheet.schema.years import FILE as YEARS
 from report.study.allowed import allowed
 from report.study.array_page import fragility
 from report.study.basis import basis, limits

@@ -15,8 +15,8 @@ import numpy as np
 
 from report.entities.columns import UnitFormat
 from report.entities.marks import UNVERIFIED
-from report.entities.years import SUPPORTING
 from report.results.sheets import text_workbook
+from report.sheet.schema.years import SUPPORTING
 from report.study.dispersion import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.results import ArrayStudyResult, LimitState, StudyResults
 from report.study.words import analysis_words, design_words, taken_over

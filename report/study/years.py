@@ -12,6 +12,7 @@ from functools import partial
 
 import numpy as np
 
+from report.sheet.schema.years import ABOVE, ALWAYS, NEVER
 from report.study.array_capacities import curves_of
 from report.study.plan import ArrayPlan, StudyPlan
 from solver.model import Floats
@@ -47,9 +48,6 @@ SPANS = (25.0, 50.0)
 LIFE_YEARS = 25.0
 LIVES = 100_000
 
-NEVER, ALWAYS, ABOVE = "never", "after every event", "above a distance"
-"""When an array is put back where it was installed."""
-
 _LIMITS, _LEAST_LIMIT_M = 300, 1e-4
 _BINS = 8
 
@@ -80,7 +78,7 @@ class ArrayYears:
     edges, shares : array, shape (n + 1,), (n,)
         Intensities, and shares of the rate at which the clearance is exceeded.
     lives : mapping of str to array, shape (2, `LIVES`)
-        The largest and the last distance [m], by when the array is put back.
+        `distances`, by when the array is put back.
     required_mu, more_runs : float
         Friction coefficient with which the PRD of `VERDICT_YEARS` is the clearance, and how many
         more runs make it the lowest of the predictive distribution; NaN without tests.

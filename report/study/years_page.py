@@ -6,19 +6,12 @@ Computes nothing but units and probabilities. Read `years`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
-import numpy as np
-
 from report.document.sections import Section, section
-from report.entities.years import (
-    SUPPORTING,
-    LifeYears,
-    RecurrenceYears,
-    StudyYears,
-    YearsOfArray,
-)
+from report.sheet.schema.years import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import figures
 from report.study import years as rates
 from report.study.page_parts import axis, design_length
@@ -156,21 +149,14 @@ def _values(results: StudyResults, one: ArrayYears) -> Iterator[Row]:
 
 def years_json(results: StudyResults) -> bytes:
     """Return years.json, which a package may show."""
-    given, manifest = results.plan.input, results.manifest
-    hazard = given.hazard
+    study, manifest = results.plan.input.study, results.manifest
     found = StudyYears(
         note=SUPPORTING,
-        title=given.study.title,
-        date=given.study.date.isoformat(),
+        title=study.title,
+        date=study.date.isoformat(),
         study=manifest["identity"],
         program=manifest["program"]["roofslip"],
-        site=hazard.site,
-        source=hazard.source,
-        edition=hazard.edition,
-        vs30_mps=hazard.vs30_mps or 0.0,
-        site_vs30_mps=hazard.site_vs30_mps or 0.0,
-        site_factor=hazard.site_factor or 1.0,
-        roof_factor=hazard.roof_factor or 1.0,
+        hazard=results.plan.input.hazard.model_dump(),
         life_years=rates.LIFE_YEARS,
         arrays=tuple(_of_array(results, one) for one in results.years),
     )
@@ -178,6 +164,10 @@ def years_json(results: StudyResults) -> bytes:
 
 
 def _of_array(results: StudyResults, one: ArrayYears) -> YearsOfArray:
+    def distances(at: int) -> dict[str, Distance]:
+        found = {name: asdict(both[at]) for name, both in one.statistics.items()}
+        return {name: Distance(**_known(values)) for name, values in found.items()}
+
     building, array = _who(results, one)
     return YearsOfArray(
         array=array,
@@ -186,29 +176,13 @@ def _of_array(results: StudyResults, one: ArrayYears) -> YearsOfArray:
         mu=one.predicted[0].mean if one.predicted else one.plan.mu,
         clearance_m=one.plan.array.clearance_m,
         clearance_rate=float(one.clearance_rates[0]),
-        recurrences=tuple(
-            RecurrenceYears(
-                years=span, prd_m=_or_none(prd), prd_16_m=_or_none(low), prd_84_m=_or_none(high)
-            )
-            for span, prd, low, high in zip(
-                rates.RECURRENCES, one.prd_m, *one.prd_band_m, strict=True
-            )
+        prd_m=_known(
+            {f"{span:g}": d for span, d in zip(rates.RECURRENCES, one.prd_m, strict=True)}
         ),
-        lives=tuple(
-            LifeYears(
-                put_back=name,
-                largest_mean_m=_or_none(largest.mean_m),
-                largest_p95_m=_or_none(largest.p95_m),
-                largest_beyond_clearance=largest.beyond,
-                last_mean_m=_or_none(last.mean_m),
-                last_p95_m=_or_none(last.p95_m),
-                last_beyond_clearance=last.beyond,
-                without_value=largest.without_value,
-            )
-            for name, (largest, last) in one.statistics.items()
-        ),
+        largest=distances(0),
+        last=distances(1),
     )
 
 
-def _or_none(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
+def _known(values: Mapping[str, float]) -> dict[str, Any]:
+    return {name: float(v) if math.isfinite(v) else None for name, v in values.items()}

@@ -23,16 +23,12 @@ def live(first, friction, run, level, weight, side, responses, recenter, out):
 
     Parameters
     ----------
-    first : array of int, shape (lives + 1,)
-        Events of life i: from first[i] to first[i + 1].
-    friction : array of int, shape (lives,)
-        Index of the friction coefficient of a life.
-    run, level : array of int, shape (events,)
-        Index of the run, and of the level below the intensity; a level of -1 has no response.
+    first, friction, run, side : array
+        As `solver.studies.lives.Draws` has them.
+    level : array of int, shape (events,)
+        The level below the intensity; -1 has no response.
     weight : array, shape (events,)
         Place of the intensity between that level and the next, 0 to 1.
-    side : array, shape (events,)
-        Sign of the cross-slope component, +1 or -1.
     responses : array, shape (frictions, runs, levels, 6)
         PRD, excursions downslope, upslope and cross-slope, residuals downslope and cross-slope
         [m]; NaN for none.

@@ -25,8 +25,6 @@ from solver.studies.runs import Track, scene_of
 Indices = NDArray[np.int64]
 
 RESPONSES = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")
-"""What an event does, in the order of the kernel."""
-
 FIRST_STEPS, MOST_STEPS = 16, 512
 """Intervals of intensity to begin with, and at most."""
 
@@ -134,20 +132,16 @@ def settled_responses(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Draws:
-    """The events of lives.
+    """The events of lives: those of life i are from first[i] to first[i + 1].
 
     Attributes
     ----------
-    first : array of int, shape (lives + 1,)
-        Events of life i: from first[i] to first[i + 1].
-    friction : array of int, shape (lives,)
-        Index of its friction coefficient, the same in all of its events.
+    first, friction : array of int, shape (lives + 1,), (lives,)
+        Friction: index of the coefficient, the same in all events of a life.
     run : array of int, shape (events,)
         Index of the motion and its orientation.
-    side : array, shape (events,)
-        Sign of the cross-slope component.
-    intensity : array, shape (events,)
-        inf beyond the greatest that is run.
+    side, intensity : array, shape (events,)
+        Sign of the cross-slope component; intensity, inf beyond the greatest that is run.
     """
 
     first: Indices
@@ -216,17 +210,14 @@ def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LifeStatistics:
-    """Statistics of a distance over lives.
+    """Statistics of a distance over lives; one without a distance is beyond all others.
 
     Attributes
     ----------
-    mean_m : float
-        Of the lives that have one [m].
-    p95_m : float
-        95th percentile, where a life without a distance is beyond all others [m]; inf for none.
+    mean_m, p95_m : float
+        Mean of the lives that have a distance, and 95th percentile of all [m]; inf for none.
     beyond, without_value : float
-        Shares of the lives beyond a clearance, and of those without a distance, which count as
-        beyond.
+        Shares of the lives beyond a clearance, and of those without a distance.
     """
 
     mean_m: float

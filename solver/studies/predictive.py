@@ -33,10 +33,8 @@ class Predictive:
 
     Attributes
     ----------
-    mean : float
-        Of the runs on that surface.
-    runs, freedom : int
-        On that surface; degrees of freedom: of all runs, less one for each surface.
+    mean, runs, freedom : float, int, int
+        Of the runs on that surface; degrees of freedom: of all runs, less one for each surface.
     within, between : float
         Standard deviation of runs on one surface, and of the means of the surfaces without what
         the runs alone scatter (analysis of variance); 0 for one surface.

@@ -12,9 +12,12 @@ from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
+from pydantic import ValidationError
+
 from report.sheet.reading.archive import OpenBook
 from report.sheet.schema import SECTION
 from report.sheet.schema.fields import Draft, Entry, Finding, Place
+from report.sheet.schema.years import FILE, StudyYears
 from report.words.counts import grouped_by
 from solver.files import check_length
 from solver.meant import nearest
@@ -30,8 +33,9 @@ DOCUMENTS = (
     ("site", "hazard_printout"),
     ("friction_tests", "report_file"),
     ("options", "peer_letter"),
+    ("options", "study_years"),
 )
-"""Single cells that name a document to attach."""
+"""Single cells that name a document to attach: a PDF, but for the study."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,7 +117,9 @@ def read_documents(book: OpenBook, draft: Draft) -> tuple[tuple[Document, ...], 
 def _document(book: OpenBook, entry: Entry, name: str, left: int) -> Document:
     example = str(entry.cell.example)
     content = path_beside(book.path.parent, name, MAX_DOCUMENTS, example).read_bytes()
-    if not content.startswith(b"%PDF-"):
+    if entry.name == "study_years":
+        _check_years(name, content)
+    elif not content.startswith(b"%PDF-"):
         raise InputError(f"'{name}' is no PDF; attach it as a PDF")
     if len(content) > left:
         most = f"{MAX_DOCUMENTS / 1e6:.0f} MB"
@@ -122,3 +128,15 @@ def _document(book: OpenBook, entry: Entry, name: str, left: int) -> Document:
     sha256 = hashlib.sha256(content).hexdigest()
     book.files[sha256] = content
     return Document(label=entry.cell.label, path=path, size=len(content), sha256=sha256)
+
+
+def _check_years(name: str, content: bytes) -> None:
+    try:
+        StudyYears.model_validate_json(content)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(map(str, first["loc"])) or "its text"
+        raise InputError(
+            f"'{name}' is no {FILE} of a study ({where}: {first['msg']}); give the file that"
+            " roofslip study writes where its workbook has a hazard curve"
+        ) from error

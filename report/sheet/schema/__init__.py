@@ -111,6 +111,9 @@ class Options(Frozen):
     smaller_events: Annotated[Text, Cell("Smaller events", "0.50, 0.50")] = ""
     """Up to 20 factors on the motions, above 0.0 up to 1.0, with commas: events that are added, for
     information."""
+    study_years: Annotated[Text, Cell("Study of years", "years.json")] = ""
+    """years.json of a study, in the workbook's folder: its PRD of 700 years and its 25 years are
+    printed beside the design displacement, for information; the package attaches it."""
     package_edition: Annotated[PackageEdition, Cell("Edition", "plan check")] = (
         PackageEdition.PLAN_CHECK
     )

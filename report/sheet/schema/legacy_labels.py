@@ -56,6 +56,7 @@ ADDED: tuple[frozenset[tuple[str, str]], ...] = tuple(
         ("site", "building_code building_code_year jurisdiction"),
         ("friction_tests", "report_file"),
         ("options", "peer_letter"),
+        ("options", "study_years"),
         ("options", "plan_paper"),
         ("project", "drawing_confirmed_by drawing_confirmed_date"),
         ("site", "fire_code_section fire_lane_m"),

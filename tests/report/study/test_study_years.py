@@ -11,7 +11,7 @@ from openpyxl import load_workbook
 from test_study_read import given, plan, problems, write
 
 import printed
-from report.entities.years import SUPPORTING, StudyYears
+from report.sheet.schema.years import SUPPORTING, StudyYears
 from report.study.files import study_files
 from report.study.hazard import points_of
 from report.study.run import planned, run_study
@@ -201,5 +201,5 @@ def test_tables_have_the_numbers_of_the_page(results, made):
     assert rows["PRD", "475 years"][0] == pytest.approx(one.prd_m[1] / 0.0254)
     found = StudyYears.model_validate_json(made["years.json"])
     assert found.note == SUPPORTING
-    assert found.arrays[0].recurrences[2].prd_m == pytest.approx(one.prd_m[2])
-    assert json.loads(made["years.json"])["site_factor"] == 1.2
+    assert found.arrays[0].prd_m["700"] == pytest.approx(one.prd_m[2])
+    assert json.loads(made["years.json"])["hazard"]["site_factor"] == 1.2

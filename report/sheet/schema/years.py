@@ -1,0 +1,56 @@
+"""years.json of a study: what arrays see in their life, which a package may show.
+
+Lengths in meters; null for none. Read `StudyYears`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+SUPPORTING: Final = "Supporting analysis, not a code value"
+FILE = "years.json"
+NEVER, ABOVE, ALWAYS = "never", "above a distance", "after every event"
+"""When an array is put back where it was installed."""
+
+
+class _Written(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class Distance(_Written):
+    """A distance from the installed place over lives, as in `LifeStatistics`."""
+
+    mean_m: float | None
+    p95_m: float | None
+    beyond: float
+    without_value: float
+
+
+class YearsOfArray(_Written):
+    """One array on one building."""
+
+    array: str
+    building: str
+    slope_deg: float
+    mu: float
+    clearance_m: float
+    clearance_rate: float
+    prd_m: Mapping[str, float | None]  # by mean recurrence interval in years
+    largest: Mapping[str, Distance]  # by when the array is put back
+    last: Mapping[str, Distance]
+
+
+class StudyYears(_Written):
+    """The whole file."""
+
+    note: Literal["Supporting analysis, not a code value"]
+    title: str
+    date: str
+    study: str  # identity of its manifest
+    program: str
+    hazard: Mapping[str, str | float | None]  # the cells of the sheet Hazard
+    life_years: float
+    arrays: tuple[YearsOfArray, ...]
