@@ -145,7 +145,7 @@ def _rows(
     verdict: ShowVerdict,
     dim: Collection[str],
 ) -> list[list[Cell | None]]:
-    """Return the clearances and the pairs of the plan without one; what is NG first."""
+    """Return the clearances in the order of the workbook, then pairs of the plan without one."""
     rows = []
     for gap in gaps:
         others: dict[str, Cell | None] = {
@@ -155,8 +155,7 @@ def _rows(
         if not {gap.array, gap.object}.isdisjoint(dim):
             others["demand_capacity"] = {"text": fmt.none}
         rows.append(cells(gap, _CLEARANCE, fmt, **others))
-    rows += [_missing(near, fmt, verdict) for near in missing]
-    return sorted(rows, key=lambda row: not row[-1] or row[-1]["look"] in ("ok", "condition"))
+    return [*rows, *(_missing(near, fmt, verdict) for near in missing)]
 
 
 def _missing(near: PlanNeighbor, fmt: UnitFormat, verdict: ShowVerdict) -> list[Cell | None]:
