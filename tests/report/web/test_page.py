@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 import openpyxl
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from pypdf import PdfReader
 
 import cells
@@ -103,6 +104,36 @@ def test_a_screen_reader_gets_names_for_all_and_the_verdict_at_rest(untouched):
     assert page.locator("#slider-friction").get_attribute("aria-valuetext")
     assert "required" in page.locator("#plan-description").text_content()
     assert urlsplit(page.url).query == ""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.nightly
+def test_axe_finds_nothing_wrong_in_any_state_of_the_page(browser, address, scheme):
+    axe = Axe()
+
+    def findings():
+        return axe.run(page).generate_snapshot()
+
+    with quiet_page(browser, color_scheme=scheme) as page:
+        opened(page, address)
+        page.click("#causes")
+        assert findings() == ""
+        page.keyboard.press("Escape")
+        for tab in ("slide", "contour", "paths", "histories"):
+            page.click(f"#tab-{tab}")
+            page.wait_for_selector(f"#{tab} .view:not(.is-stale) svg")
+            assert findings() == "", tab
+        moved(page, "friction", 0.8)
+        assert page.locator("body").get_attribute("data-phase") != "rest"
+        page.click("#tab-plan")
+        assert findings() == ""
+        at_rest(page)
+        page.set_viewport_size(PHONE)
+        page.wait_for_timeout(300)  # a sheet for this width
+        assert findings() == ""
+        page.set_input_files("#files", EXAMPLE / "input.xlsx")
+        page.wait_for_selector("#problems tbody tr")
+        assert findings() == ""
 
 
 SHOWN = """() => {
