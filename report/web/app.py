@@ -103,7 +103,13 @@ def made(keys: Keys, folder: Path, hosts: Collection[str], strangers: Strangers)
     )
 
 
-_JOBS = {"assess": (), "slide": ("array", "motion"), "contour": ("array",), "paths": ("array",)}
+_JOBS = {
+    "assess": (),
+    "verdict": (),
+    "slide": ("array", "motion"),
+    "contour": ("array",),
+    "paths": ("array",),
+}
 """What the page has computed, each with what must be named; a run may be."""
 
 

@@ -28,6 +28,9 @@ EXAMPLE = shipped.EXAMPLE / "input.xlsx"
 LONGEST_S = 120.0
 """Longest time of an answer [s]; then its process is ended."""
 
+IN_BACKGROUND = "verdict"
+"""Asked while the page rests: the quick process does it, and a move then takes the other."""
+
 _TRIES = 2
 
 
@@ -196,10 +199,12 @@ class Desk:
         """Wait until a process is free, and return whether it is the quick one."""
         async with self._turns:
             self._turns.notify_all()  # what this one replaces ends at once: a browser waits for six
-            await self._turns.wait_for(lambda: self._is_stale(kind, asked) or self._free(asked))
+            await self._turns.wait_for(
+                lambda: self._is_stale(kind, asked) or self._free(kind, asked)
+            )
             if self._is_stale(kind, asked):
                 raise StaleError
-            is_quick = self._free(asked)[0]
+            is_quick = self._free(kind, asked)[0]
             self._busy.add(is_quick)
             return is_quick
 
@@ -208,9 +213,9 @@ class Desk:
         async with self._turns:
             self._turns.notify_all()
 
-    def _free(self, asked: Asked | None) -> Sequence[bool]:
+    def _free(self, kind: str, asked: Asked | None) -> Sequence[bool]:
         """Return which processes may do a job now: either of them, for a move."""
-        able = (True, False) if asked and asked.moving else (False,)
+        able = (True, False) if asked and asked.moving else (kind == IN_BACKGROUND,)
         return [each for each in able if each not in self._busy]
 
     def _note(self, kind: str, asked: Asked) -> None:

@@ -27,6 +27,7 @@ from report.web.controls import check, controls, shown
 from report.web.opened import Opened, opened, with_values
 from report.web.plan import USUAL_PX
 from report.web.problems import problems
+from report.web.tables import stamp
 from report.web.values import Values, typed
 from solver.model import InputError
 
@@ -144,6 +145,7 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "prepare": prepare,
     "write": write,
     "add_clearances": add_clearances,
+    "verdict": _view(lambda a, _: stamp(a.verdict, a.verdict.value)),
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),
     "contour": _view(lambda a, job: views.contour(a, job["array"])),
     "paths": _view(lambda a, job: views.paths(a, job["array"])),

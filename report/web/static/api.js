@@ -89,6 +89,8 @@ export function createApi(announce, room) {
     addClearances: () => open("/api/clearances", about({})),
     assess: (moving, values) => computed("assess", { moving, values, room: room() }, moving ? "moving" : "assess"),
     computed,
+    // Of no page: it makes nothing stale that the page shows.
+    verdict: (values) => asked("/api/verdict", about({ values })),
     startPackage: (values) => asked("/api/package", about({ values })),
     packageState: (id) => asked(`/api/package/${id}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),
     cancelPackage: (id) => asked(`/api/package/${id}`, { method: "DELETE" }),

@@ -14,6 +14,7 @@ import { createSession } from "./session.js";
 import { mountSliders } from "./sliders.js";
 import { mountTabs } from "./tabs.js";
 import { mountTakeaway } from "./takeaway.js";
+import { createTurns } from "./turns.js";
 import { mountUpload } from "./upload.js";
 import { createViews } from "./views.js";
 
@@ -41,6 +42,7 @@ const takeaway = mountTakeaway(
   {
     make: part("make-package"),
     workbook: part("save-workbook"),
+const turns = createTurns(api.verdict, (id, found) => controls.turn(id, found));
     copy: part("copy-link"),
     status: part("package-status"),
   },
@@ -249,6 +251,7 @@ function showRest() {
   part("reset-all").disabled = fragment === "";
   takeaway.compare();
   views.update(scene());
+  turns.stop();
 }
 
 function pickOnPlan(key) {
@@ -266,6 +269,7 @@ function choose(changed) {
   part("array").value = chosen.array;
   part("motion").value = chosen.motion;
   showPicked();
+  turns.start(state.sliders, session.values(), answer.verdict.look === "ng");
   if (document.body.dataset.phase === "rest") views.update(scene());
 }
 

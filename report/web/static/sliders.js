@@ -1,9 +1,9 @@
 // Sliders and choices: native controls, so that the keyboard and a screen reader know them.
 
-import { own } from "./changes.js";
+import { isSame, own } from "./changes.js";
 import { button, html, replace, words } from "./make.js";
 
-/** Show the controls of a project; returns how to follow its answers. */
+/** Show the controls of a project; returns how to follow its answers, and to mark where the verdict changes. */
 export function mountSliders(element, { sliders, choices }, values, session) {
   const parts = [...sliders.map((item) => slider(item, values, session)), ...choices.map((item) => choice(item, values, session))];
   replace(element, parts.map(({ field }) => field));
@@ -12,7 +12,7 @@ export function mountSliders(element, { sliders, choices }, values, session) {
     depend(sliders, parts, session.values());
   };
   depend(sliders, parts, values);
-  return { follow };
+  return { follow, turn: (id, found) => parts.find((part) => part.id === id).turn(found) };
 }
 
 function slider(item, values, session) {
@@ -34,17 +34,32 @@ function slider(item, values, session) {
       pointerup: session.release,
     },
   });
-  const reset = () => {
-    input.value = item.typed;
-    session.set({ [item.id]: item.typed });
+  const set = (value) => {
+    input.value = value;
+    session.set({ [item.id]: value });
     mark();
     input.focus();
   };
-  const back = button("Reset", reset, {
+  const back = button("Reset", () => set(item.typed), {
     class: "back",
     title: "Back to the workbook's value",
     "aria-label": `${item.label}: back to the workbook's value`,
   });
+  const turning = markAt("turn-mark");
+  const tryIt = button("Try it", () => set(turned.value), { id: `turn-${item.id}`, class: "back turn" });
+  let turned = null; // where the verdict changes, at the values of the other sliders
+  const turn = (found) => {
+    turned = found && { ...found, others: session.values() };
+    markTurn();
+  };
+  const markTurn = () => {
+    const stays = turned && isSame({ ...session.values(), [item.id]: null }, { ...turned.others, [item.id]: null });
+    for (const one of [turning, tryIt]) one.classList.toggle("is-idle", !stays);
+    if (!stays) return;
+    place(turning, item, turned.value);
+    tryIt.textContent = `${turned.verdict.split(" ")[0]} at ${own(item, turned.value)}`;
+    tryIt.title = `Try it. At ${own(item, turned.value)} the verdict is ${turned.verdict}; at ${own(item, turned.before)} it is not. Values beyond are not tried.`;
+  };
   // `hidden` would move the focus; an untouched slider keeps the button's place.
   const mark = () => {
     const value = session.values()[item.id];
@@ -60,6 +75,7 @@ function slider(item, values, session) {
     output.textContent = stopOf(item, value) || (Number(text.replace("× ", "")) === value ? "" : text); // said once
     output.title = output.textContent;
     input.setAttribute("aria-valuetext", text);
+    markTurn();
   };
   input.value = values[item.id];
   mark();
@@ -67,18 +83,21 @@ function slider(item, values, session) {
     "div",
     { class: "slider" },
     html("div", { class: "slider-head" }, html("label", { for: id, title: item.help }, words(item.label)), amount, back),
-    output,
-    html("div", { class: "range" }, input, typedMark(item)),
+    html("div", { class: "slider-head" }, output, tryIt),
+    html("div", { class: "range" }, input, place(markAt("typed-mark"), item, item.typed), turning),
     item.help ? html("p", { class: "visually-hidden", id: `${id}-help` }, item.help) : null,
   );
-  return { id: item.id, field, say };
+  return { id: item.id, field, say, turn };
 }
 
-// Where the value of the workbook is. No datalist: its values pull the pointer, so that those beside it
-// cannot be chosen.
-function typedMark({ least, greatest, typed }) {
-  const mark = html("span", { class: "typed-mark" });
-  mark.style.setProperty("--share", (typed - least) / (greatest - least));
+// A mark below a slider. No datalist: its values pull the pointer, so that those beside it cannot be
+// chosen.
+function markAt(look) {
+  return html("span", { class: `mark ${look}` });
+}
+
+function place(mark, { least, greatest }, value) {
+  mark.style.setProperty("--share", (value - least) / (greatest - least));
   return mark;
 }
 

@@ -31,6 +31,11 @@ def asked(client, values, *, moving=False):
     return client.post("/api/assess", content=json.dumps(body), headers=JSON)
 
 
+def verdict_at(client, values):
+    """What the page asks about a slider while it rests."""
+    return client.post("/api/verdict", json={"page": "", "values": values}).json()
+
+
 def error_of(answer, status=422):
     """The sentence of an answer that is an error."""
     assert answer.status_code == status
@@ -388,3 +393,10 @@ def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(clie
     }  # fmt: skip
     stale = client.post("/api/clearances", json={"opened": before["opened"]})
     assert stale.status_code == 412
+
+
+def test_the_verdict_at_other_values_is_that_of_their_answer(client):
+    values = {"friction": 0.8}
+    assert verdict_at(client, values) == {"text": "NG", "look": "ng"}
+    assert asked(client, values).json()["verdict"] == verdict_at(client, values)
+    assert verdict_at(client, {"friction": 9.0})["problems"]

@@ -256,6 +256,23 @@ def test_undo_and_back_return_to_the_values_before_and_never_leave_the_project(p
 
 
 @pytest.mark.nightly
+def test_a_mark_on_a_slider_says_where_the_verdict_changes_and_enters_it(page):
+    moved(page, "friction", 0.8)
+    at_rest(page)
+    assert page.inner_text("#verdict .tag") == "NG"
+    page.locator("#turn-friction:not(.is-idle)").wait_for(timeout=60_000)
+    shown = page.inner_text("#turn-friction")
+    page.click("#turn-friction")
+    page.wait_for_url(f"**/#friction={shown.removeprefix('OK at × ').rstrip('0')}")
+    at_rest(page)
+    assert page.inner_text("#verdict .tag") == "OK with conditions"
+    at = float(page.locator("#slider-friction").input_value())
+    moved(page, "friction", round(at - 0.01, 2))
+    at_rest(page)
+    assert page.inner_text("#verdict .tag") == "NG"
+
+
+@pytest.mark.nightly
 def test_units_are_a_choice_of_the_page_and_of_what_is_saved(page):
     page.select_option("#choice-units", "SI")
     page.wait_for_url("**/#units=SI")

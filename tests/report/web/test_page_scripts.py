@@ -193,6 +193,42 @@ def test_what_is_changed_is_named_and_what_is_as_typed_is_not(page):
     assert found == ["Friction × 0.90, Rule set: ASCE B", *["the values of the workbook"] * 2]
 
 
+TURN = """
+    const asked = [];
+    const ask = async (values) => {
+      asked.push(values[g.id]);
+      const isNg = g.falls ? values[g.id] > 1.065 : values[g.id] < 1.065;
+      return isNg ? { look: "ng", text: "NG" } : { look: "conditions", text: "OK with conditions" };
+    };
+    const slider = { id: g.id, least: 0.5, greatest: g.greatest, step: 0.01 };
+    const values = { [g.id]: g.value, slope: 0 };
+    const found = await m.turnOf(slider, values, g.isNg, ask, () => asked.length < 20);
+    return [found, asked.length < 10, Math.max(...asked)];"""
+
+
+@pytest.mark.parametrize(
+    ("slider", "value", "is_ng", "falls", "expected"),
+    [
+        ("friction", 0.8, True, False, (1.07, "OK with conditions", 1.06)),
+        ("friction", 1.3, False, False, (1.06, "NG", 1.07)),
+        ("intensity", 1.4, True, True, (1.06, "OK with conditions", 1.07)),
+        ("intensity", 1.0, False, True, (1.07, "NG", 1.06)),
+    ],
+)
+def test_a_mark_is_where_the_verdict_changes_and_both_sides_were_asked(
+    page, slider, value, is_ng, falls, expected
+):
+    given = {"id": slider, "value": value, "isNg": is_ng, "falls": falls, "greatest": 2.0}
+    found, is_quick, _ = called(page, "turns", TURN, given)
+    assert tuple(found[name] for name in ("value", "verdict", "before")) == expected
+    assert is_quick
+
+
+def test_there_is_no_mark_where_the_end_of_the_slider_has_the_same_verdict(page):
+    given = {"id": "friction", "value": 0.8, "isNg": True, "falls": False, "greatest": 1.05}
+    assert called(page, "turns", TURN, given) == [None, True, 1.05]
+
+
 SLIDER = {
     "id": "friction", "label": "Friction", "unit": "×", "least": 0.5, "greatest": 1.01,
     "step": 0.01, "typed": 1, "help": "", "stops": {"greatest": "No value beyond the greatest."},
