@@ -12,7 +12,7 @@ import stat
 import unicodedata
 import zipfile
 import zlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
 from typing import IO
 
@@ -174,7 +174,7 @@ def _short(info: zipfile.ZipInfo) -> str:
     return _FORBIDDEN.sub("?", info.filename)[:60]
 
 
-def _workbook(paths: Iterable[Path]) -> Path:
+def _workbook(paths: Sequence[Path]) -> Path:
     """Return the workbook: input.xlsx, or the only one that is nearest to the top."""
     found = sorted((p for p in paths if p.suffix.lower() == ".xlsx"), key=lambda p: len(p.parts))
     named = [path for path in found if path.name.lower() == "input.xlsx"]
@@ -182,6 +182,11 @@ def _workbook(paths: Iterable[Path]) -> Path:
     if len(top) == 1:
         return top[0]
     if not top:
+        if drawings := [path.name for path in paths if path.suffix.lower() == ".dxf"]:
+            raise InputError(
+                f"{drawings[0]} came without a workbook; run roofslip plan read {drawings[0]} "
+                "FOLDER to fill in the plan of a workbook, then drop its folder"
+            )
         raise InputError("no workbook (.xlsx) was sent; drop it together with its records")
     names = ", ".join(sorted(path.name for path in top)[:5])
     raise InputError(f"{len(top)} workbooks were sent ({names}); name the one to use input.xlsx")

@@ -22,6 +22,10 @@ const ALONE =
   "The workbook came alone. Drop its folder on this page, or a zip of it, so that its records come with it. A cell below that names a record has no error of its own.";
 const CORRECT =
   "Correct these cells in the workbook and save it. Then open its folder, or a zip of it: records are found by their path from the workbook.";
+const NEXT = {
+  motions: "Next: motions. List your own on the sheet Motions, or let the page make them for this site.",
+  clearances: "Next: clearances. Pairs within reach have none; add them at their distances in plan, then confirm these.",
+};
 const FORMER = "The values below are those before the change.";
 
 const part = (id) => document.getElementById(id);
@@ -38,11 +42,11 @@ const plan = mountPlan(part("plan-drawing"), {
 const api = createApi(announce, plan.room);
 const session = createSession(api.assess, show, failAnswer);
 const views = createViews(api);
+const turns = createTurns(api.verdict, (id, found) => controls.turn(id, found));
 const takeaway = mountTakeaway(
   {
     make: part("make-package"),
     workbook: part("save-workbook"),
-const turns = createTurns(api.verdict, (id, found) => controls.turn(id, found));
     copy: part("copy-link"),
     status: part("package-status"),
   },
@@ -126,6 +130,7 @@ async function opening(fetched, isRestored = false) {
 
 function open(next, isRestored) {
   motions.offer(next.lacks_motions ? dropped : null);
+  showSteps(next);
   if (next.problems.length > 0) {
     showErrors(next);
     return;
@@ -138,6 +143,19 @@ function open(next, isRestored) {
   tabs.postMessage({ opened: state.opened, name: state.project.name });
   setAll(fromFragment(location.hash, state.sliders, state.choices));
   takeaway.open(state.package);
+}
+
+// What a workbook lacks before it has a verdict, in the order in which the page can give it.
+function showSteps({ lacks_motions: lacksMotions, project }) {
+  const clearances = project?.lacks_clearances ? "clearances" : null;
+  const step = lacksMotions ? "motions" : clearances;
+  part("steps").hidden = !step;
+  part("next-step").textContent = NEXT[step] ?? "";
+  part("add-clearances").hidden = step !== "clearances";
+  for (const name of Object.keys(NEXT)) part(`step-${name}`).ariaCurrent = name === step ? "step" : null;
+  const drawing = project?.is_example ? null : dropped?.find(({ path }) => /\.dxf$/i.test(path));
+  part("drawing").hidden = !drawing;
+  if (drawing) part("drawing").textContent = `This page does not read ${drawing.path}. If the plan in the workbook is not from it yet, run: roofslip plan read ${drawing.path} FOLDER. Then drop the folder again.`;
 }
 
 // A workbook with errors is not opened: what was open stays so.
@@ -153,11 +171,10 @@ function showErrors({ problems, is_alone: isAlone, lacks_motions: lacksMotions }
 
 function showDesk() {
   onPlan = null;
-  const { name, file, sha256, is_example: isExample, lacks_clearances: lacksClearances } = state.project;
+  const { name, file, sha256, is_example: isExample } = state.project;
   part("problems").hidden = true;
   part("desk").hidden = false;
   part("welcome").hidden = !isExample;
-  part("add-clearances").hidden = !lacksClearances;
   named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
 }
 
@@ -234,6 +251,7 @@ function showPicked() {
 }
 
 function showMoving(phase, next) {
+  turns.stop();
   const isFormer = document.body.dataset.values === "former";
   views.moving();
   takeaway.compare();
@@ -251,7 +269,7 @@ function showRest() {
   part("reset-all").disabled = fragment === "";
   takeaway.compare();
   views.update(scene());
-  turns.stop();
+  turns.start(state.sliders, session.values(), answer.verdict.look === "ng");
 }
 
 function pickOnPlan(key) {
@@ -269,7 +287,6 @@ function choose(changed) {
   part("array").value = chosen.array;
   part("motion").value = chosen.motion;
   showPicked();
-  turns.start(state.sliders, session.values(), answer.verdict.look === "ng");
   if (document.body.dataset.phase === "rest") views.update(scene());
 }
 
@@ -298,7 +315,7 @@ function fail(error, what = "Close", act = hideError) {
 
 // Nothing is answered without a key: all that the page can do is say how to get one.
 function askForAddress() {
-  for (const id of ["desk", "welcome", "problems", "no-motions"]) part(id).hidden = true;
+  for (const id of ["desk", "welcome", "problems", "no-motions", "steps", "drawing"]) part(id).hidden = true;
   part("no-key").hidden = false;
   named("This tab needs a new address");
 }

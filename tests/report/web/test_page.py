@@ -528,6 +528,26 @@ def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
     assert "RM1-x.csv does not exist" not in files
 
 
+@pytest.mark.nightly
+def test_real_files_that_are_dragged_onto_the_page_are_opened(page, tmp_path):
+    folder = tmp_path / "small"
+    shutil.copytree(CONDITIONS, folder, ignore=shutil.ignore_patterns("out"))
+    (folder / "roof.dxf").write_text("0\nEOF\n")
+    drag = page.context.new_cdp_session(page)
+    for kind in ("dragEnter", "dragOver", "drop"):
+        files = {"items": [], "files": [str(folder)], "dragOperationsMask": 1}
+        where = {"x": 500, "y": 400}
+        drag.send("Input.dispatchDragEvent", {"type": kind, **where, "data": files})
+        assert page.locator("#drop").is_visible() == (kind != "drop")
+    page.wait_for_selector("h1:has-text('Small Warehouse')")
+    at_rest(page)
+    said = page.inner_text("#drawing")
+    assert said.startswith("This page does not read small/roof.dxf.")
+    assert "roofslip plan read small/roof.dxf" in said
+    page.click("#example")
+    page.wait_for_selector("#drawing", state="hidden")
+
+
 def sent(page, project, folder):
     """Open a copy of a project in a page."""
     shutil.copytree(project, folder, ignore=shutil.ignore_patterns("out"))
@@ -682,8 +702,9 @@ def test_clearances_that_the_plan_lacks_are_added_by_a_button(page, tmp_path):
     make(tmp_path / "roof", clearances=[], objects=SECTIONS["objects"][:1])
     page.set_input_files("#folder", tmp_path / "roof")
     page.wait_for_selector("#add-clearances", timeout=60_000)
+    assert page.inner_text("#steps [aria-current]") == "Clearances"
     page.click("#add-clearances")
-    page.wait_for_selector("#add-clearances", state="hidden", timeout=60_000)
+    page.wait_for_selector("#steps", state="hidden", timeout=60_000)
     at_rest(page)
     assert page.locator("#clearances tbody tr").count() == 2
     name, bytes_ = saved(page, lambda: page.click("#save-workbook"))

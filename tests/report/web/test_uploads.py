@@ -143,3 +143,8 @@ def test_files_that_are_refused_are_refused_with_the_reason(files, problem, tmp_
 )
 def test_the_workbook_is_found_among_the_files(names, found, tmp_path):
     assert store(sent(*names), tmp_path) == tmp_path / found
+
+
+def test_a_drawing_without_a_workbook_is_told_what_reads_it(tmp_path):
+    with pytest.raises(InputError, match=r"run roofslip plan read roof\.dxf FOLDER"):
+        store(sent("roof.dxf"), tmp_path)

@@ -123,7 +123,9 @@ def test_the_page_makes_motions_and_goes_on_with_them(browser, tmp_path):
     with served() as (address, _), quiet_page(browser) as page:
         opened(page, address)
         assert page.locator("#no-motions").is_hidden()
+        assert page.locator("#steps").is_hidden()
         page.set_input_files("#files", [str(path)])
+        assert page.inner_text("#steps [aria-current]") == "Motions"
         page.click("#no-motions button")
         page.wait_for_selector("#no-motions progress")
         page.wait_for_selector("#no-motions button:has-text('Save')", timeout=600_000)
