@@ -140,6 +140,7 @@ function open(next, isRestored) {
   replace(part("warnings"), warnings(state.warnings));
   fillSelects();
   history.replaceState({ depth: 0, opened: state.opened }, "", isRestored ? location.href : location.pathname);
+  // oxlint-disable-next-line unicorn/require-post-message-target-origin -- a channel has none
   tabs.postMessage({ opened: state.opened, name: state.project.name });
   setAll(fromFragment(location.hash, state.sliders, state.choices));
   takeaway.open(state.package);

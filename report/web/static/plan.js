@@ -17,7 +17,6 @@ export function mountPlan(element, { ask, picked, said, zooms }) {
   let tips = {};
   let room = 0;
   let key = null; // of what is picked
-  const view = { scale: 1, x: 0, y: 0 }; // the part of the sheet that is shown: its corner and 1 / its size
   const look = () => latest && room && !isFor(latest, room) && ask();
   // Read where the browser has laid out the page: asked for beside a change, it would do so once more.
   new ResizeObserver(() => {
@@ -29,7 +28,8 @@ export function mountPlan(element, { ask, picked, said, zooms }) {
     said.textContent = tips[of] ?? "";
     said.title = said.textContent;
   };
-  const keyOf = ({ target }) => target.closest("[data-key]")?.dataset.key;
+
+  const { view, zoom, isMoved } = mountZoom(element, zooms, (shown) => boxOf(latest, shown));
 
   function pick(next) {
     key = next in tips ? next : null;
@@ -37,50 +37,9 @@ export function mountPlan(element, { ask, picked, said, zooms }) {
     tell(key);
   }
 
-  // Zoom about a place, in parts of what is shown, and keep the sheet in sight.
-  function zoom(factor, [fx, fy] = [0.5, 0.5]) {
-    const scale = within(view.scale * factor, 1, MOST);
-    const size = 1 / view.scale - 1 / scale;
-    Object.assign(view, { scale });
-    move(fx * size, fy * size);
-  }
-
-  function move(dx, dy) {
-    for (const [axis, by] of [["x", dx], ["y", dy]]) view[axis] = within(view[axis] + by, 0, 1 - 1 / view.scale);
-    const drawn = element.querySelector("svg");
-    if (!drawn) return;
-    drawn.setAttribute("viewBox", boxOf(latest, view));
-    element.classList.toggle("is-zoomed", view.scale > 1);
-    element.style.setProperty("--zoom", view.scale);
-  }
-
-  const place = ({ clientX, clientY }) => {
-    const box = element.getBoundingClientRect();
-    return [(clientX - box.x) / box.width, (clientY - box.y) / box.height];
-  };
   element.addEventListener("pointerover", (event) => tell(keyOf(event) ?? key));
   element.addEventListener("pointerleave", () => tell(key));
-  element.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    zoom(event.deltaY < 0 ? STEP : 1 / STEP, place(event));
-  }, { passive: false });
-  let held = null; // where the pointer holds the sheet
-  element.addEventListener("pointerdown", (event) => {
-    held = { at: place(event), isMoved: false };
-  });
-  element.addEventListener("pointermove", (event) => {
-    if (!held || event.buttons === 0 || view.scale === 1) return;
-    const [x, y] = place(event);
-    const [dx, dy] = [held.at[0] - x, held.at[1] - y];
-    if (!held.isMoved && Math.hypot(dx, dy) < 0.01) return;
-    move(dx / view.scale, dy / view.scale);
-    held = { at: [x, y], isMoved: true };
-  });
-  element.addEventListener("click", (event) => held?.isMoved || picked(keyOf(event) ?? null));
-  const [more, less, whole] = zooms;
-  more.addEventListener("click", () => zoom(STEP));
-  less.addEventListener("click", () => zoom(1 / STEP));
-  whole.addEventListener("click", () => zoom(1 / MOST));
+  element.addEventListener("click", (event) => isMoved() || picked(keyOf(event) ?? null));
   const step = (way) => {
     const all = Object.keys(tips);
     picked(all[(all.indexOf(key) + way + all.length) % all.length]);
@@ -107,6 +66,58 @@ export function mountPlan(element, { ask, picked, said, zooms }) {
       if (described) described.textContent = latest.described.map(({ text }) => `${text}.`).join(" ");
     },
   };
+}
+
+function keyOf({ target }) {
+  return target.closest("[data-key]")?.dataset.key;
+}
+
+// Have the wheel, buttons and dragging zoom a drawing, whose box `box` gives of a view: its corner and
+// 1 / its size, as parts of the sheet. Tells whether the pointer has moved the sheet.
+function mountZoom(element, zooms, box) {
+  const view = { scale: 1, x: 0, y: 0 };
+  // Zoom about a place, in parts of what is shown, and keep the sheet in sight.
+  function zoom(factor, [fx, fy] = [0.5, 0.5]) {
+    const scale = within(view.scale * factor, 1, MOST);
+    const size = 1 / view.scale - 1 / scale;
+    Object.assign(view, { scale });
+    move(fx * size, fy * size);
+  }
+
+  function move(dx, dy) {
+    for (const [axis, by] of [["x", dx], ["y", dy]]) view[axis] = within(view[axis] + by, 0, 1 - 1 / view.scale);
+    const drawn = element.querySelector("svg");
+    if (!drawn) return;
+    drawn.setAttribute("viewBox", box(view));
+    element.classList.toggle("is-zoomed", view.scale > 1);
+    element.style.setProperty("--zoom", view.scale);
+  }
+
+  const place = ({ clientX, clientY }) => {
+    const at = element.getBoundingClientRect();
+    return [(clientX - at.x) / at.width, (clientY - at.y) / at.height];
+  };
+  element.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoom(event.deltaY < 0 ? STEP : 1 / STEP, place(event));
+  }, { passive: false });
+  let held = null; // where the pointer holds the sheet
+  element.addEventListener("pointerdown", (event) => {
+    held = { at: place(event), isMoved: false };
+  });
+  element.addEventListener("pointermove", (event) => {
+    if (!held || event.buttons === 0 || view.scale === 1) return;
+    const [x, y] = place(event);
+    const [dx, dy] = [held.at[0] - x, held.at[1] - y];
+    if (!held.isMoved && Math.hypot(dx, dy) < 0.01) return;
+    move(dx / view.scale, dy / view.scale);
+    held = { at: [x, y], isMoved: true };
+  });
+  const [more, less, whole] = zooms;
+  more.addEventListener("click", () => zoom(STEP));
+  less.addEventListener("click", () => zoom(1 / STEP));
+  whole.addEventListener("click", () => zoom(1 / MOST));
+  return { view, zoom, isMoved: () => held?.isMoved ?? false };
 }
 
 function isFor({ rooms_px: [least, most] }, room) {

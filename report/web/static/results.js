@@ -31,9 +31,9 @@ export function mountCauses(element) {
   element.addEventListener("keydown", ({ key }) => key === "Escape" && open(false));
 }
 
-function showLine(element, words, label, folded) {
+function showLine(element, said, label, folded) {
   const [more, listed, line] = parts(element);
-  replace(line, words);
+  replace(line, said);
   line.title = line.textContent.trim();
   more.textContent = label;
   replace(listed, folded);

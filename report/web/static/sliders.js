@@ -45,21 +45,7 @@ function slider(item, values, session) {
     title: "Back to the workbook's value",
     "aria-label": `${item.label}: back to the workbook's value`,
   });
-  const turning = markAt("turn-mark");
-  const tryIt = button("Try it", () => set(turned.value), { id: `turn-${item.id}`, class: "back turn" });
-  let turned = null; // where the verdict changes, at the values of the other sliders
-  const turn = (found) => {
-    turned = found && { ...found, others: session.values() };
-    markTurn();
-  };
-  const markTurn = () => {
-    const stays = turned && isSame({ ...session.values(), [item.id]: null }, { ...turned.others, [item.id]: null });
-    for (const one of [turning, tryIt]) one.classList.toggle("is-idle", !stays);
-    if (!stays) return;
-    place(turning, item, turned.value);
-    tryIt.textContent = `${turned.verdict.split(" ")[0]} at ${own(item, turned.value)}`;
-    tryIt.title = `Try it. At ${own(item, turned.value)} the verdict is ${turned.verdict}; at ${own(item, turned.before)} it is not. Values beyond are not tried.`;
-  };
+  const { turning, tryIt, turn, markTurn } = turnOf(item, session, set);
   // `hidden` would move the focus; an untouched slider keeps the button's place.
   const mark = () => {
     const value = session.values()[item.id];
@@ -88,6 +74,26 @@ function slider(item, values, session) {
     item.help ? html("p", { class: "visually-hidden", id: `${id}-help` }, item.help) : null,
   );
   return { id: item.id, field, say, turn };
+}
+
+// Where the verdict changes, at the values of the other sliders: a mark, and a button that tries it.
+function turnOf(item, session, set) {
+  const turning = markAt("turn-mark");
+  const tryIt = button("Try it", () => set(turned.value), { id: `turn-${item.id}`, class: "back turn" });
+  let turned = null;
+  const turn = (found) => {
+    turned = found && { ...found, others: session.values() };
+    markTurn();
+  };
+  const markTurn = () => {
+    const stays = turned && isSame({ ...session.values(), [item.id]: null }, { ...turned.others, [item.id]: null });
+    for (const one of [turning, tryIt]) one.classList.toggle("is-idle", !stays);
+    if (!stays) return;
+    place(turning, item, turned.value);
+    tryIt.textContent = `${turned.verdict.split(" ")[0]} at ${own(item, turned.value)}`;
+    tryIt.title = `Try it. At ${own(item, turned.value)} the verdict is ${turned.verdict}; at ${own(item, turned.before)} it is not. Values beyond are not tried.`;
+  };
+  return { turning, tryIt, turn, markTurn };
 }
 
 // A mark below a slider. No datalist: its values pull the pointer, so that those beside it cannot be
