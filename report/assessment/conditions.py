@@ -38,7 +38,16 @@ from report.sheet.schema.choices import ClearanceSource, DistanceBasis
 from report.sheet.schema.fields import Place
 from report.sheet.schema.scene import SIDES, Array
 from report.words.counts import capitalized, lowered
-from report.words.units import G_MPS2, Quantity, compared_pairs, digits_up, no_less, number, pair
+from report.words.units import (
+    G_MPS2,
+    Quantity,
+    compared_pairs,
+    digits_up,
+    measured,
+    no_less,
+    number,
+    pair,
+)
 from solver.records.acceptance import Acceptance
 from solver.records.spectrum_acceptance import POINTS_HZ, spectrum_mps2
 from solver.rules.limit import Consequence, Limit
@@ -387,9 +396,13 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
     """Yield the weight per plan area beside what the engineers of roof and wind state."""
     here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
     units = Quantity.PRESSURE, data.us_first
+    unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
+    printed = measured(here_pa, unit)
     if capacity_pa is not None:
         is_over = here_pa > capacity_pa * (1.0 + _NOISE)
-        found, most = compared_pairs(here_pa, capacity_pa, *units, up=is_over)
+        # As elsewhere, and rounded up only where that would not show that it is too much.
+        is_hidden = is_over and printed == measured(capacity_pa, unit)
+        found, most = compared_pairs(here_pa, capacity_pa, *units, up=is_hidden)
         yield Requirement(
             id="roof_capacity",
             title="Weight per plan area",
@@ -405,8 +418,6 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
         )
     if wind_pa is not None:
         found, here = (pair(value, *units) for value in (wind_pa, here_pa))
-        unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
-        wind, weight = (round(value / unit.si, unit.decimals) for value in (wind_pa, here_pa))
         yield condition(
             id="wind_weight",
             title="Weight in wind design",
@@ -415,7 +426,7 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Requirement]:
             found=found,
             limit=f"= {here}",
             basis="wind, by others",
-            is_satisfied=wind == weight,  # to the digits that are printed
+            is_satisfied=printed == measured(wind_pa, unit),  # to the digits that are printed
             remedy="Use one weight with ballast in both: correct it, or the wind design.",
             places=_places(data, array, "weight_n", "wind_weight_pa"),
         )

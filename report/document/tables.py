@@ -230,7 +230,7 @@ def compared_with(table: Table, cells: Sequence[str]) -> Table:
     return replace(table, rows=(TableRow(cells=tuple(cells), kind="total"), *table.rows))
 
 
-def merged(table: Table, *fields: str) -> Table:
+def merged(table: Table, *fields: str, once: bool = False) -> Table:
     """Return a table with one row for those that differ in names alone, which it lists.
 
     Parameters
@@ -238,6 +238,8 @@ def merged(table: Table, *fields: str) -> Table:
     fields : str
         Whose columns have the names, or their headings in a table of no entity; the first column
         if none is given. Names of the others follow those of the first in their order.
+    once : bool, optional
+        Whether the others have each of their names once instead, those that count on as one.
     """
     names = [k for k, column in enumerate(table.columns) if (column.field or column.head) in fields]
     names = names if fields else [0]
@@ -255,7 +257,8 @@ def merged(table: Table, *fields: str) -> Table:
         for k in names if len(alike) > 1 else ():
             of_each = [joined([str(row.cells[k]) for row in one_by_one[name]]) for name in firsts]
             of_all = of_each if len(set(of_each)) > 1 else of_each[:1]
-            cells[k] = said = ranged(firsts) if k == names[0] else ", ".join(of_all)
+            own = firsts if k == names[0] else [str(row.cells[k]) for row in alike if once]
+            cells[k] = said = ranged(own) or ", ".join(of_all)
             room = min(0.1 * len(said), MOST_SHARE)
             columns[k] = replace(columns[k], share=max(columns[k].share, room))
         rows.append(replace(alike[0], cells=tuple(cells)))

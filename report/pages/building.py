@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from report.document.tables import Column, Table, listed
-from report.entities.shown import length, plain, text, words
+from report.entities.shown import length, plain, required, text, words
 from report.motions.history import first_period_s
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.sheet.schema.building import BuildingInput
@@ -122,6 +122,6 @@ def _variations(
         (length("Mean PRD"), lambda row: row[1].mean_m),
         (plain("Mean PRD", 2, "/ used"), lambda row: row[1].mean_m / (value.mean_m or math.nan)),
         (length("Largest PRD"), lambda row: row[1].largest_m),
-        (length("Value from analysis"), lambda row: row[1].value_m),
+        (required("Value from analysis"), lambda row: row[1].value_m),
     )
     return listed(variations, columns, package.fmt, kind="compact", whole_rows=len(variations))

@@ -13,7 +13,7 @@ from report.assessment.arrays import ArrayAssessment, by_id
 from report.assessment.friction import mu_words
 from report.assessment.friction_rows import tested
 from report.assessment.friction_velocity import velocity_check
-from report.assessment.verdict import NOT_GIVEN
+from report.assessment.verdict import NOT_GIVEN, VELOCITY_ROW, Verdict
 from report.document.tables import Table, Wide, by_place, listed, stamp
 from report.entities.shown import Shown, centered, text, words
 from report.pages.parts import PackageData
@@ -128,11 +128,15 @@ def _velocities(package: PackageData) -> Table:
         text("μ tested", "smallest", 0.9),
         centered("Verdict", 1.8),
     )
-    rows = [_velocity(package.data, item) for item in package.assessment.arrays]
+    given = package.assessment
+    verdicts = {row.subject: row.verdict for row in given.rows if row.id == VELOCITY_ROW}
+    rows = [_velocity(package.data, item, verdicts) for item in given.arrays]
     return listed(rows, columns, package.fmt, kind="compact")
 
 
-def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:
+def _velocity(
+    data: ProjectInput, item: ArrayAssessment, verdicts: Mapping[str, Verdict]
+) -> tuple[object, ...]:
     check = velocity_check(data, item)
     about = item.id, mu_words(item.array.friction), item.fastest_mps
     if check is None:
@@ -143,7 +147,7 @@ def _velocity(data: ProjectInput, item: ArrayAssessment) -> tuple[object, ...]:
         "not given" if math.isnan(tested_mps) else tested_mps,
         number(check.mu_beyond, 3),
         number(check.tests.minimum_mu, 3),
-        stamp(check.verdict),
+        stamp(verdicts.get(item.id, check.verdict)),
     )
 
 

@@ -99,10 +99,14 @@ class _Group:
 
     @property
     def reason(self) -> str:
-        """Why the run with the largest PRD has this model."""
+        """Why the run with the largest PRD, and of these with the largest demand, has it."""
         if self.array.is_model_requested:
             return "requested in the workbook"
-        return max(self.runs, key=lambda run: nan_is_worst(run.prd_m)).solution.reason
+
+        def worst(run: OrientedRun) -> tuple[float, float]:
+            return nan_is_worst(run.prd_m), run.solution.friction_demand
+
+        return max(self.runs, key=worst).solution.reason
 
     @property
     def error(self) -> str:

@@ -1,5 +1,6 @@
 """Other periods and other damping of the building, held against the public solver."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -83,6 +84,8 @@ def test_the_page_says_the_range_of_the_means(made):
     assert table.column("Damping [% of critical]") == ["3.0", "3.0", "3.0", "2.0", "5.0", "7.0"]
     shares = [value.mean_m / found[0][1].mean_m for _, value in found]
     assert table.column("Mean PRD [/ used]") == [f"{share:.2f}" for share in shares]
+    values_mm = [1e3 * value.value_m for _, value in found]  # as a design displacement: upward
+    assert table.column("Value from analysis [mm]") == [f"{math.ceil(v - 1e-6)}" for v in values_mm]
     assert f"is {min(shares):.2f} to {max(shares):.2f} times that used" in str(page)
 
 

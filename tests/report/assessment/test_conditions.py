@@ -113,6 +113,13 @@ def test_a_weight_prints_the_same_beside_the_roof_capacity_and_the_wind_design()
     assert found.found == before_runs("wind_weight", **given).found == "8.6 psf (0.41 kPa)"
 
 
+def test_a_weight_over_the_capacity_prints_as_beside_the_wind_design():
+    given = {"weight_n": 8.64 * 80 * 60 * WEIGHTS["lb"], "wind_weight_pa": 8.0 * PSF}
+    found = before_runs("roof_capacity", roof_capacity_pa=8.0 * PSF, **given)
+    assert found.verdict is Verdict.NG
+    assert f"= {found.found}" == before_runs("wind_weight", **given).limit == "= 8.6 psf (0.41 kPa)"
+
+
 def test_a_weight_that_exceeds_the_capacity_by_a_hair_prints_so():
     found = before_runs("roof_capacity", roof_capacity_pa=8.7499 * PSF)
     assert found.verdict is Verdict.NG

@@ -20,8 +20,8 @@ COLUMNS = (
 )
 
 
-def rows_of(rows, *fields, style=lambda _: ""):
-    table = merged(listed(rows, COLUMNS, style=style), *fields)
+def rows_of(rows, *fields, style=lambda _: "", once=False):
+    table = merged(listed(rows, COLUMNS, style=style), *fields, once=once)
     return [row.cells for row in table.rows], [column.share for column in table.columns]
 
 
@@ -47,6 +47,14 @@ def test_names_that_are_all_the_same_are_said_once_and_two_of_one_name_together(
     rows = [("1", "3", "A"), ("2", "3", "A"), ("1", "4", "B"), ("1", "4", "A"), ("2", "4", "C")]
     cells, _ = rows_of(rows, "Array", "Side")
     assert cells == [("1, 2", "3", "A"), ("1, 2", "4", "B and A, C")]
+
+
+def test_names_of_a_second_column_are_each_said_once_where_asked_for():
+    rows = [("1", "3", "A2"), ("1", "3", "A1"), ("2", "3", "A3"), ("3", "3", "A2"), ("9", "4", "B")]
+    assert rows_of(rows, "Array", "Side", once=True)[0] == [
+        ("1 to 3", "3", "A1 to A3"),
+        ("9", "4", "B"),
+    ]
 
 
 def test_a_row_of_another_style_remains_and_so_does_one_without_a_name():

@@ -120,6 +120,21 @@ def test_a_limit_that_is_a_note_is_one_in_each_table():
     assert [row["Verdict"] for row in shown if row["Limit"] == title] == ["note"]
 
 
+@pytest.mark.quick
+def test_friction_beyond_its_tests_has_one_verdict_in_each_table():
+    """Without an array that takes the value from analysis it is a note; with one, a condition."""
+    slow = [{"surface": "wet", "number": k, "mu": 0.2, "velocity_mps": 0.001} for k in range(1, 4)]
+    given = {"friction_runs": slow, "objects": [], "clearances": []}
+    for count, verdict in ((2, "note"), (3, "Condition")):
+        arrays = [stand_in.array("A1", 0.5 if count == 2 else 2.0)]
+        package = scenes.package(scenes.motions(count, 4.0), arrays=arrays, **given)
+        rows = printed(package, "limits").table("Other requirements").rows
+        title = "Friction beyond the velocities tested"
+        assert [row["Verdict"] for row in rows if row["Requirement"] == title] == [verdict]
+        table = printed(package, "inputs").table("Friction at the sliding velocities")
+        assert table.row("A1")["Verdict"] == verdict
+
+
 @pytest.mark.parametrize(
     ("sources", "notes"),
     [

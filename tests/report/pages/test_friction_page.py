@@ -1,7 +1,6 @@
 """Friction as tested, the rows on it, and the section through an array."""
 
 import re
-from dataclasses import replace
 
 import pytest
 
@@ -40,9 +39,7 @@ def runs(dry=(0.60, 0.61, 0.62), wet=(0.46, 0.45, 0.47)):
 
 
 def page(**changes):
-    """The page of a project with other inputs, beside the runs of the usual ones."""
-    done = scenes.package().assessment
-    return printed(replace(done, project=stand_in.project(**changes)), "inputs")
+    return printed(scenes.package(**changes), "inputs")
 
 
 def row(title, **changes):

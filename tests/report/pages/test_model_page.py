@@ -75,6 +75,13 @@ def test_where_nothing_slips_nothing_is_neglected():
     assert table(package, NEGLECTED).row("A1")["Neglected"] == "None: no slip"
 
 
+def test_where_nothing_slips_the_reason_has_the_largest_demand():
+    still = [replace(m, scale=0.02 * k) for k, m in enumerate(scenes.motions(3, 4.0), start=1)]
+    row = table(scene(tuple(still[::-1]), arrays=[stand_in.array("A1", 1.0)]), USED).row("A1")
+    assert row["Model"] == "0, no slip"
+    assert f"the required friction coefficient, {row['Demand']}," in row["Reason"]
+
+
 def test_fewer_runs_are_said_where_a_polarity_is_not_requested():
     one = tuple(replace(motion, signs=(1,)) for motion in scenes.motions())
     package = scene(one)
