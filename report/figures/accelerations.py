@@ -15,7 +15,7 @@ from report.figures.history import envelope
 from report.words.units import G_MPS2, round_below
 from solver.model import Floats, Motion
 
-_ROW_IN, _TOP_IN, _BOTTOM_IN = 0.27, 0.22, 0.3
+_ROW_IN, _TOP_IN, _BOTTOM_IN = 0.24, 0.22, 0.3
 _POINTS = 360  # in a history; with fewer the peaks stand apart as if the motion were slow
 _LABELS = 0.14  # width of the labels of the rows, in columns
 _BAR = 0.8  # a bar at most, of the largest peak and of the longest motion; at least 0.32 of them

@@ -63,7 +63,7 @@ def _by_array(accuracy: Accuracy) -> Iterator[_Varied]:
 def _friction_table(package: PackageData, arrays: Sequence[_Varied]) -> Table:
     columns = (
         (words("Array", 1.2), lambda row: ranged(row.ids)),
-        (text("μ", share=2.2), lambda row: mu_words(row.given.array.friction)),
+        (text("μ", share=package.mu_share), lambda row: mu_words(row.given.array.friction)),
         _design(package, f"{_PERCENT} less", lambda row: row.at_reduced_friction),
         _design(package, "As given", lambda row: row.given),
         _design(package, f"{_PERCENT} more", lambda row: row.at_increased_friction),

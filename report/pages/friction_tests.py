@@ -121,7 +121,7 @@ def _run_rows(data: ProjectInput, one: Series) -> Iterator[tuple[object, ...]]:
 def _velocities(package: PackageData) -> Table:
     columns = by_place(
         words("Array", 0.6),
-        text("μ", "as run", 2.0),
+        text("μ", "as run", package.mu_share),
         Shown(head="Largest velocity", quantity=Quantity.VELOCITY, share=0.8),
         Shown(head="Tested to", quantity=Quantity.VELOCITY, share=0.8),
         text("μ beyond", "largest", 0.9),

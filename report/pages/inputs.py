@@ -56,7 +56,7 @@ def _arrays(package: PackageData) -> Table:
         (plain("Slope", 2, "deg", 0.7), lambda array: math.degrees(array.slope_rad)),
         (plain("Slope", 1, "%", 0.7), lambda array: 100.0 * math.tan(array.slope_rad)),
         (plain("Downslope", 0, "deg in plan"), lambda array: array.downslope_deg),
-        (text("μ", share=2.1), lambda array: mu_words(array.friction)),
+        (text("μ", share=package.mu_share), lambda array: mu_words(array.friction)),
         (words("Friction test report", 2.3), lambda array: array.mu_report or NOT_GIVEN),
         (words("Construction", 2.5), lambda array: array.construction),
     )

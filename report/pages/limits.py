@@ -85,13 +85,13 @@ def check_table(
 
     columns = (
         (words("Item", 0.9), lambda row: row[0]),
-        (words("Quantity", 3.3), lambda row: row[1].title),
-        (text("Value", share=1.5), lambda row: package.of_check(row[1].found, row[1])),
+        (words("Quantity", 3.9), lambda row: row[1].title),
+        (text("Value", share=1.45), lambda row: package.of_check(row[1].found, row[1])),
         (centered("", 0.3), lambda row: ">" if row[1].passes_by_exception else row[1].sign),
         (text("Limit", share=1.6), lambda row: limit(row[1])),
-        (words("Clause", 1.6), lambda row: row[1].provision.clause + dagger(row[1].provision)),
+        (words("Clause", 2.1), lambda row: row[1].provision.clause + dagger(row[1].provision)),
         (
-            centered("Verdict", 1.35),
+            centered("Verdict", 1.3),
             lambda row: verdict(
                 row[1].ok, (EXCEPTED, NG) if row[1].passes_by_exception else outcomes
             ),

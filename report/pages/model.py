@@ -126,12 +126,12 @@ def _groups(array: ArrayAssessment) -> Iterator[_Group]:
 def _table(package: PackageData) -> Table:
     columns = (
         (words("Array", 0.8), lambda group: group.array.id),
-        (words("Model", 2.1), lambda group: group.model),
-        (text("Runs"), lambda group: f"{len(group.runs)} of {len(group.array.runs)}"),
+        (words("Model", 2.5), lambda group: group.model),
+        (text("Runs", share=1.1), lambda group: f"{len(group.runs)} of {len(group.array.runs)}"),
         (plain("μ", unit="at rest", share=0.9), lambda group: group.array.array.friction.mu_static),
-        (text("Demand", share=0.9), lambda group: _limited(group.demand)),
-        (words("Reason", 4.2), lambda group: group.reason),
-        (words("Error of PRD", 1.6), lambda group: group.error),
+        (text("Demand", share=1.1), lambda group: _limited(group.demand)),
+        (words("Reason", 4.7), lambda group: group.reason),
+        (words("Error of PRD", 1.9), lambda group: group.error),
     )
     groups = [group for array in package.assessment.arrays for group in _groups(array)]
     return listed(groups, columns, package.fmt, kind="compact")
@@ -144,9 +144,9 @@ _Neglected = tuple[str, str, float | Wide | str, float | str, str]
 def _neglected_table(package: PackageData) -> Table:
     columns = by_place(
         words("Array", 0.8),
-        words("Neglected", 3.1),
+        words("Neglected", 2.7),
         length("PRD, at most", 0.9),
-        length("Design displ., at most", 0.9),
+        length("Design displ., at most", 1.15),
         words("Basis", 3.6),
     )
     effects = [row for array in package.assessment.arrays for row in _neglected(array)]

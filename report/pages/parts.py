@@ -98,6 +98,11 @@ class PackageData(Marked):
         return any(row.recorded_at is RecordedAt.GROUND for row in self.data.motions)
 
     @property
+    def mu_share(self) -> float:
+        """Width of a column of friction coefficients: wide where one depends on velocity."""
+        return 2.4 if any(array.friction.is_by_velocity for array in self.data.arrays) else 0.9
+
+    @property
     def routes(self) -> Mapping[str, Sequence[str]]:
         """The arrays of each route that any takes."""
         return ids_by(self.assessment.arrays, lambda item: item.route.value)

@@ -67,8 +67,11 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
     columns = (
         (words("No.", 0.8), lambda margin: str(margin.number)),
         (words("Array", 0.8), lambda margin: margin.array.id),
-        (text("μ", "given", 2.2), lambda margin: mu_words(margin.array.array.friction)),
-        (text("μ", "least", 2.4), least),
+        (
+            text("μ", "given", package.mu_share),
+            lambda margin: mu_words(margin.array.array.friction),
+        ),
+        (text("μ", "least", package.mu_share), least),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (
             required("Required there", 0.9),

@@ -48,7 +48,7 @@ STATES = {
         of((*MOTIONS, LIFTING)),
         "governed by: none",
         "An array without a permitted design displacement is NG",
-        "Changes that would do, each by itself",
+        "Changes that are sufficient, each by itself",
         "no limit the normal force falls below zero, which no model covers none",
         "A1, A2 −0.40 0.996 no limit",  # minimum normal force, time of uplift, demand
     ),
