@@ -24,7 +24,7 @@ COUNT = 3
 COLUMNS, ROWS = range(5), range(3)  # of each slope, rows from the parapet to the ridge
 LONG_M, DEEP_M, LANE_M, SETBACK_M = 16.0, 7.2, 1.2, 2.4
 COVERED = (  # as `roofslip report` fills it in
-    "2026-11-16: Site c8e60b, Arrays e9936d, Friction tests 5c1207, Motions 7ea781, Building 065d3c"
+    "2026-11-16: Site c8e60b, Arrays e9936d, Friction tests 5c1207, Motions 813bc1, Building 065d3c"
 )
 ROOF_X, ROOF_Y = (0.0, 94.4), (0.0, 60.0)
 

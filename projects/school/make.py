@@ -158,7 +158,7 @@ def project() -> ProjectInput:
                 "peer_date": dt.date(2026, 11, 16),
                 # As `roofslip report` fills it in; so the other two.
                 "peer_covered": "2026-11-16: Site c8e60b, Arrays 01b03f, Friction tests 5c1207,"
-                " Motions ecd484, Building 065d3c",
+                " Motions ace4a8, Building 065d3c",
                 "peer_letter": "peer-review.pdf",
                 "smaller_events": "0.50, 0.50",
             },

@@ -25,23 +25,22 @@ from solver.synthesis.target import BAND_HZ, DAMPING, band, target_problems
 _LEAST, _AIM, _MOST = 1.0, 1.02, 1.05
 # Mean ratio / smallest ratio at which matching stops: the mean excess of the motion when scaled so
 # that no peak is below the target, wherever it is.
-_CLOSE = 1.049
+_CLOSE = 1.048
 _SHAPINGS = 6
 _PER_OCTAVE = 24
 # Spectra have sharp minima between the matched frequencies: from the fourth correction on they are
 # looked for after every second, at so many points of an octave, and matched as well.
-_LOOKED_AT, _FIRST, _EVERY, _CORRECTIONS = 96, 4, 2, 60
+_LOOKED_AT, _FIRST, _EVERY, _CORRECTIONS = 96, 4, 2, 48
 # Regularization of the equations: small for peaks outside the interval, larger for those inside,
-# which may move. With 0.001 outside at all frequencies, less is left of a record's phases (mean
-# cosine, 1 to 10 Hz, four records: 0.65 for 0.88); with 0.01 at all, slow peaks rise too slowly.
-_RIDGE_OUTSIDE, _RIDGE_INSIDE = 0.01, 0.1
-_RIDGE_SLOW, _SLOW_HZ = 0.002, 2.0
+# which may move. The smaller it is at low frequencies, the less is left of a record's phases (mean
+# cosine, 1 to 10 Hz, eight records: 0.82 with 0.004 below 0.3 Hz, 0.88 without).
+_RIDGE_OUTSIDE, _RIDGE_INSIDE = 0.015, 0.2
+# Above this frequency [Hz], of every third oscillator, so many more crests beyond the interval are
+# lowered at once: one at a time, the next would come up as the peak.
+_CRESTS_HZ, _CRESTS_OF_EVERY, _CRESTS = 2.0, 3, 60
 # A pulse response ends where it has decayed to this; the equations are summed over so many samples
 # at a time, of the responses that are not zero there.
 _DECAYED, _BLOCK = 1e-3, 500
-# Of every third oscillator, so many more crests beyond the interval are lowered at once: one at a
-# time, the next would come up as the peak.
-_CRESTS_OF_EVERY, _CRESTS = 3, 60
 
 _Samples = NDArray[np.int64]
 
@@ -242,26 +241,24 @@ def _asked(frame: MatchingFrame, a: Floats) -> _Rows:
     peak, at = _peaks(frame, a)
     ratio = np.abs(peak) / goal
     moves = np.where(ratio < _LEAST, _AIM - ratio, np.minimum(_MOST - ratio, 0.0))
-    ridge = np.where(frame.freq_hz < _SLOW_HZ, _RIDGE_SLOW, _RIDGE_OUTSIDE)
-    ridge[(ratio >= _LEAST) & (ratio <= _MOST)] = _RIDGE_INSIDE
-    some = slice(None, None, -_CRESTS_OF_EVERY)
+    some = np.flatnonzero(frame.freq_hz > _CRESTS_HZ)[::-_CRESTS_OF_EVERY]
     which, where, values = oscillator.crests(
         read_only(a), frame.dt_s, omega[some], DAMPING, _MOST * goal[some]
     )
-    which = np.arange(len(goal))[some][which]
+    which = some[which]
     beyond = np.abs(values) / goal[which] - _MOST
     # A peak is at the end of its step.
     beyond[np.abs(where - at[which]) <= 1] = 0.0
     most = np.argsort(-beyond, kind="stable")[:_CRESTS]
     most = most[beyond[most] > 0.0]
-    which = which[most]
-    every = np.append(np.arange(len(goal)), which)
+    every = np.append(np.arange(len(goal)), which[most])
+    is_outside = np.append((ratio < _LEAST) | (ratio > _MOST), np.full(len(most), True))
     return _Rows(
         radians=omega[every] * frame.dt_s,
         goal=goal[every],
         at=np.append(at, where[most]),
         moves=np.append(np.sign(peak) * moves, -np.sign(values[most]) * beyond[most]),
-        ridge=np.append(ridge, np.full(len(most), _RIDGE_OUTSIDE)),
+        ridge=np.where(is_outside, _RIDGE_OUTSIDE, _RIDGE_INSIDE),
     )
 
 
