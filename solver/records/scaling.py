@@ -103,7 +103,7 @@ def factor_to_target(
     >>> records = [read_record(f"projects/example/records/RM1-{name}.csv") for name in "xy"]
     >>> target = design_spectrum(s_ds_g=1.2, s_d1_g=0.6, t_l_s=8.0)
     >>> round(factor_to_target(records, target, (0.2, 2.0)), 3)
-    0.357
+    0.359
     """
     _check_range(periods_s)
     shortest_s, longest_s = periods_s

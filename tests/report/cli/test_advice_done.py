@@ -37,7 +37,7 @@ PROJECTS = {
         {
             "Arrays/A1/Electrical slack": 10,
             "Arrays/A2/Electrical slack": None,
-            "Arrays/A3/Electrical slack": 50.5,
+            "Arrays/A3/Electrical slack": 47.3,
             "Arrays/A1/Interconnection strength": 100,
             "Arrays/A2/Interconnection strength": None,
             "Arrays/A1/Weight in wind design": 30000,

@@ -199,7 +199,7 @@ def test_the_plan_tells_what_is_under_the_pointer_and_selects_with_the_table(pag
     page.hover("#plan-drawing [data-key='#5']")
     assert said.inner_text().startswith("5, A3 to PV-OLD: 72.0 in")
     page.hover("#plan-drawing [data-key=A3]")
-    assert re.fullmatch(r"A3: Δ 51.9 in .*, D/C 0.87 to RTU-2", said.inner_text())
+    assert re.fullmatch(r"A3: Δ 47.4 in .*, D/C 0.79 to RTU-2", said.inner_text())
     page.click("#plan-drawing [data-key='#5']")
     assert page.locator("#clearances .is-picked").inner_text().startswith("5")
     page.locator("#clearances [data-name='#2']").press("Enter")
