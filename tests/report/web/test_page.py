@@ -277,7 +277,7 @@ def test_units_are_a_choice_of_the_page_and_of_what_is_saved(page):
     page.select_option("#choice-units", "SI")
     page.wait_for_url("**/#units=SI")
     at_rest(page)
-    assert numbers(page, "arrays", 2)[0] == "499 mm"
+    assert numbers(page, "arrays", 2)[0] == "429 mm"
     assert "mm" in page.inner_text("#verdict")
 
 
