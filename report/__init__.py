@@ -39,9 +39,9 @@ def read_project(source: str | Path) -> Sheet:
     Examples
     --------
     >>> from report import read_project
-    >>> workbook = read_project("projects/conditions")
+    >>> workbook = read_project("projects/example")
     >>> [array.mu for array in workbook.project.arrays]
-    [0.5, 0.5]
+    [0.5, 0.5, 0.4]
     """
     from report.sheet.reading.read import read
 

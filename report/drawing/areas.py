@@ -26,6 +26,10 @@ _EDGES = {
 }
 
 
+_LEAST_M2 = 1e-9
+"""Of an area: what is flatter is none, and overflows where it is made wider."""
+
+
 def is_mesh(entity: Any) -> bool:
     """Whether an entity consists of faces."""
     if entity.dxftype() == "POLYLINE":
@@ -106,7 +110,7 @@ def polygons(rings: Iterable[Sequence[Point]]) -> list[Any]:
     import shapely
 
     made = (shapely.make_valid(shapely.Polygon(ring)) for ring in rings if len(ring) > 2)
-    return [area for area in made if area.area > 0.0]
+    return [area for area in made if area.area > _LEAST_M2]
 
 
 def outlines(areas: Sequence[Any], tolerance: float) -> tuple[list[list[Point]], bool]:

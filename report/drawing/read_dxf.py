@@ -87,7 +87,7 @@ def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str])
     for name in document.layouts.names_in_taborder():
         before = len(drawing.lines)
         try:
-            if name != "Model":
+            if name != "Model" and name in document.layouts:  # damage may leave a name alone
                 reader.take_all(document.paperspace(name))
         except InputError:
             return

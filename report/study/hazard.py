@@ -20,9 +20,9 @@ from solver.studies.rates import HazardCurve
 
 MAX_BYTES = 1_000_000
 
-_NAMES: Mapping[bool, str] = {
-    False: r"\bPGA\b|peak ground",
-    True: r"\bSA1P0\b|\b1(\.0+)?[ -]?s(ec|econd)?\b",
+_NAMES: Mapping[bool, re.Pattern[str]] = {
+    False: re.compile(r"\bPGA\b|peak ground", re.IGNORECASE),
+    True: re.compile(r"\bSA1P0\b|\b1(\.0{1,4})?[ -]?s(ec|econd)?\b", re.IGNORECASE),
 }
 """By which a file of several curves names PGA and Sa(1 s)."""
 
@@ -75,8 +75,7 @@ def points_of(text: str, *, is_spectral: bool) -> list[tuple[float, float]]:
     rows = [row for row in csv.reader(text.splitlines()) if any(cell.strip() for cell in row)]
     if curves := list(_saved_curves(rows)):
         names = [name for name, _ in curves]
-        pattern = re.compile(_NAMES[is_spectral], re.IGNORECASE)
-        fits = [points for name, points in curves if pattern.search(name)]
+        fits = [points for name, points in curves if _NAMES[is_spectral].search(name)]
         if len(fits) != 1:
             wanted = "Sa(1 s)" if is_spectral else "PGA"
             raise InputError(f"has {len(fits)} curves of {wanted} ({'; '.join(names)}); keep one")

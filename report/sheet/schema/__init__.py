@@ -112,8 +112,7 @@ class Options(Frozen):
     """Up to 20 factors on the motions, above 0.0 up to 1.0, with commas: events that are added, for
     information."""
     study_years: Annotated[Text, Cell("Study of years", "years.json")] = ""
-    """years.json of a study, in the workbook's folder: its PRD of 700 years and its 25 years are
-    printed beside the design displacement, for information; the package attaches it."""
+    """years.json of a study, attached; its years are printed for information."""
     package_edition: Annotated[PackageEdition, Cell("Edition", "plan check")] = (
         PackageEdition.PLAN_CHECK
     )

@@ -86,7 +86,7 @@ def test_without_a_number_of_steps_there_is_no_bar(terminal, capsys):
     ("command", "steps"),
     [
         (["check", "{0}"], 3),
-        (["motion", "suite", "{1}", "--sds=1", "--zh=1", "--code=pv1", "--count=2"], 4),
+        (["motion", "suite", "{1}", "--sds=1", "--zh=1", "--code=pv1", "--count=2"], 3),
     ],
 )
 @pytest.mark.nightly

@@ -86,7 +86,6 @@ def test_a_pasted_column_may_be_shown_with_its_units(paste):
     by_day([
         (pasted([0.1, "abc", 0.2]), ["Pasted!B5 is 'abc'; give a number"]),
         (pasted([0.1, "nan", 0.2]), ["Pasted!B5 is 'nan'; give a number"]),
-        (pasted([0.1, "0,2", 0.2]), ["Pasted!B5 is '0,2'; write 0.2"]),
         (pasted([0.1, "#N/A", 0.2]),
          ["Pasted!B5 is #N/A; correct the formula, or type a value"]),
         (pasted([0.1, None, 0.2]), [f"Pasted!B5 {BLANK}"]),

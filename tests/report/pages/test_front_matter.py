@@ -69,6 +69,7 @@ def test_the_letter_is_one_page(n_arrays):
     _, *parts = re.split(r'(?=<section class="[^"]*\bstarts\b)', html)
     (at,) = (k for k, part in enumerate(parts) if '<h1 id="letter">' in part)
     near = re.sub(r' href="#[^"]*"', "", head + parts[at])  # and the parts that follow it
+    near, *_ = near.partition("</body>")
     pdf = lay_out(f"{near}</body></html>")
     texts = [page.extract_text() for page in PdfReader(io.BytesIO(pdf)).pages]
     assert "Letter of results" in texts[0]

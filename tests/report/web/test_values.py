@@ -97,7 +97,7 @@ def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     project, values, tmp_path
 ):
     again = written(project, values, tmp_path)
-    whole = answer(assess(again.sheet, again.shaking), is_provisional=False)
+    whole = answer(assess(again.sheet, again.shaking), is_provisional=False, room_px=780)
     found = at_rest(project, **values)
     assert json.dumps(found) == json.dumps({**whole, "shown": shown(again)})
     # The values do change what is shown.
