@@ -37,7 +37,8 @@ def measured(name: str, *options: str) -> list[Row]:
     child = subprocess.Popen(
         [sys.executable, str(HERE / f"{name}.py"), *options],
         cwd=ROOT,
-        env=os.environ | {"PYTHONPATH": path},
+        # Threads of BLAS that wait for each other would count as processor time.
+        env=os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"},
         stdout=subprocess.PIPE,
         text=True,
     )
