@@ -154,7 +154,9 @@ class _Reader:
         """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
         self.entities += 1
         _check_expanded(self.entities)
-        kind, layer = entity.dxftype(), _printable(entity.dxf.get("layer", "0"))
+        # What damage makes of an entity has no layer.
+        on = entity.dxf.get("layer", "0") if entity.dxf.is_supported("layer") else "0"
+        kind, layer = entity.dxftype(), _printable(on)
         handle = str(entity.dxf.get("handle") or block.handle)
         if kind != "INSERT":
             self.drawing.counts[layer, kind] += 1
@@ -239,9 +241,11 @@ class _Reader:
         for line, kind, found in self.areas.values():
             rings, has_holes = outlines(found, gap)
             for points in rings:
-                (area,) = polygons([points])
+                area = shapely.union_all(polygons([points]))
                 near = [(solids[k], layers[k]) for k in tree.query(area, predicate="intersects")]
-                if is_fill(area, line.layer.casefold(), near, gap):
+                if area.is_empty:
+                    self._leave(line.handle, line.layer, f"a {kind} without an area")
+                elif is_fill(area, line.layer.casefold(), near, gap):
                     self._leave(line.handle, line.layer, f"a {kind} over a closed line")
                 elif reason := self._close(replace(line, points=tuple(points)), kind):
                     self._leave(line.handle, line.layer, reason)
