@@ -85,13 +85,15 @@ def in_the_browser() -> None:
 
 ARMED = """
 () => {
-  window.drawn = new Promise((done) => {
+  window.drawn = new Promise((done, fail) => {
     let start = null;
+    const limit = setTimeout(() => fail(new Error("no answer to the pointer is drawn")), 30_000);
     addEventListener("input", () => { start = performance.now(); }, { once: true, capture: true });
     const observer = new MutationObserver(() => {
       const isNew = ["provisional", "final"].includes(document.body.dataset.values);
       if (start === null || !isNew) return;
       observer.disconnect();
+      clearTimeout(limit);
       requestAnimationFrame(() => done(performance.now() - start));
     });
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-values"] });
@@ -101,10 +103,13 @@ ARMED = """
 
 
 def by_pointer(page: Page) -> None:
-    """Drag the friction of the example under a pointer that stays down, a step at a time."""
-    box = page.locator("#slider-friction").bounding_box()
+    """Drag the friction of the example under a pointer that stays down, a step or two at a time."""
+    slider = page.locator("#slider-friction")
+    box = slider.bounding_box()
     assert box is not None
-    at = [box["x"] + box["width"] * (0.8 - 0.4 * k / MOVES) for k in range(1 + MOVES)]
+    share = slider.evaluate("({ min, max, step }) => step / (max - min)")
+    # Less than a whole step may be none.
+    at = [box["x"] + box["width"] * (0.9 - 1.5 * share * k) for k in range(1 + MOVES)]
     page.mouse.move(at[0], box["y"] + box["height"] / 2)
     page.mouse.down()
     times = []
