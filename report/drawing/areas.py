@@ -10,6 +10,8 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+import numpy as np
+
 from report.drawing.curves import MAX_COORDINATE, MAX_POINTS, curve, is_parallel
 from report.drawing.joined import join
 from report.sheet.schema.shapes import Point
@@ -24,10 +26,6 @@ _EDGES = {
     "EllipseEdge": ("ELLIPSE", ("center", "major_axis", "ratio", "start_param", "end_param")),
     "SplineEdge": ("SPLINE", ("degree",)),
 }
-
-
-_LEAST_M2 = 1e-9
-"""Of an area: what is flatter is none, and overflows where it is made wider."""
 
 
 def is_mesh(entity: Any) -> bool:
@@ -110,7 +108,7 @@ def polygons(rings: Iterable[Sequence[Point]]) -> list[Any]:
     import shapely
 
     made = (shapely.make_valid(shapely.Polygon(ring)) for ring in rings if len(ring) > 2)
-    return [area for area in made if area.area > _LEAST_M2]
+    return [area for area in made if area.area > 0.0]
 
 
 def outlines(areas: Sequence[Any], tolerance: float) -> tuple[list[list[Point]], bool]:
@@ -118,12 +116,11 @@ def outlines(areas: Sequence[Any], tolerance: float) -> tuple[list[list[Point]],
     import shapely
 
     half = 0.5 * tolerance
-    grown = shapely.union_all([area.buffer(half, join_style="mitre") for area in areas])
-    parts = [
-        part
-        for part in shapely.get_parts(grown.buffer(-half, join_style="mitre"))
-        if part.geom_type == "Polygon" and not part.is_empty
-    ]
+    # The library finds the corner of a spike by dividing by its width, and then does without it.
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        grown = shapely.union_all([area.buffer(half, join_style="mitre") for area in areas])
+        shrunk = shapely.get_parts(grown.buffer(-half, join_style="mitre"))
+    parts = [part for part in shrunk if part.geom_type == "Polygon" and not part.is_empty]
     rings = [[(float(x), float(y)) for x, y in part.exterior.coords[:-1]] for part in parts]
     return rings, any(part.interiors for part in parts)
 
@@ -133,7 +130,6 @@ def is_fill(area: Any, layer: str, lines: Sequence[tuple[Any, str]], tolerance: 
 
     It is equal to one of any layer, or has an area in common with one of its own.
     """
-    import numpy as np
 
     for other, name in lines:
         is_near = np.allclose(other.bounds, area.bounds, rtol=0.0, atol=tolerance)

@@ -78,6 +78,11 @@ def limit(count: int, most: int, what: str) -> None:
         )
 
 
+def damaged() -> InputError:
+    """Return the error of a drawing that cannot be read."""
+    return InputError("not a DXF drawing, or damaged; open it in CAD and save it again")
+
+
 def loaded(path: Path) -> tuple[Document, str]:
     """Return a drawing, and what to say of its repair if strict reading refuses it.
 
@@ -94,16 +99,15 @@ def loaded(path: Path) -> tuple[Document, str]:
     try:
         return ezdxf.filemanagement.readfile(str(path)), ""
     except Exception as refused:  # a damaged drawing makes the library raise almost anything
-        damaged = InputError("not a DXF drawing, or damaged; open it in CAD and save it again")
         # What is missing at the end of a drawing that was cut off, no repair would tell.
         if not _ENDED.search(path.read_bytes()):
-            raise damaged from refused
+            raise damaged() from refused
     try:
         document, audit = recover.readfile(str(path))
     except Exception as error:
-        raise damaged from error
+        raise damaged() from error
     if audit.has_errors:  # such as a coordinate that it has guessed
-        raise damaged
+        raise damaged()
     count = len(audit.fixes)
     fixes = f", {count} faults repaired" if count > 1 else ", a fault repaired" if count else ""
     return document, f"a damaged drawing, read as far as it can be{fixes}: compare the plan"

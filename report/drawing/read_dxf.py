@@ -19,7 +19,7 @@ from report.drawing.curves import CURVES, MAX_POINTS, curve
 from report.drawing.drawn import Drawn, RoofDrawing, Unread, Words
 from report.drawing.dxf import APPLICATION
 from report.drawing.joined import join
-from report.drawing.load_dxf import MAX_ENTITIES, UNITS, limit, loaded, other_unit
+from report.drawing.load_dxf import MAX_ENTITIES, UNITS, damaged, limit, loaded, other_unit
 from report.sheet.schema.shapes import Point, ring
 from report.words.letters import UNPRINTABLE, trimmed
 from solver.model import InputError
@@ -53,9 +53,18 @@ def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     InputError
         If it is no DXF, damaged, too large, or its blocks expand to too much.
     """
+    document, repairs = loaded(path)
+    try:
+        return _read(document, repairs, unit_m)
+    except InputError:
+        raise
+    except Exception as error:  # a damaged drawing makes the library raise almost anything
+        raise damaged() from error
+
+
+def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing:
     from report.words.units import LENGTHS
 
-    document, repairs = loaded(path)
     code = document.header.get("$INSUNITS", 0)
     unit = UNITS.get(code, "")
     geodata = document.modelspace().get_geodata()
@@ -87,7 +96,7 @@ def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str])
     for name in document.layouts.names_in_taborder():
         before = len(drawing.lines)
         try:
-            if name != "Model" and name in document.layouts:  # damage may leave a name alone
+            if name != "Model":
                 reader.take_all(document.paperspace(name))
         except InputError:
             return
@@ -154,9 +163,7 @@ class _Reader:
         """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
         self.entities += 1
         _check_expanded(self.entities)
-        # What damage makes of an entity has no layer.
-        on = entity.dxf.get("layer", "0") if entity.dxf.is_supported("layer") else "0"
-        kind, layer = entity.dxftype(), _printable(on)
+        kind, layer = entity.dxftype(), _printable(entity.dxf.get("layer", "0"))
         handle = str(entity.dxf.get("handle") or block.handle)
         if kind != "INSERT":
             self.drawing.counts[layer, kind] += 1
@@ -240,12 +247,12 @@ class _Reader:
         tree, gap = shapely.STRtree(solids), JOIN_M / self.unit_m
         for line, kind, found in self.areas.values():
             rings, has_holes = outlines(found, gap)
+            if not rings:
+                self._leave(line.handle, line.layer, f"a {kind} without an area")
             for points in rings:
                 area = shapely.union_all(polygons([points]))
                 near = [(solids[k], layers[k]) for k in tree.query(area, predicate="intersects")]
-                if area.is_empty:
-                    self._leave(line.handle, line.layer, f"a {kind} without an area")
-                elif is_fill(area, line.layer.casefold(), near, gap):
+                if is_fill(area, line.layer.casefold(), near, gap):
                     self._leave(line.handle, line.layer, f"a {kind} over a closed line")
                 elif reason := self._close(replace(line, points=tuple(points)), kind):
                     self._leave(line.handle, line.layer, reason)

@@ -92,7 +92,8 @@ def test_a_damaged_drawing_is_read_or_refused(tmp_path, count):
             found = read_dxf(path)
         except InputError:
             continue
-        assert found.lines or found.unread or found.repairs, seed
+        # One that ends before its first entity shows nothing, which `plan read` refuses.
+        assert found.lines or found.unread or found.repairs or not found.counts, seed
 
 
 @CASES
