@@ -101,13 +101,7 @@ def read(
             known_now = known_layers({**named, **layers})
             unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known_now]
             layers |= dict.fromkeys(unknown, LayerKind.NOT_READ)
-        if not (found.roof or found.arrays or found.objects):
-            if drawn.layouts and not drawn.lines:
-                names = ", ".join(drawn.layouts)
-                text = f"its closed lines are in the layout {names}, not in model space"
-                raise InputError(f"{text}; move them there in CAD")
-            unread = list(_unread(found)) or ["the drawing has no closed lines"]
-            raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread])
+        _check_found(found, drawn)
         with input_errors(drawing):
             check_size(found, unit_m, is_us)
             told = matched(found, draft)
@@ -216,6 +210,21 @@ def _turned(drawn: RoofDrawing, rotate: float) -> tuple[RoofDrawing, list[str]]:
     elif degrees:
         lines += ["the drawing states no north: check its direction on the sheet Building"]
     return drawn, lines
+
+
+def _check_found(found: RoofPlan, drawn: RoofDrawing) -> None:
+    """Refuse a drawing from which nothing is filled in."""
+    from solver.model import InputError
+
+    if found.roof or found.arrays or found.objects:
+        return
+    if not drawn.lines:
+        if names := ", ".join(drawn.layouts):
+            text = f"its closed lines are in the layout {names}, not in model space"
+            raise InputError(f"{text}; move them there in CAD")
+        text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
+        raise InputError([text, *_unread(found)])
+    raise InputError(["nothing to fill in: give the layers on the sheet Layers", *_unread(found)])
 
 
 def _line(place: DrawnOutline, gap_m: float, is_us: bool) -> str:

@@ -85,7 +85,7 @@ def _curves(path: Any) -> Iterator[Any]:
 
 
 def faces(entity: Any) -> list[Any] | str:
-    """Return the faces of a 3DFACE or a mesh as polygons, without upright ones; or why none."""
+    """Return the faces of a 3DFACE or a mesh as polygons, without vertical ones; or why none."""
     from ezdxf.render.mesh import MeshBuilder
 
     kind = entity.dxftype()

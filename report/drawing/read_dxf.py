@@ -223,7 +223,7 @@ class _Reader:
         )
         if isinstance(found, str):
             return found
-        if not found and kind != "3DFACE":  # an upright one is a side of the others
+        if not found and kind != "3DFACE":  # a vertical one is a side of the others
             return f"a {kind} without an area"
         self.points += sum(len(shapely.get_coordinates(area)) for area in found)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")

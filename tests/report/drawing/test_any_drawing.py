@@ -69,7 +69,7 @@ def test_whatever_is_drawn_is_an_outline_or_named(tmp_path, draw, count):
     def holds(points, extrusion, seed):
         sketch = Sketch()
         draw(sketch, points, extrusion, seed)
-        # An upright face is a side of others.
+        # A vertical face is a side of others.
         assert is_accounted_for(sketch.saved(tmp_path)) or draw is face
 
     holds()
