@@ -18,7 +18,7 @@ _BEFORE = re.compile(
     r" ?(?:H|HT|HIGH|TALL)\b(?![.:= ]*\d)",
     re.IGNORECASE,
 )
-_OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12} ?[WLD]? ?[x×] ?){1,3}$", re.IGNORECASE)
+_OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
 _VALUE = re.compile(
     rf"(?:(?P<feet>{_NUMBER}) ?(?:'|ft|feet)[ -]{{0,3}})?"
     rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>\d{{1,2}}/[1-9]\d?))?"

@@ -92,7 +92,7 @@ def inputs(draw):
     return project(**changes, objects=[])
 
 
-@pytest.mark.parametrize("examples", [3, pytest.param(30, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("examples", [1, pytest.param(30, marks=pytest.mark.nightly)])
 def test_every_valid_project_is_recovered_from_the_workbook(tmp_path, examples):
     path = make(tmp_path)
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from inputs import HEAD
+from nightly import by_day
 from places import ROOT
 from report.sheet.reading.read import read
 from report.sheet.schema.choices import ClearanceSource
@@ -264,7 +265,9 @@ def test_every_error_of_a_workbook_is_shown_at_once_with_its_row(client, tmp_pat
     assert len([item for item in state["problems"] if item["sheet"] == "Motions"]) >= 7
 
 
-@pytest.mark.parametrize("name", ["assess", "slide", "contour", "paths", "workbook", "package"])
+@pytest.mark.parametrize(
+    "name", by_day(["assess", "slide", "contour", "paths", "workbook", "package"], 2)
+)
 def test_a_page_that_shows_another_project_than_is_open_is_told(client, name):
     shown = sent(client, folder_of(EXAMPLE)).json()["opened"]
     body = {"values": {}, "array": "A1", "motion": "RM1"}
@@ -395,6 +398,7 @@ def test_clearances_that_a_plan_lacks_are_added_to_a_copy_that_is_open_then(clie
     assert stale.status_code == 412
 
 
+@pytest.mark.nightly
 def test_the_verdict_at_other_values_is_that_of_their_answer(client):
     values = {"friction": 0.8}
     assert verdict_at(client, values) == {"text": "NG", "look": "ng"}

@@ -99,6 +99,7 @@ def test_what_a_newer_request_replaces_ends_before_its_turn(done):
     assert done(script) == ([StaleError], False, False)
 
 
+@pytest.mark.nightly
 def test_a_move_gets_the_reference_of_the_last_complete_answer_about_what_is_open(done):
     async def script(desk):
         desk.workbook = desk.folder / "input.xlsx"
@@ -120,6 +121,7 @@ def test_a_script_that_numbers_nothing_gets_every_answer(done):
     assert done(script) == ["1", "2"]
 
 
+@pytest.mark.nightly
 def test_a_move_ends_what_waits_at_the_values_before_and_not_what_is_asked_at_its_own(done):
     async def script(desk):
         first = await busy(desk)

@@ -18,6 +18,7 @@ from pypdf import PdfReader
 
 import cells
 from browsing import DESK, PHONE, TABLET, at_rest, moved, opened, processes_of, quiet_page, served
+from nightly import by_day
 from places import ROOT
 from report.sheet.reading.read import read
 from sheets import SECTIONS, make, type_into
@@ -175,7 +176,7 @@ PLACES = """() => [...document.querySelectorAll("main :is(button, input, select,
 
 
 @pytest.mark.parametrize(
-    "size", [{"width": 1440, "height": 900}, {"width": 1024, "height": 768}, PHONE]
+    "size", by_day([{"width": 1440, "height": 900}, {"width": 1024, "height": 768}, PHONE], 1)
 )
 def test_no_control_moves_with_the_verdict_and_the_plan_is_on_the_first_screen(page, size):
     page.set_viewport_size(size)
@@ -212,6 +213,7 @@ def test_the_plan_tells_what_is_under_the_pointer_and_selects_with_the_table(pag
     assert "A2" in page.inner_text("#bars caption")
 
 
+@pytest.mark.nightly
 def test_the_plan_zooms_about_the_pointer_and_shows_the_whole_roof_again(page):
     drawing, spot = page.locator("#plan-drawing > svg"), page.locator("[data-key=A3]")
     whole, (x, y, wide, _) = drawing.get_attribute("viewBox"), spot.bounding_box().values()
@@ -404,6 +406,7 @@ def test_an_address_is_good_once_and_the_page_gives_another_one(page, browser, a
             )
 
 
+@pytest.mark.nightly
 def test_the_page_works_with_the_keyboard_alone(page):
     def tabbed_to(selector):
         for _ in range(40):
@@ -504,6 +507,7 @@ def test_names_of_40_characters_are_cut_with_the_whole_as_a_tooltip(page, tmp_pa
         assert name.evaluate("(one) => one.scrollWidth > one.clientWidth"), size
 
 
+@pytest.mark.nightly
 def test_a_folder_that_is_dropped_is_read_with_its_paths(page):
     workbook = base64.b64encode((EXAMPLE / "input.xlsx").read_bytes()).decode()
     page.evaluate(

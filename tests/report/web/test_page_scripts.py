@@ -262,6 +262,7 @@ def test_a_slider_shows_the_value_that_is_computed_and_why_it_goes_no_further(pa
     assert called(page, "sliders", body, {"slider": SLIDER, "value": value}) == shown
 
 
+@pytest.mark.nightly
 def test_the_values_beside_that_of_the_workbook_can_be_chosen_with_the_mouse(page):
     called(page, "sliders", MOUNT, {"slider": SLIDER, "value": 0.7})
     box = page.locator("input").bounding_box()

@@ -402,6 +402,7 @@ def number_of(words):
     return float(words.split()[0].replace("−", "-"))
 
 
+@pytest.mark.nightly
 def test_histories_zoom_and_read_by_keys(page, run):
     mounted(page, "histories", run)
     assert span(page) == (0.0, 6.0)
@@ -443,6 +444,7 @@ def test_the_wheel_zooms_what_is_chosen_and_else_scrolls_the_page(page, run):
     assert is_whole(page)
 
 
+@pytest.mark.nightly
 def test_a_span_is_enlarged_by_dragging_over_it(page, run):
     mounted(page, "histories", run)
     box = page.locator(".stage").bounding_box()
@@ -523,6 +525,7 @@ def test_paths_are_at_one_scale_and_read_point_by_point(page, assessment):
 # --- all views
 
 
+@pytest.mark.nightly
 def test_in_print_a_run_is_named_and_no_control_is_left(page, run):
     for view in ("slide", "histories"):
         mounted(page, view, run)

@@ -41,6 +41,7 @@ def run_all(compiled):
     return np.array(numbers, dtype=float)
 
 
+@pytest.mark.nightly
 def test_compiled_and_plain_rivals_give_the_same_bits():
     np.testing.assert_array_equal(run_all(compiled=True), run_all(compiled=False))
 
